@@ -1,0 +1,3 @@
+//! Exact form factors.
+pub use glam;
+pub use glam::DVec3;

@@ -1,0 +1,4 @@
+//! Buffers
+/// stub
+#[derive(Debug, Default)]
+pub struct Scratch {}

@@ -1,0 +1,1 @@
+//! Corpora, generators and independent oracles shared by the test suites.
