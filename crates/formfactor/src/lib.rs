@@ -1,3 +1,24 @@
-//! Exact form factors.
+//! Exact form factors (view factors, configuration factors) from a point to a polygon, with occlusion.
 pub use glam;
 pub use glam::DVec3;
+
+mod differential_area;
+mod enclosure;
+mod error;
+mod exact;
+mod hierarchy;
+mod horizon;
+mod lambert;
+mod polygon;
+mod predicates;
+mod region;
+mod twofold;
+mod visible;
+
+pub use differential_area::DifferentialArea;
+pub use enclosure::Enclosure;
+pub use error::Error;
+pub use exact::{FormFactor, form_factor, unoccluded, unoccluded_complement};
+pub use hierarchy::by_hierarchy;
+pub use polygon::PlanarPolygon;
+pub use visible::{VisiblePart, visible_part};

@@ -1,0 +1,67 @@
+//! The differential area that receives: a point and a direction.
+use crate::Error;
+use crate::polygon::in_range;
+use crate::twofold::accurate_dot;
+use glam::DVec3;
+
+/// An infinitesimal one-sided area dA, from which polygons are seen.
+///
+/// It sees the half-space in front of its horizon, the plane through `position` across `normal`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DifferentialArea {
+    position: DVec3,
+    given_normal: DVec3,
+    normal: DVec3,
+    owner: Option<usize>,
+}
+
+impl DifferentialArea {
+    /// A differential area at `position` that looks along `normal`, a vector of any length.
+    ///
+    /// The horizon is decided with `normal` exactly as given; only the value of a form factor uses the unit vector.
+    ///
+    /// # Errors
+    /// [`Error::BadPoint`] and [`Error::BadNormal`] for NaN, infinity, a zero vector, or magnitudes out of range.
+    pub fn new(position: DVec3, normal: DVec3) -> Result<Self, Error> {
+        if !in_range(position) {
+            return Err(Error::BadPoint);
+        }
+        let largest = normal.abs().max_element();
+        if !in_range(normal) || largest < crate::polygon::SMALLEST {
+            return Err(Error::BadNormal);
+        }
+        let length = accurate_dot(normal, normal).sqrt();
+        Ok(Self { position, given_normal: normal, normal: normal / length, owner: None })
+    }
+
+    /// The same area, lying on polygon `polygon` of the enclosure it is used with: that polygon never blocks it, and it
+    /// sees nothing of it. Functions without an enclosure ignore the owner.
+    #[must_use]
+    pub fn owned_by(mut self, polygon: usize) -> Self {
+        self.owner = Some(polygon);
+        self
+    }
+
+    /// Where it lies.
+    #[must_use]
+    pub fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    /// Its unit normal.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
+    /// The enclosure's polygon it lies on, if one was named.
+    #[must_use]
+    pub fn owner(&self) -> Option<usize> {
+        self.owner
+    }
+
+    /// The normal exactly as given: what decides the horizon.
+    pub(crate) fn given_normal(&self) -> DVec3 {
+        self.given_normal
+    }
+}

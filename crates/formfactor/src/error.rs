@@ -1,0 +1,72 @@
+//! What can be wrong with input.
+use std::fmt;
+
+/// Why a differential area or a polygon was refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate of the point or of the normal is NaN, infinite, or beyond 2^200 in magnitude.
+    BadPoint,
+    /// The normal has no direction: it is zero, or its length is outside 2^-200 to 2^200.
+    BadNormal,
+    /// A polygon without loops.
+    NoLoops,
+    /// A loop with fewer than three vertices.
+    TooFewVertices {
+        /// Index of the loop, in the order given.
+        loop_index: usize,
+        /// Number of vertices it has.
+        count: usize,
+    },
+    /// A coordinate is NaN, infinite, or beyond 2^200 in magnitude.
+    BadVertex {
+        /// Index of the loop, in the order given.
+        loop_index: usize,
+        /// Index of the vertex within that loop.
+        vertex: usize,
+    },
+    /// The first loop encloses no area, or is smaller than 2^-200: the polygon has no front.
+    ZeroArea,
+    /// A vertex lies off the polygon's plane by more than its coordinates' rounding explains.
+    NotPlanar {
+        /// Index of the loop, in the order given.
+        loop_index: usize,
+        /// Index of the vertex within that loop.
+        vertex: usize,
+        /// Distance from the plane, in the coordinates' units.
+        distance: f64,
+        /// The largest distance that is accepted.
+        allowed: f64,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Error::BadPoint => write!(
+                f,
+                "the point has a coordinate that is NaN, infinite or beyond 2^200; give finite numbers"
+            ),
+            Error::BadNormal => {
+                write!(f, "the normal has no direction; give a finite vector that is not zero")
+            }
+            Error::NoLoops => write!(f, "the polygon has no loops; give at least its outer loop"),
+            Error::TooFewVertices { loop_index, count } => {
+                write!(f, "loop {loop_index} has {count} vertices; a loop needs at least three")
+            }
+            Error::BadVertex { loop_index, vertex } => write!(
+                f,
+                "loop {loop_index}, vertex {vertex}: a coordinate is NaN, infinite or beyond 2^200; give finite numbers"
+            ),
+            Error::ZeroArea => {
+                write!(f, "the first loop encloses no area, so that the polygon has no front; drop it")
+            }
+            Error::NotPlanar { loop_index, vertex, distance, allowed } => write!(
+                f,
+                "loop {loop_index}, vertex {vertex}: {distance:e} off the polygon's plane where {allowed:e} is allowed; split the polygon into triangles"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,88 @@
+//! Clipping to dA's horizon, and clipping in general.
+use crate::DifferentialArea;
+use crate::lambert::Sight;
+use crate::polygon::{PlanarPolygon, ROUNDING};
+use crate::predicates::{Height, over_horizon};
+use crate::twofold::{Offset, Twofold};
+use std::cmp::Ordering;
+
+/// A vertex as seen from dA: on its edge within 2^-98 of the edge's ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Vertex {
+    pub(crate) offset: Offset,
+    /// Index among the polygon's points of the vertex that it is, `None` for a clip point.
+    pub(crate) given: Option<usize>,
+}
+
+/// Loops of vertices as seen from dA.
+pub(crate) type Loops = Vec<Vec<Vertex>>;
+
+/// The loops of a polygon as seen from dA, unclipped.
+pub(crate) fn seen(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
+    let mut index = 0..polygon.points().len();
+    let mut vertex =
+        |p: &glam::DVec3| Vertex { offset: Offset::between(from.position(), *p), given: index.next() };
+    polygon.loops().map(|l| l.iter().map(&mut vertex).collect()).collect()
+}
+
+/// The part of `polygon` that is not below dA's horizon, and whether anything was cut off.
+pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops, bool) {
+    let normal = from.given_normal();
+    let heights: Vec<Height> =
+        polygon.points().iter().map(|p| over_horizon(normal, from.position(), *p)).collect();
+    let loops = seen(from, polygon);
+    if heights.iter().all(|h| h.sign != Ordering::Less) {
+        return (loops, false);
+    }
+    if heights.iter().all(|h| h.sign != Ordering::Greater) {
+        return (Vec::new(), true);
+    }
+    // Every vertex is a given one here.
+    (clip(&loops, |v| v.given.map_or(Twofold::ZERO, |i| heights[i].value)), true)
+}
+
+/// The part of loops where `height`, linear along edges, is not negative (Sutherland and Hodgman).
+///
+/// A cut edge's new end is a function of its inner and its outer vertex, so that it does not depend on the direction of
+/// the edge: edges that were shared stay shared. Loops that are not convex keep pieces along the cut that run there and
+/// back, which an even-odd rule and a contour sum do not see.
+pub(crate) fn clip(loops: &Loops, height: impl Fn(&Vertex) -> Twofold) -> Loops {
+    let kept = loops.iter().map(|l| clip_loop(l, &height));
+    kept.filter(|l| l.len() > 2).collect()
+}
+
+fn clip_loop(vertices: &[Vertex], height: impl Fn(&Vertex) -> Twofold) -> Vec<Vertex> {
+    let mut kept = Vec::with_capacity(vertices.len() + 2);
+    let Some(last) = vertices.last() else { return kept };
+    let (mut before, mut below) = (*last, height(last));
+    for vertex in vertices {
+        let here = height(vertex);
+        if (below.hi > 0.0 && here.hi < 0.0) || (below.hi < 0.0 && here.hi > 0.0) {
+            kept.push(cut(before, below, *vertex, here));
+        }
+        if here.hi >= 0.0 {
+            kept.push(*vertex);
+        }
+        (before, below) = (*vertex, here);
+    }
+    kept
+}
+
+/// The point of an edge where its height is zero.
+fn cut(a: Vertex, height_a: Twofold, b: Vertex, height_b: Twofold) -> Vertex {
+    let (inner, outer, height, depth) =
+        if height_a.hi > 0.0 { (a, b, height_a, height_b) } else { (b, a, height_b, height_a) };
+    let share = height / (height - depth);
+    Vertex { offset: inner.offset.toward(outer.offset, share), given: None }
+}
+
+/// The direction to a vertex, rounded to doubles. `deviation` is how far it may lie from where it stands.
+pub(crate) fn sight(vertex: &Vertex, deviation: f64) -> Sight {
+    let toward = vertex.offset.round();
+    let [x, y, z] = vertex.offset.0;
+    let rest = [(x, toward.x), (y, toward.y), (z, toward.z)]
+        .map(|(exact, rounded)| (exact.hi - rounded + exact.lo).abs());
+    let lost: f64 = rest.iter().sum();
+    let blur = (lost + deviation) / toward.length() * (1.0 + 8.0 * ROUNDING);
+    Sight { toward, blur: if vertex.given.is_none() { blur + ROUNDING * ROUNDING * 1024.0 } else { blur } }
+}

@@ -1,0 +1,105 @@
+//! Lambert's contour sum with a bound on its error.
+//!
+//! F = 1/(2 pi) sum of beta_k N . (R_{k+1} x R_k) / |R_{k+1} x R_k| over the directed edges of the visible boundary,
+//! beta = atan2(|R_k x R_{k+1}|, R_k . R_{k+1}). [Barreto 2008, (2.4); the order of the cross product makes the sum
+//! positive for loops that are counter-clockwise seen from the target's front.]
+//!
+//! **The bound.** Two things are wrong with a term. *Arithmetic*: cross and dot products are compensated, each within two
+//! roundings, so that the term errs by at most 24 roundings of beta, and by what cancellation leaves of the compensation.
+//! *Blur*: the direction to a vertex is off by at most some angle. Moving the ends of an arc of angle beta by e0 and e1
+//! sweeps two spherical triangles, each of area at most 2 asin(tan(e/2) tan(beta/2)); as cos <= 1, the form factor
+//! changes by at most the swept area over pi. Sets differ by no more than what their boundaries swept, whatever their
+//! holes and crossings, and a union by no more than the sum over its members.
+use crate::FormFactor;
+use crate::polygon::ROUNDING;
+use crate::twofold::{Twofold, accurate_cross, accurate_dot};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// The direction to a vertex of a contour, and a bound on its angle to the true one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sight {
+    pub(crate) toward: DVec3,
+    pub(crate) blur: f64,
+}
+
+/// Lambert's sum over directed edges, in any order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContourSum {
+    normal: DVec3,
+    sum: Twofold,
+    error: f64,
+}
+
+impl ContourSum {
+    pub(crate) fn new(normal: DVec3) -> Self {
+        Self { normal, sum: Twofold::ZERO, error: 0.0 }
+    }
+
+    /// Adds the edge from `a` to `b`, the region to its left seen from the target's front.
+    pub(crate) fn add(&mut self, a: Sight, b: Sight) {
+        let arc = Arc::between(a, b);
+        self.error += arc.swept(a.blur + b.blur);
+        if arc.sine > 0.0 {
+            let cosine = accurate_dot(self.normal, arc.cross) / arc.sine;
+            self.sum = self.sum - Twofold::from(arc.angle() * cosine / TAU);
+            self.error += arc.angle() / TAU * (24.0 * ROUNDING + arc.cancelled());
+        }
+    }
+
+    /// The whole of a closed loop.
+    pub(crate) fn add_loop(&mut self, sights: &[Sight]) {
+        let Some(last) = sights.last() else { return };
+        sights.iter().fold(*last, |a, b| {
+            self.add(a, *b);
+            *b
+        });
+    }
+
+    /// The form factor, `error` more having come about elsewhere.
+    pub(crate) fn form_factor(&self, error: f64) -> FormFactor {
+        let value = self.sum.round().clamp(0.0, 1.0);
+        FormFactor { value, error_bound: (self.error + error + ROUNDING * value).min(1.0) }
+    }
+}
+
+/// A great-circle arc between two directions of any length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arc {
+    cross: DVec3,
+    sine: f64,
+    cosine: f64,
+    lengths: f64,
+}
+
+impl Arc {
+    pub(crate) fn between(a: Sight, b: Sight) -> Self {
+        let cross = accurate_cross(a.toward, b.toward);
+        let cosine = accurate_dot(a.toward, b.toward);
+        Self { cross, sine: cross.length(), cosine, lengths: a.toward.length() * b.toward.length() }
+    }
+
+    pub(crate) fn angle(&self) -> f64 {
+        self.sine.atan2(self.cosine)
+    }
+
+    /// The relative error of `cross` where its terms cancel beyond the compensation.
+    fn cancelled(&self) -> f64 {
+        const COMPENSATED: f64 = ROUNDING * ROUNDING * 64.0;
+        COMPENSATED * self.lengths / self.sine
+    }
+
+    /// A bound on the change of a form factor when the ends move by angles whose sum is `blur`; 1 when they may move
+    /// too far for the bound to hold.
+    ///
+    /// Up to s = blur (tan(beta/2) + blur) = 1/4 the two triangles have less than 3/2 s of area.
+    pub(crate) fn swept(&self, blur: f64) -> f64 {
+        if blur == 0.0 {
+            return 0.0;
+        }
+        let half_tangent = self.sine / (self.lengths + self.cosine).max(0.0);
+        let swept = blur * (half_tangent + blur);
+        // Written so that NaN, an edge through dA, is not small.
+        if swept <= 0.25 { 1.5 / PI * swept } else { 1.0 }
+    }
+}

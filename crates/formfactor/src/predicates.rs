@@ -1,0 +1,153 @@
+//! The only place that decides a sign in space: filter in twofold arithmetic, then big integers. Enums out, no tolerance.
+//!
+//! Every decision is one polynomial: the height (b - a) x (c - a) . (x - y), degree 3 in the input's doubles. The filter
+//! errs by less than 2^-96 of the sum of the terms' magnitudes (see [`crate::twofold::size`] for why underflow is within
+//! that too); what it leaves open goes to integers, where nothing is rounded.
+use crate::twofold::{Offset, Twofold, sizes};
+use dashu_int::{IBig, Sign};
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// Relative error of the filter: 2^-96.
+const FILTER: f64 = 1.262_177_448_353_619e-29;
+
+/// A height with its sign decided exactly; `value` is within the filter's error, and zero when the sign is `Equal`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Height {
+    pub(crate) value: Twofold,
+    pub(crate) sign: Ordering,
+}
+
+/// The plane through three points, and its normal (b - a) x (c - a) in twofold arithmetic.
+#[derive(Clone, Debug)]
+pub(crate) struct Plane {
+    pub(crate) corners: [DVec3; 3],
+    pub(crate) normal: Offset,
+    /// Sums of magnitudes of the terms of each component of the normal.
+    terms: DVec3,
+}
+
+impl Plane {
+    /// `None` when the three points lie on a line.
+    pub(crate) fn through(corners: [DVec3; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let (normal, terms) = Offset::between(a, b).cross(Offset::between(a, c));
+        let certain = |i: usize| normal.0[i].hi.abs() > FILTER * terms[i];
+        let spanned = (0..3).any(certain) || exact_cross(corners).iter().any(|c| *c != IBig::ZERO);
+        spanned.then_some(Self { corners, normal, terms })
+    }
+
+    /// The normal dotted with `to - from`: positive when the way from `from` to `to` leads to the normal's side.
+    pub(crate) fn height(&self, from: DVec3, to: DVec3) -> Height {
+        let offset = Offset::between(from, to);
+        let value = self.normal.dot(offset);
+        let terms = self.terms.dot(offset.sizes());
+        decide(value, terms, || exact_height(&self.corners, from, to))
+    }
+
+    /// On which side of the plane `point` lies: `Greater` on the side of the normal.
+    pub(crate) fn side(&self, point: DVec3) -> Height {
+        if self.corners.contains(&point) {
+            return Height { value: Twofold::ZERO, sign: Ordering::Equal };
+        }
+        self.height(self.corners[0], point)
+    }
+}
+
+/// The height of `point` over the horizon through `position` across `normal`, a vector taken exactly as given.
+pub(crate) fn over_horizon(normal: DVec3, position: DVec3, point: DVec3) -> Height {
+    let offset = Offset::between(position, point);
+    let value = Offset(normal.to_array().map(Twofold::from)).dot(offset);
+    let terms = sizes(normal).dot(offset.sizes());
+    decide(value, terms, || exact_dot(normal, position, point))
+}
+
+/// Whether `d` is left of, on, or right of the plane through `origin`, `a`, `b`: the sign of (a - o) x (b - o) . (d - o).
+pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
+    let (normal, terms) = Offset::between(origin, a).cross(Offset::between(origin, b));
+    let offset = Offset::between(origin, d);
+    let terms = terms.dot(offset.sizes());
+    decide(normal.dot(offset), terms, || exact_height(&[origin, a, b], origin, d)).sign
+}
+
+fn decide(value: Twofold, terms: f64, exact: impl FnOnce() -> Ordering) -> Height {
+    if terms == 0.0 {
+        return Height { value: Twofold::ZERO, sign: Ordering::Equal };
+    }
+    if value.hi.abs() > FILTER * terms {
+        return Height { value, sign: value.hi.total_cmp(&0.0) };
+    }
+    let sign = exact();
+    let certain = value.hi.partial_cmp(&0.0) == Some(sign);
+    // Where only the integers know the sign, any value of that sign within the filter's error serves.
+    let least = Twofold::from(match sign {
+        Ordering::Less => -FILTER * terms,
+        Ordering::Equal => 0.0,
+        Ordering::Greater => FILTER * terms,
+    });
+    Height { value: if certain { value } else { least }, sign }
+}
+
+/// (b - a) x (c - a) . (to - from), on integers.
+fn exact_height([a, b, c]: &[DVec3; 3], from: DVec3, to: DVec3) -> Ordering {
+    let [a, b, c, from, to] = integers([*a, *b, *c, from, to]);
+    let normal = cross(&minus(&b, &a), &minus(&c, &a));
+    order(&dot(&normal, &minus(&to, &from)))
+}
+
+fn exact_dot(normal: DVec3, position: DVec3, point: DVec3) -> Ordering {
+    let [normal] = integers([normal]);
+    let [position, point] = integers([position, point]);
+    order(&dot(&normal, &minus(&point, &position)))
+}
+
+fn exact_cross(corners: [DVec3; 3]) -> [IBig; 3] {
+    let [a, b, c] = integers(corners);
+    cross(&minus(&b, &a), &minus(&c, &a))
+}
+
+/// The points scaled by one power of two that makes every coordinate an integer.
+fn integers<const N: usize>(points: [DVec3; N]) -> [[IBig; 3]; N] {
+    let exponents = points.iter().flat_map(|p| p.to_array()).filter(|x| *x != 0.0).map(|x| significand(x).1);
+    let least = exponents.min().unwrap_or(0);
+    points.map(|p| {
+        p.to_array().map(|x| {
+            let (significand, exponent) = significand(x);
+            if significand == 0 {
+                IBig::ZERO
+            } else {
+                IBig::from(significand) << usize::from(exponent.abs_diff(least))
+            }
+        })
+    })
+}
+
+/// `x` as an integer times a power of two.
+fn significand(x: f64) -> (i64, i16) {
+    let bits = x.to_bits();
+    let fraction = (bits & ((1 << 52) - 1)).cast_signed();
+    let biased = i16::try_from((bits >> 52) & 0x7ff).expect("eleven bits fit");
+    let (magnitude, exponent) =
+        if biased == 0 { (fraction, -1074) } else { (fraction | (1 << 52), biased - 1075) };
+    (if x < 0.0 { -magnitude } else { magnitude }, exponent)
+}
+
+fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+    [0, 1, 2].map(|i| &a[i] - &b[i])
+}
+
+fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(j, k)| &a[j] * &b[k] - &a[k] * &b[j])
+}
+
+fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn order(value: &IBig) -> Ordering {
+    match (value == &IBig::ZERO, value.sign()) {
+        (true, _) => Ordering::Equal,
+        (false, Sign::Negative) => Ordering::Less,
+        (false, Sign::Positive) => Ordering::Greater,
+    }
+}
