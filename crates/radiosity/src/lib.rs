@@ -1,1 +1,19 @@
-//! Scenes in, light out.
+//! Scenes in, light out: progressive radiosity whose form factors are exact.
+//!
+//! A [`Scene`] is a list of one-sided planar [`Patch`]es, each with a reflectance and an emission per band.
+//! [`solve()`] cuts the patches into triangular elements ([`Mesh`]) and shoots light until almost none is left
+//! unshot; the [`Solution`] holds the radiosity of every element, an energy ledger and a bound on the
+//! algebraic error.
+pub use formfactor;
+pub use glam;
+
+mod error;
+mod interpolate;
+mod mesh;
+mod scene;
+mod solve;
+
+pub use error::Error;
+pub use mesh::{Element, Mesh};
+pub use scene::{Camera, Origin, Patch, Scene};
+pub use solve::{Ledger, Options, Progress, Solution, solve};

@@ -1,0 +1,71 @@
+//! What can go wrong between a scene and its light.
+use thiserror::Error;
+
+/// Why a scene was not solved.
+#[derive(Clone, Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is nothing to solve.
+    #[error("the scene has no patches; give it at least one polygon")]
+    NoPatches,
+    /// A patch's reflectance is not in [0, 1).
+    #[error(
+        "patch {patch}: reflectance {value} in band {band} is not in [0, 1); a surface cannot reflect all light"
+    )]
+    Reflectance {
+        /// The patch's name.
+        patch: String,
+        /// The band.
+        band: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// A patch's emission is negative or not finite.
+    #[error(
+        "patch {patch}: emission {value} in band {band} is negative or not finite; give a radiance of 0 or more"
+    )]
+    Emission {
+        /// The patch's name.
+        patch: String,
+        /// The band.
+        band: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// A patch's reflectance or emission has another number of bands than the scene.
+    #[error(
+        "patch {patch}: {found} bands where the scene has {expected}; give every patch the scene's bands"
+    )]
+    Bands {
+        /// The patch's name.
+        patch: String,
+        /// How many bands the patch has.
+        found: usize,
+        /// How many the scene has.
+        expected: usize,
+    },
+    /// A patch could not be cut into triangles.
+    #[error("patch {patch}: no triangles: {reason}; simplify or remove the polygon")]
+    Mesh {
+        /// The patch's name.
+        patch: String,
+        /// What stood in the way.
+        reason: String,
+    },
+    /// A patch's piece or element is refused by the form factors.
+    #[error("patch {patch}: {source}")]
+    Shape {
+        /// The patch's name.
+        patch: String,
+        /// What the form factors say.
+        source: formfactor::Error,
+    },
+    /// A patch of this name does not exist.
+    #[error("no patch is named {name}; the scene has {known}")]
+    NoSuchPatch {
+        /// The name asked for.
+        name: String,
+        /// Names that exist, shortened.
+        known: String,
+    },
+}

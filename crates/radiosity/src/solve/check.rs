@@ -1,0 +1,30 @@
+//! Refuses scenes that have no solution.
+use crate::{Error, Patch, Scene};
+
+/// Checks that every patch has the scene's bands, reflects less than it receives, and emits no negative light.
+pub(super) fn check(scene: &Scene) -> Result<(), Error> {
+    if scene.patches.is_empty() {
+        return Err(Error::NoPatches);
+    }
+    scene.patches.iter().try_for_each(|patch| check_patch(patch, scene.bands))
+}
+
+/// The same for one patch.
+fn check_patch(patch: &Patch, expected: usize) -> Result<(), Error> {
+    let name = || patch.name.clone();
+    let found = [patch.reflectance.len(), patch.emission.len()].into_iter().find(|&bands| bands != expected);
+    if let Some(found) = found {
+        return Err(Error::Bands { patch: name(), found, expected });
+    }
+    for (band, &value) in patch.reflectance.iter().enumerate() {
+        if !(0.0..1.0).contains(&value) {
+            return Err(Error::Reflectance { patch: name(), band, value });
+        }
+    }
+    for (band, &value) in patch.emission.iter().enumerate() {
+        if !(0.0..f64::INFINITY).contains(&value) {
+            return Err(Error::Emission { patch: name(), band, value });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! Who shoots: pieces of patches, and what each has sent so far.
+use super::light::Light;
+use crate::mesh::{Node, Subdivision};
+
+/// A piece, and what it has sent per band.
+#[derive(Clone, Debug)]
+struct Shooter {
+    node: usize,
+    area: f64,
+    /// Radiosity shot so far.
+    shot: Vec<f64>,
+    /// Power still to be shot, of either sign: Σ A (B − shot) over the piece's elements.
+    unshot: Vec<f64>,
+}
+
+/// The pieces that shoot; together they cover every patch once.
+#[derive(Debug)]
+pub(super) struct Shooters<'s> {
+    nodes: &'s [Node],
+    front: Vec<Shooter>,
+    /// Emitted power per band.
+    pub(super) emitted: Vec<f64>,
+    /// Power shot so far, per band.
+    pub(super) sent: Vec<f64>,
+    /// How many shots were made.
+    pub(super) shots: usize,
+}
+
+impl<'s> Shooters<'s> {
+    /// Every patch is one shooter and has shot nothing.
+    pub(super) fn new(patches: usize, subdivision: &'s Subdivision, light: &Light) -> Shooters<'s> {
+        let none = vec![0.0; light.bands];
+        let nodes = &subdivision.nodes;
+        let front = (0..patches).map(|node| Shooter::new(node, nodes, &none, light)).collect();
+        Shooters { nodes, front, emitted: light.total(&light.emittance), sent: none, shots: 0 }
+    }
+
+    /// Weighs what every piece has yet to shoot; gives its share of the emitted power in the worst band.
+    pub(super) fn weigh(&mut self, light: &Light) -> f64 {
+        for shooter in &mut self.front {
+            shooter.weigh(&self.nodes[shooter.node], light);
+        }
+        let share = |(band, &emitted): (usize, &f64)| {
+            let unshot: f64 = self.front.iter().map(|shooter| shooter.unshot[band].abs()).sum();
+            if unshot == 0.0 { 0.0 } else { unshot / emitted }
+        };
+        self.emitted.iter().enumerate().map(share).fold(0.0, f64::max)
+    }
+
+    /// The piece with the most power to shoot, over all bands; of equal ones the first.
+    pub(super) fn brightest(&self) -> usize {
+        let power = |index: &usize| self.front[*index].unshot.iter().map(|power| power.abs()).sum::<f64>();
+        let brighter = |a, b| if power(&b) > power(&a) { b } else { a };
+        (0..self.front.len()).reduce(brighter).unwrap_or(0)
+    }
+
+    /// Splits a piece whose power deviates from a uniform piece's by more than `spread` of all emitted power;
+    /// tells whether it did. The halves inherit what the piece has shot.
+    pub(super) fn split(&mut self, index: usize, light: &Light, spread: f64) -> bool {
+        let shooter = &self.front[index];
+        let Some(halves) = self.nodes[shooter.node].halves else { return false };
+        let limit = spread * self.emitted.iter().sum::<f64>();
+        if shooter.deviation(&self.nodes[shooter.node], light) <= limit {
+            return false;
+        }
+        let [first, second] = halves.map(|half| Shooter::new(half, self.nodes, &shooter.shot, light));
+        self.front[index] = first;
+        self.front.push(second);
+        true
+    }
+
+    /// Lets a piece shoot all it has; gives the radiosity per band.
+    pub(super) fn shoot(&mut self, index: usize) -> Vec<f64> {
+        let shooter = &mut self.front[index];
+        let radiosity: Vec<f64> = shooter.unshot.iter().map(|power| power / shooter.area).collect();
+        for (band, sent) in self.sent.iter_mut().enumerate() {
+            shooter.shot[band] += radiosity[band];
+            *sent += radiosity[band] * shooter.area;
+        }
+        self.shots += 1;
+        radiosity
+    }
+
+    /// The node of a piece.
+    pub(super) fn node(&self, index: usize) -> usize {
+        self.front[index].node
+    }
+
+    /// The nodes of all pieces.
+    pub(super) fn front(&self) -> impl Iterator<Item = usize> {
+        self.front.iter().map(|shooter| shooter.node)
+    }
+
+    /// Power still to be shot, per band, as weighed last.
+    pub(super) fn unshot(&self) -> Vec<f64> {
+        let band = |band| self.front.iter().map(|shooter| shooter.unshot[band]).sum();
+        (0..self.emitted.len()).map(band).collect()
+    }
+
+    /// The largest radiosity still to be shot, per band, as weighed last.
+    pub(super) fn peak(&self) -> Vec<f64> {
+        let radiosity =
+            |band: usize| self.front.iter().map(move |shooter| shooter.unshot[band] / shooter.area);
+        (0..self.emitted.len()).map(|band| radiosity(band).map(f64::abs).fold(0.0, f64::max)).collect()
+    }
+}
+
+impl Shooter {
+    /// A piece that has shot `shot`.
+    fn new(node: usize, nodes: &[Node], shot: &[f64], light: &Light) -> Shooter {
+        let area = light.areas[nodes[node].elements.clone()].iter().sum();
+        let mut shooter = Shooter { node, area, shot: shot.to_vec(), unshot: Vec::new() };
+        shooter.weigh(&nodes[node], light);
+        shooter
+    }
+
+    /// Brings `unshot` up to date.
+    fn weigh(&mut self, node: &Node, light: &Light) {
+        self.unshot.clear();
+        self.unshot.resize(self.shot.len(), 0.0);
+        for element in node.elements.clone() {
+            for (band, unshot) in self.unshot.iter_mut().enumerate() {
+                *unshot +=
+                    light.areas[element] * (light.radiosity[element * light.bands + band] - self.shot[band]);
+            }
+        }
+    }
+
+    /// By how much power the piece differs from one of its mean radiosity: Σ A |B − mean|, over all bands.
+    fn deviation(&self, node: &Node, light: &Light) -> f64 {
+        let mean: Vec<_> =
+            self.shot.iter().zip(&self.unshot).map(|(shot, power)| shot + power / self.area).collect();
+        let deviation = |element: usize| {
+            let radiosity = light.radiosity[element * light.bands..].iter();
+            light.areas[element] * radiosity.zip(&mean).map(|(b, mean)| (b - mean).abs()).sum::<f64>()
+        };
+        node.elements.clone().map(deviation).sum()
+    }
+}

@@ -1,0 +1,137 @@
+//! Laws of the solver.
+use super::{Options, Solution, solve};
+use crate::{Error, Patch, Scene};
+use formfactor::PlanarPolygon;
+use glam::DVec3;
+use std::ops::ControlFlow;
+
+/// A patch of one band.
+fn patch(name: &str, corners: &[[f64; 3]], reflectance: f64, emission: f64) -> Patch {
+    let corners: Vec<DVec3> = corners.iter().map(|&corner| corner.into()).collect();
+    Patch {
+        name: name.to_owned(),
+        polygon: PlanarPolygon::new([corners]).unwrap(),
+        reflectance: vec![reflectance],
+        emission: vec![emission],
+        origin: Default::default(),
+    }
+}
+
+/// A closed room of 3 × 2 × 1, its faces seen from inside.
+fn room(reflectance: f64, emission: f64) -> Scene {
+    let v = |i: usize| [[0., 3.][i & 1], [0., 2.][i >> 1 & 1], [0., 1.][i >> 2]];
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let wall =
+        |(k, face): (usize, &[usize; 4])| patch(&format!("wall-{k}"), &face.map(v), reflectance, emission);
+    Scene { patches: faces.iter().enumerate().map(wall).collect(), bands: 1, ..Scene::default() }
+}
+
+fn quick(scene: &Scene, options: Options) -> Solution {
+    solve(scene, &options, |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn options(elements: usize, tolerance: f64) -> Options {
+    Options { elements, tolerance, ..Options::default() }
+}
+
+#[test]
+fn a_furnace_is_uniform() {
+    // E + ρB = B with E = 1 - ρ: the exact solution is B = 1 (emission is radiance, E = πL).
+    for reflectance in [0.0, 0.5, 0.9] {
+        let scene = room(reflectance, (1.0 - reflectance) / std::f64::consts::PI);
+        let solution = quick(&scene, options(300, 1e-8));
+        assert!(solution.converged);
+        assert!(solution.closure.unwrap() < 1e-12);
+        for b in &solution.radiosity {
+            assert!((b - 1.0).abs() <= solution.bound[0] + 1e-12, "{b}");
+        }
+        assert!(solution.bound[0] < 1e-5, "{:?}", solution.bound);
+    }
+}
+
+#[test]
+fn the_ledger_balances_at_every_stop() {
+    let mut scene = room(0.8, 0.0);
+    scene.patches[2].emission[0] = 5.0;
+    for max_shots in [0, 1, 7, 1000] {
+        let solution = quick(&scene, Options { max_shots, ..options(200, 1e-6) });
+        let ledger = &solution.ledger;
+        assert!((ledger.emitted[0] - 15.0 * std::f64::consts::PI).abs() < 1e-12);
+        assert!(ledger.defect[0].abs() < 1e-12 * ledger.emitted[0]);
+        let sum = ledger.absorbed[0] + ledger.escaped[0] + ledger.unshot[0];
+        assert!((sum / ledger.emitted[0] - 1.0).abs() < 1e-12);
+        assert!(ledger.escaped[0].abs() < 0.02 * ledger.emitted[0], "closed: {ledger:?}");
+    }
+}
+
+#[test]
+fn light_scales_with_the_emission_bit_for_bit() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let one = quick(&scene, options(200, 1e-4));
+    for scale in [2f64.powi(-99), 2f64.powi(99)] {
+        scene.patches[0].emission[0] = scale;
+        let other = quick(&scene, options(200, 1e-4));
+        let scaled: Vec<_> = one.radiosity.iter().map(|b| b * scale).collect();
+        assert_eq!(scaled, other.radiosity);
+    }
+}
+
+#[test]
+fn threads_change_nothing() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| quick(&scene, options(200, 1e-4)).radiosity)
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn a_dark_scene_is_dark_at_once() {
+    let solution = quick(&room(0.5, 0.0), options(100, 1e-4));
+    assert!(solution.converged && solution.shots == 0);
+    assert!(solution.radiosity.iter().all(|&b| b == 0.0));
+}
+
+#[test]
+fn light_does_not_pass_a_wall() {
+    let mut scene = room(0.5, 0.0);
+    scene.patches[4].emission[0] = 1.0;
+    let middle = [[1.5, 0., 0.], [1.5, 0., 1.], [1.5, 2., 1.], [1.5, 2., 0.]];
+    let mut back = middle;
+    back.reverse();
+    scene.patches.extend([patch("west", &middle, 0.5, 0.0), patch("east", &back, 0.5, 0.0)]);
+    let solution = quick(&scene, options(300, 1e-6));
+    for (element, h) in solution.irradiance.iter().enumerate() {
+        let dark = solution.mesh.centroid(element).x > 1.5
+            || scene.patches[solution.mesh.elements[element].patch].name == east(&scene);
+        assert!(!dark || *h == 0.0, "element {element} receives {h}");
+    }
+}
+
+/// The name of the separating wall's patch that faces away from the light.
+fn east(scene: &Scene) -> &str {
+    let away = scene.patches[6..].iter().find(|patch| patch.polygon.normal().x > 0.0);
+    &away.unwrap().name
+}
+
+#[test]
+fn what_has_no_solution_is_refused_by_name() {
+    let check = |scene: &Scene| solve(scene, &Options::default(), |_| ControlFlow::Continue(())).unwrap_err();
+    assert!(matches!(check(&Scene::default()), Error::NoPatches));
+    for reflectance in [1.0, -0.1, f64::NAN] {
+        let mut scene = room(0.5, 1.0);
+        scene.patches[3].reflectance[0] = reflectance;
+        assert!(matches!(check(&scene), Error::Reflectance { patch, .. } if patch == "wall-3"));
+    }
+    for emission in [-1.0, f64::NAN, f64::INFINITY] {
+        let mut scene = room(0.5, 1.0);
+        scene.patches[1].emission[0] = emission;
+        assert!(matches!(check(&scene), Error::Emission { patch, .. } if patch == "wall-1"));
+    }
+    let mut scene = room(0.5, 1.0);
+    scene.patches[1].emission.push(0.0);
+    assert!(matches!(check(&scene), Error::Bands { found: 2, expected: 1, .. }));
+}
