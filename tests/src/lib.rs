@@ -1,1 +1,17 @@
 //! Corpora, generators and independent oracles shared by the test suites.
+//!
+//! Nothing here uses `polycsg`'s code: [`oracle`] is the plain algorithm over exact integers and rationals,
+//! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
+//! cases of `tests/corpus`. [`against`] sets a result of `polycsg` beside the oracle's.
+pub mod against;
+pub mod corpus;
+pub mod exact;
+pub mod generators;
+pub mod oracle;
+pub mod random;
+pub mod validity;
+
+use glam::DVec2;
+
+/// A closed chain of points, the first not repeated.
+pub type Ring = Vec<DVec2>;

@@ -1,0 +1,107 @@
+//! The kinds of input on which polygon libraries fail: no panic, a valid region, the right area, for every operation.
+use tests::against::{self, Verdict, check_classify, leaf};
+use tests::exact::nearest;
+use tests::generators::{KINDS, Pair, nasty};
+use tests::oracle::{Arrangement, Operation};
+
+/// Inputs of each kind: 24 kinds of 30 are 720 inputs.
+const INPUTS: u64 = 30;
+
+/// All failures of a kind, each with its exact input.
+fn failures(kind: usize) -> Vec<String> {
+    let mut failures = Vec::new();
+    for seed in 0..INPUTS {
+        let pair = nasty(kind, seed);
+        let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
+        for operation in Operation::ALL {
+            if let Err(e) = against::check(&pair, operation, &arrangement) {
+                failures.push(format!("{} {operation:?}: {e}", pair.name));
+            }
+        }
+    }
+    failures
+}
+
+fn assert_kinds(kinds: impl Iterator<Item = usize>) {
+    let failures: Vec<String> = kinds.flat_map(failures).collect();
+    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Repair is rare where coordinates are ordinary: were everything "repaired", the bits would never be looked at.
+#[test]
+fn most_results_need_no_repair() {
+    let kind = KINDS.iter().position(|k| k.0 == "general position").expect("a kind of that name");
+    for seed in 0..INPUTS {
+        let pair = nasty(kind, seed);
+        let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
+        for operation in Operation::ALL {
+            assert_eq!(against::check(&pair, operation, &arrangement), Ok(Verdict::Exact), "{}", pair.name);
+        }
+    }
+}
+
+// Two tests, so that two cores share the work.
+#[test]
+fn even_kinds_are_valid_and_right() {
+    assert_kinds((0..KINDS.len()).step_by(2));
+}
+
+#[test]
+fn odd_kinds_are_valid_and_right() {
+    assert_kinds((1..KINDS.len()).step_by(2));
+}
+
+fn all() -> impl Iterator<Item = Pair> {
+    (0..KINDS.len()).flat_map(|kind| (0..INPUTS).map(move |seed| nasty(kind, seed)))
+}
+
+/// A vertex of a result is an input vertex, or one of the arrangement's crossings rounded once, unless it was repaired.
+#[test]
+fn vertices_are_input_bits_or_rounded_crossings() {
+    for pair in all() {
+        let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
+        let outline = arrangement.operation(Operation::SymmetricDifference);
+        if tests::validity::first_contact(&outline.merged()).is_some() {
+            continue;
+        }
+        let result = (leaf(&pair.a) ^ leaf(&pair.b)).evaluate();
+        for point in result.rings().flatten() {
+            assert!(arrangement.vertices.iter().any(|v| v.point == *point), "{}: {point} is new", pair.name);
+        }
+    }
+}
+
+/// The area in doubles is the exact area of the rounded rings within the sum's own rounding.
+#[test]
+fn areas_in_doubles_are_the_rings_areas() {
+    for pair in all() {
+        let result = (leaf(&pair.a) | leaf(&pair.b)).evaluate();
+        let exact = nearest(&(against::twice_area(&result) / num_bigint::BigInt::from(2)));
+        let area = result.area();
+        if exact.is_infinite() {
+            assert_eq!(area, exact, "{}", pair.name);
+            continue;
+        }
+        let reach = result.rings().flatten().fold(0.0, |m, p| f64::max(m, p.abs().max_element()));
+        let count: f64 = result.rings().flatten().map(|_| 1.0).sum();
+        let bound = 4.0 * count * f64::EPSILON * reach * reach;
+        let is_near = (area - exact).abs() <= bound + 5e-324 * count;
+        assert!(is_near || bound.is_infinite(), "{}: {area} for {exact}", pair.name);
+    }
+}
+
+#[test]
+fn segments_are_classified_as_the_oracle_does() {
+    let mut failures = Vec::new();
+    for pair in all() {
+        let region = against::region(&pair.a);
+        for segment in pair.b.rings[0].windows(2) {
+            if segment[0] != segment[1] {
+                if let Err(e) = check_classify([segment[0], segment[1]], &region) {
+                    failures.push(format!("{}: {e}", pair.name));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
+}
