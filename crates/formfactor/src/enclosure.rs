@@ -1,14 +1,15 @@
 //! Many polygons that see and hide each other.
-use crate::{DifferentialArea, FormFactor, PlanarPolygon, form_factor};
+use crate::exact::form_factor_past;
+use crate::{DifferentialArea, FormFactor, PlanarPolygon, Scratch};
 
 /// A set of polygons, each of which is a target and hides the others.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Enclosure {
     polygons: Vec<PlanarPolygon>,
 }
 
 impl Enclosure {
-    /// An enclosure of these polygons; a polygon's index is its id.
+    /// An enclosure of these polygons; a polygon's index is its id. It need not be closed.
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
         Self { polygons }
@@ -20,13 +21,16 @@ impl Enclosure {
         &self.polygons
     }
 
-    /// The form factor to polygon `id`, all others being occluders.
+    /// The form factor to polygon `id`; all others, but the one that owns `from`, hide it. Exactly 0 to the owner.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor(&self, from: &DifferentialArea, id: usize) -> FormFactor {
         self.form_factor_to_part(from, id, &self.polygons[id])
     }
 
-    /// The form factor to `part`, a part of polygon `id`, which does not hide it; all others do.
+    /// The form factor to `part`, a part of polygon `id` that lies in its plane; that polygon does not hide it.
     #[must_use]
     pub fn form_factor_to_part(
         &self,
@@ -34,15 +38,30 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
+        self.form_factor_to_part_in(from, id, part, &mut Scratch::default())
+    }
+
+    /// [`Self::form_factor_to_part`] with buffers that are used again: for many calls from one thread.
+    #[must_use]
+    pub fn form_factor_to_part_in(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        part: &PlanarPolygon,
+        scratch: &mut Scratch,
+    ) -> FormFactor {
         if from.owner() == Some(id) {
             return FormFactor::default();
         }
-        form_factor(from, part, &[])
+        let others = self.polygons.iter().enumerate().filter(|(i, _)| *i != id && Some(*i) != from.owner());
+        form_factor_past(from, part, others.map(|(_, polygon)| polygon), scratch)
     }
 
-    /// The form factors to every polygon.
+    /// The form factors to every polygon, by id.
     #[must_use]
     pub fn row(&self, from: &DifferentialArea) -> Vec<FormFactor> {
-        (0..self.polygons.len()).map(|id| self.form_factor(from, id)).collect()
+        let mut scratch = Scratch::default();
+        let each = self.polygons.iter().enumerate();
+        each.map(|(id, polygon)| self.form_factor_to_part_in(from, id, polygon, &mut scratch)).collect()
     }
 }

@@ -1,43 +1,81 @@
 //! The exact form factor: the stages, one after the other.
-use crate::horizon::{above, sight};
-use crate::lambert::{ContourSum, Sight};
-use crate::polygon::ROUNDING;
-use crate::{DifferentialArea, PlanarPolygon};
-use std::cmp::Ordering;
+use crate::cull::{Blocking, blocking};
+use crate::project::{Shadow, shadow};
+use crate::view::View;
+use crate::visible::visible_sum;
+use crate::{DifferentialArea, PlanarPolygon, Scratch};
 
 /// A form factor and how far it may be from the exact one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FormFactor {
     /// The fraction of the power leaving dA that reaches the target: between 0 and 1.
     pub value: f64,
-    /// A bound: |value − exact| <= error_bound, where exact is for the input's doubles as given.
+    /// A bound: |value - exact| <= error_bound, where exact is for the input's doubles as given.
     pub error_bound: f64,
 }
 
 /// The form factor from a differential area to the front of a polygon, past occluders.
+///
+/// An occluder blocks a ray from dA to a point of the target exactly when it meets the ray strictly between them. An
+/// occluder that is coplanar with the target, or whose plane contains dA, blocks nothing. A dA on or behind the target's
+/// plane sees exactly 0, and so does one whose view of the target a single convex occluder covers.
+///
+/// The value depends on the order of `occluders` at most within the bounds, and not on their orientation. Takes time
+/// linear in what culling drops, and that of one polygon Boolean for the rest.
 #[must_use]
-pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, _occluders: &[PlanarPolygon]) -> FormFactor {
-    unoccluded(from, to)
+pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> FormFactor {
+    form_factor_past(from, to, occluders, &mut Scratch::default())
+}
+
+/// [`form_factor`] with occluders from anywhere and buffers that are used again.
+pub(crate) fn form_factor_past<'a>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl IntoIterator<Item = &'a PlanarPolygon>,
+    scratch: &mut Scratch,
+) -> FormFactor {
+    let Some(view) = View::new(from, to) else {
+        return unseen(from, to);
+    };
+    match shadows(&view, occluders) {
+        Shadows::Total => FormFactor::default(),
+        Shadows::Some(shadows) if shadows.is_empty() && to.is_convex() => {
+            view.contour().form_factor(view.error)
+        }
+        Shadows::Some(shadows) => {
+            let error: f64 = shadows.iter().map(|s| s.error).sum();
+            visible_sum(&view, &shadows, scratch).form_factor(view.error + error)
+        }
+    }
 }
 
 /// The form factor from a differential area to the front of a polygon with nothing in between.
 #[must_use]
 pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
-    if to.plane().side(from.position()).sign != Ordering::Greater {
-        return FormFactor::default();
-    }
-    let (loops, _) = above(from, to);
-    let mut sum = ContourSum::new(from.normal());
-    for vertices in &loops {
-        let sights: Vec<Sight> = vertices.iter().map(|v| sight(v, to.deviation())).collect();
-        sum.add_loop(&sights);
-    }
-    sum.form_factor(0.0)
+    form_factor(from, to, &[])
 }
 
-/// `1 - F` without cancellation: what of dA's hemisphere a polygon leaves free, with nothing in between.
-#[must_use]
-pub fn unoccluded_complement(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
-    let factor = unoccluded(from, to);
-    FormFactor { value: 1.0 - factor.value, error_bound: factor.error_bound + ROUNDING }
+/// What the occluders hide together.
+#[derive(Debug)]
+pub(crate) enum Shadows {
+    Total,
+    Some(Vec<Shadow>),
+}
+
+/// The shadows of the occluders that can block.
+pub(crate) fn shadows<'a>(view: &View, occluders: impl IntoIterator<Item = &'a PlanarPolygon>) -> Shadows {
+    let mut found = Vec::new();
+    for occluder in occluders {
+        match blocking(view, occluder) {
+            Blocking::None => (),
+            Blocking::Partial => found.extend(shadow(view, occluder)),
+            Blocking::Total => return Shadows::Total,
+        }
+    }
+    Shadows::Some(found)
+}
+
+/// What a target gets that turns its back or lies below the horizon.
+pub(crate) fn unseen(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
+    FormFactor { value: 0.0, error_bound: if to.is_ambiguous_from(from.position()) { 1.0 } else { 0.0 } }
 }

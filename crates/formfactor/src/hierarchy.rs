@@ -1,8 +1,59 @@
-//! Equation 3.6.
-use crate::{DifferentialArea, FormFactor, PlanarPolygon, form_factor};
+//! The second route: Equation 3.6 through the boundary representation of what is hidden.
+use crate::exact::{Shadows, shadows, unseen};
+use crate::lambert::{ContourSum, Sight};
+use crate::polygon::ROUNDING;
+use crate::view::View;
+use crate::visible::{leaf, union};
+use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use glam::DVec2;
+use polycsg::Region;
 
-/// The second route.
+/// The form factor by the hierarchy of the target's hidden part [Barreto 2008, (3.6)]:
+///
+/// F = F(target) - sum of F(outer rings) + sum of F(holes), over the polygons of the target's intersection with the union
+/// of the shadows; islands in holes are polygons again.
+///
+/// It goes through valid rings and their nesting where [`crate::form_factor`] goes through the bare boundary of the visible
+/// part, and serves to check it. It loses digits when almost all of the target is hidden.
 #[must_use]
 pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> FormFactor {
-    form_factor(from, to, occluders)
+    let Some(view) = View::new(from, to) else {
+        return unseen(from, to);
+    };
+    let whole = of_region(&view, &leaf(&view.flat).evaluate());
+    let (hidden, error) = match shadows(&view, occluders) {
+        Shadows::Total => (whole, 0.0),
+        Shadows::Some(shadows) => {
+            let region = (leaf(&view.flat) & union(&shadows)).evaluate();
+            (of_region(&view, &region), shadows.iter().map(|s| s.error).sum())
+        }
+    };
+    FormFactor {
+        value: (whole.value - hidden.value).max(0.0),
+        error_bound: whole.error_bound + hidden.error_bound + view.error + error + ROUNDING,
+    }
+}
+
+/// The outer rings' form factors less the holes'.
+fn of_region(view: &View, region: &Region) -> FormFactor {
+    let mut total = FormFactor::default();
+    for polygon in region.polygons() {
+        let outer = of_ring(view, polygon.outer().iter().copied());
+        total.value += outer.value;
+        total.error_bound += outer.error_bound + ROUNDING;
+        for hole in polygon.holes() {
+            let hole = of_ring(view, hole.iter().rev().copied());
+            total.value -= hole.value;
+            total.error_bound += hole.error_bound + ROUNDING;
+        }
+    }
+    total
+}
+
+/// The form factor of what a counter-clockwise ring encloses.
+fn of_ring(view: &View, ring: impl Iterator<Item = DVec2>) -> FormFactor {
+    let sights: Vec<Sight> = ring.map(|p| view.sight(p)).collect();
+    let mut sum = ContourSum::new(view.from.normal());
+    sum.add_loop(&sights);
+    sum.form_factor(0.0)
 }

@@ -71,7 +71,7 @@ impl PlanarPolygon {
     /// The area of the points inside an odd number of loops, in the coordinates' units squared.
     #[must_use]
     pub fn area(&self) -> f64 {
-        region::area(&self.flat_loops(), self.convex) / self.normal[self.axes[2]].abs()
+        region::area(&self.flat_loops()) * self.steepness()
     }
 
     /// Every vertex, loop after loop.
@@ -103,6 +103,35 @@ impl PlanarPolygon {
 
     pub(crate) fn flat_loops(&self) -> Vec<Vec<DVec2>> {
         self.loops().map(|l| l.iter().map(|p| self.flat(*p)).collect()).collect()
+    }
+
+    /// A bound on what [`Self::lift`] adds per unit of distance from the plane's first corner.
+    pub(crate) fn lift_error(&self) -> f64 {
+        self.plane.normal_error() / self.plane.normal.0[self.axes[2]].hi.abs()
+    }
+
+    /// Whether rounding of the vertices leaves open on which side of the polygon `position` lies, straight before or
+    /// behind it; never so for polygons whose vertices are exactly coplanar.
+    pub(crate) fn is_ambiguous_from(&self, position: DVec3) -> bool {
+        if self.deviation == 0.0 {
+            return false;
+        }
+        let distance = self.plane.side(position).value.hi.abs() / self.plane.normal.round().length();
+        let below = self.points.iter().fold(self.points[0], |m, p| m.min(*p)) - 2.0 * self.deviation;
+        let above = self.points.iter().fold(self.points[0], |m, p| m.max(*p)) + 2.0 * self.deviation;
+        let inside = position.cmpge(below).all() && position.cmple(above).all();
+        inside && distance <= 2.0 * self.deviation
+    }
+
+    /// The plane's point with the kept coordinates `flat`; a vertex is itself.
+    pub(crate) fn raise(&self, flat: DVec2) -> DVec3 {
+        let vertex = self.points.iter().copied().find(|p| self.flat(*p) == flat);
+        vertex.unwrap_or_else(|| self.lift(DVec3::ZERO, flat).round())
+    }
+
+    /// Area in space per area in the two kept coordinates.
+    pub(crate) fn steepness(&self) -> f64 {
+        1.0 / self.normal[self.axes[2]].abs()
     }
 
     /// Where the plane's point with the kept coordinates `flat` lies as seen from `position`.

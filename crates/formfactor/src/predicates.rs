@@ -45,6 +45,11 @@ impl Plane {
         decide(value, terms, || exact_height(&self.corners, from, to))
     }
 
+    /// A bound on the error of the components of `normal`, in sum.
+    pub(crate) fn normal_error(&self) -> f64 {
+        FILTER * self.terms.element_sum()
+    }
+
     /// On which side of the plane `point` lies: `Greater` on the side of the normal.
     pub(crate) fn side(&self, point: DVec3) -> Height {
         if self.corners.contains(&point) {

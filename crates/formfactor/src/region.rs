@@ -9,7 +9,7 @@ fn doubled_area(points: &[DVec2]) -> f64 {
 }
 
 /// The area inside an odd number of loops.
-pub(crate) fn area(loops: &[Vec<DVec2>], _convex: bool) -> f64 {
+pub(crate) fn area(loops: &[Vec<DVec2>]) -> f64 {
     let holes: f64 = loops[1..].iter().map(|l| doubled_area(l).abs()).sum();
     (doubled_area(&loops[0]) - holes) / 2.0
 }

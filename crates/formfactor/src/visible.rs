@@ -1,33 +1,72 @@
-//! The visible part of a target.
-use crate::{DifferentialArea, PlanarPolygon};
-use glam::DVec3;
-use polycsg::Region;
+//! The visible part of a target: the target less the union of the shadows, by polycsg.
+use crate::exact::{Shadows, shadows};
+use crate::lambert::ContourSum;
+use crate::project::Shadow;
+use crate::view::View;
+use crate::{DifferentialArea, PlanarPolygon, Scratch};
+use glam::{DVec2, DVec3};
+use polycsg::{Csg, FillRule, Region};
 
 /// What a differential area sees of a target: a region of the target's plane, and where it lies in space.
 #[derive(Clone, Debug)]
 pub struct VisiblePart {
     region: Region,
+    target: PlanarPolygon,
 }
 
 impl VisiblePart {
-    /// The part in the two kept coordinates of the target's plane.
+    /// The part in two of the three coordinates: the axis along which the target's normal is longest is dropped, and the
+    /// other two are in the order that keeps a target counter-clockwise that is so seen from its front.
     #[must_use]
     pub fn region(&self) -> &Region {
         &self.region
     }
 
-    /// The rings in space.
+    /// The rings in space, outer ones counter-clockwise seen from the front. Vertices of the target are what they were.
     pub fn rings(&self) -> impl Iterator<Item = Vec<DVec3>> + '_ {
-        self.region.rings().map(|r| r.iter().map(|p| p.extend(0.0)).collect())
+        self.region.rings().map(|ring| ring.iter().map(|p| self.target.raise(*p)).collect())
+    }
+
+    /// Its area in space.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.region.area() * self.target.steepness()
     }
 }
 
-/// The part of the target that the differential area sees.
+/// The part of the target's front that the differential area sees, as a valid region with holes and islands.
 #[must_use]
-pub fn visible_part(
-    _from: &DifferentialArea,
-    _to: &PlanarPolygon,
-    _occluders: &[PlanarPolygon],
-) -> VisiblePart {
-    VisiblePart { region: Region::default() }
+pub fn visible_part(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> VisiblePart {
+    VisiblePart { region: visible_region(from, to, occluders), target: to.clone() }
+}
+
+fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> Region {
+    let Some(view) = View::new(from, to) else {
+        return Region::default();
+    };
+    match shadows(&view, occluders) {
+        Shadows::Total => Region::default(),
+        Shadows::Some(shadows) => (leaf(&view.flat) - union(&shadows)).evaluate(),
+    }
+}
+
+/// Lambert's sum over the visible part's directed boundary: no rings are built.
+pub(crate) fn visible_sum(view: &View, shadows: &[Shadow], scratch: &mut Scratch) -> ContourSum {
+    let csg = leaf(&view.flat) - union(shadows);
+    let boundary = csg.boundary(scratch);
+    let mut sum = ContourSum::new(view.from.normal());
+    for edge in boundary.edges() {
+        sum.add(view.sight(edge.start), view.sight(edge.end));
+    }
+    sum
+}
+
+/// The set inside an odd number of loops.
+pub(crate) fn leaf(loops: &[Vec<DVec2>]) -> Csg<'_> {
+    Csg::rings(loops, FillRule::EvenOdd).expect("projections are kept within finite bounds")
+}
+
+/// All that the shadows cover.
+pub(crate) fn union(shadows: &[Shadow]) -> Csg<'_> {
+    Csg::union(shadows.iter().map(|s| leaf(&s.loops)))
 }
