@@ -1,13 +1,13 @@
 //! A result of `polycsg` beside the oracle's, bit for bit where nothing had to be repaired.
 use crate::exact::{edges, twice_signed_area};
 use crate::generators::Pair;
-use crate::oracle::{Arrangement, Class, Operand, Operation, Outline, Rule, sort};
+use crate::oracle::{Arrangement, Class, Operand, Operation, Outline, Place, Rule, locate, sort};
 use crate::validity::{self, Shape, first_contact};
 use glam::DVec2;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
-use polycsg::{BoundaryEdge, Csg, FillRule, Membership, Region};
+use polycsg::{BoundaryEdge, Csg, FillRule, Location, Membership, Region};
 
 /// The library's name of a rule.
 pub fn fill_rule(rule: Rule) -> FillRule {
@@ -192,6 +192,21 @@ pub fn check_classify(segment: [DVec2; 2], region: &Region) -> Result<(), String
     let intervals = polycsg::classify(segment, region).map_err(|e| e.to_string())?;
     let found = joined(intervals.iter().map(|i| ([i.start, i.end], class(i.membership))));
     if found == expected { Ok(()) } else { Err(format!("classify found {found:?}, the oracle {expected:?}")) }
+}
+
+/// Checks `Region::locate` against the winding number of the region's rings.
+pub fn check_locate(point: DVec2, region: &Region) -> Result<(), String> {
+    let expected = match locate(point, &operand(region)) {
+        Place::Inside => Location::Inside,
+        Place::Outside => Location::Outside,
+        Place::OnEdge => Location::Boundary,
+    };
+    let found = region.locate(point);
+    if found == expected {
+        Ok(())
+    } else {
+        Err(format!("{point} was located {found:?}, the oracle says {expected:?}"))
+    }
 }
 
 /// Neighbouring intervals of one class made one.

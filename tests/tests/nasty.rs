@@ -1,5 +1,5 @@
 //! The kinds of input on which polygon libraries fail: no panic, a valid region, the right area, for every operation.
-use tests::against::{self, Verdict, check_classify, leaf};
+use tests::against::{self, Verdict, check_classify, check_locate, leaf};
 use tests::exact::nearest;
 use tests::generators::{KINDS, Pair, nasty};
 use tests::oracle::{Arrangement, Operation};
@@ -96,11 +96,26 @@ fn segments_are_classified_as_the_oracle_does() {
     for pair in all() {
         let region = against::region(&pair.a);
         for segment in pair.b.rings[0].windows(2) {
-            if segment[0] != segment[1] {
-                if let Err(e) = check_classify([segment[0], segment[1]], &region) {
-                    failures.push(format!("{}: {e}", pair.name));
-                }
+            if segment[0] == segment[1] {
+                continue;
             }
+            let checked = check_classify([segment[0], segment[1]], &region);
+            failures.extend(checked.err().map(|e| format!("{}: {e}", pair.name)));
+        }
+    }
+    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
+}
+
+/// The vertices of the other operand, the region's own, and the middles of its edges, which rounding puts near them.
+#[test]
+fn points_are_located_as_the_oracle_does() {
+    let mut failures = Vec::new();
+    for pair in all() {
+        let region = against::region(&pair.a);
+        let own = region.rings().flat_map(tests::exact::edges).flat_map(|(p, q)| [p, p / 2.0 + q / 2.0]);
+        for point in own.chain(pair.b.rings.iter().flatten().copied()) {
+            let checked = check_locate(point, &region);
+            failures.extend(checked.err().map(|e| format!("{}: {e}", pair.name)));
         }
     }
     assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));

@@ -5,10 +5,12 @@
 //! (`table`); what is `OnPlus` or `OnMinus` at the root is the boundary (`outline`). No filter, no sweep, no
 //! shortcut: O(n²) contacts, O(k n) classifications.
 mod cut;
+mod locate;
 mod outline;
 mod table;
 mod winding;
 
+pub use locate::{Place, locate};
 pub use outline::{Outline, Piece, sort};
 pub use table::Class;
 

@@ -44,7 +44,7 @@ pub(super) fn around<T: Exact>(
 
 /// What one edge adds: `levels` are its ends' heights against the midpoint, `rise` the side point's, `turn` is positive
 /// when the side point lies left of the edge.
-fn crossing(levels: [i32; 2], rise: i32, turn: i32) -> i32 {
+pub(super) fn crossing(levels: [i32; 2], rise: i32, turn: i32) -> i32 {
     let is_below = levels.map(|level| level < 0 || (level == 0 && rise >= 0));
     match is_below {
         [true, false] if turn > 0 => 1,
@@ -53,7 +53,7 @@ fn crossing(levels: [i32; 2], rise: i32, turn: i32) -> i32 {
     }
 }
 
-fn turn<T: Exact>(edge: &Edge<T>, point: &Homogeneous<T>) -> i32 {
+pub(super) fn turn<T: Exact>(edge: &Edge<T>, point: &Homogeneous<T>) -> i32 {
     let offset = [
         point.x.clone() - edge.start[0].clone() * point.w.clone(),
         point.y.clone() - edge.start[1].clone() * point.w.clone(),
@@ -62,7 +62,7 @@ fn turn<T: Exact>(edge: &Edge<T>, point: &Homogeneous<T>) -> i32 {
 }
 
 /// For a point on the edge's line: true when it lies between the ends.
-fn contains<T: Exact>(edge: &Edge<T>, point: &Homogeneous<T>) -> bool {
+pub(super) fn contains<T: Exact>(edge: &Edge<T>, point: &Homogeneous<T>) -> bool {
     let between = |axis: usize, value: &T| {
         let (a, b) = (edge.start[axis].clone() * point.w.clone(), edge.end[axis].clone() * point.w.clone());
         if a <= b { a <= *value && *value <= b } else { b <= *value && *value <= a }
@@ -70,6 +70,6 @@ fn contains<T: Exact>(edge: &Edge<T>, point: &Homogeneous<T>) -> bool {
     between(0, &point.x) && between(1, &point.y)
 }
 
-fn sign<T: Exact>(value: &T) -> i32 {
+pub(super) fn sign<T: Exact>(value: &T) -> i32 {
     i32::from(value.is_positive()) - i32::from(value.is_negative())
 }
