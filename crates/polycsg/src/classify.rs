@@ -1,11 +1,63 @@
-//! classify
-use crate::{Membership, Region};
+//! How a directed segment lies in a region.
+
+use crate::predicates::{crossing_point, lexicographic};
+use crate::{Csg, Error, Membership, Region, Scratch, pipeline};
 use glam::DVec2;
-/// piece of the segment
+use std::cmp::Ordering;
+
+/// A piece of a classified segment between neighbouring contacts with the region's boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval { /// a
- pub start: DVec2, /// b
- pub end: DVec2, /// m
- pub membership: Membership }
-/// stub: errs on a non-finite segment
-pub fn classify(_segment: [DVec2; 2], _region: &Region) -> Result<Vec<Interval>, crate::Error> { unimplemented!() }
+pub struct Interval {
+    /// Where it starts, rounded if it is a crossing.
+    pub start: DVec2,
+    /// Where it ends.
+    pub end: DVec2,
+    /// How the region lies beside it, in the segment's direction.
+    pub membership: Membership,
+}
+
+/// Cuts a directed segment where it meets the region's boundary and tells the membership of each interval.
+///
+/// Exact: intervals are cut at every contact, and their order and membership are right even where rounding makes
+/// an interval's ends equal. A segment of no length has no intervals. O(n) expected, plus sorting.
+///
+/// # Errors
+/// [`Error::NonFinite`] with ring 0 when an end of the segment has a NaN or an infinity.
+///
+/// ```
+/// use polycsg::{DVec2, FillRule, Membership, Region, classify};
+/// let square = Region::from_rings([[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]], FillRule::NonZero)?;
+/// let along_the_floor = classify([DVec2::new(-1.0, 0.0), DVec2::new(5.0, 0.0)], &square)?;
+/// let memberships: Vec<_> = along_the_floor.iter().map(|i| i.membership).collect();
+/// assert_eq!(memberships, [Membership::Out, Membership::OnPlus, Membership::Out]);
+/// # Ok::<(), polycsg::Error>(())
+/// ```
+pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, Error> {
+    if let Some(vertex) = segment.iter().position(|p| !p.is_finite()) {
+        return Err(Error::NonFinite { ring: 0, vertex });
+    }
+    let segment = segment.map(|p| p + DVec2::ZERO);
+    if segment[0] == segment[1] {
+        return Ok(Vec::new());
+    }
+    let mut scratch = Scratch::default();
+    pipeline::arrange(&Csg::edge_beside(segment, region), &mut scratch);
+    let Scratch { edges, contacts, arrangement, labels, .. } = &scratch;
+    let point = |vertex: u32| match contacts.crossing(vertex) {
+        None => edges.point(vertex),
+        Some([e, f]) => crossing_point(edges.segment(e), edges.segment(f)),
+    };
+    // The segment is the first operand: edge 0. The sub-edge that stands in for one of its own may run against it.
+    let forward = |s: [DVec2; 2]| lexicographic(s[0], s[1]) == Ordering::Less;
+    let intervals = arrangement.of_edge(0).map(|sub| {
+        let stands = arrangement.stand_in(sub);
+        let along = forward(edges.segment(arrangement.edge(stands))) == forward(segment);
+        let membership = labels.of(stands);
+        Interval {
+            start: point(arrangement.tail(sub)),
+            end: point(arrangement.head(sub)),
+            membership: if along { membership } else { membership.reversed() },
+        }
+    });
+    Ok(intervals.collect())
+}

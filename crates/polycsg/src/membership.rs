@@ -1,4 +1,99 @@
-//! Which side of a sub-edge lies inside a set.
-/// stub
+//! Which sides of a directed piece of an edge lie inside a set.
+
+use std::ops::Not;
+
+/// How a directed sub-edge lies in a set: which of its two sides are inside.
+///
+/// | | left side | right side |
+/// | --- | --- | --- |
+/// | `In` | inside | inside |
+/// | `Out` | outside | outside |
+/// | `OnPlus` | inside | outside |
+/// | `OnMinus` | outside | inside |
+///
+/// A Boolean acts on each side by itself, which is the whole of Table 3.1 of Barreto (2008), completed for ON against
+/// ON by sign, for difference and for symmetric difference:
+///
+/// ```
+/// use polycsg::Membership::{In, OnMinus, OnPlus, Out};
+/// assert_eq!(OnPlus.union(OnPlus), OnPlus); // equal signs: the boundary of both
+/// assert_eq!(OnPlus.union(OnMinus), In); // opposite signs: covered from both sides
+/// assert_eq!(OnPlus.intersection(OnMinus), Out);
+/// assert_eq!(OnPlus.difference(OnMinus), OnPlus);
+/// assert_eq!(OnPlus.symmetric_difference(OnMinus), In);
+/// assert_eq!(OnPlus.complement(), OnMinus);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Membership { In, Out, OnPlus, OnMinus }
+pub enum Membership {
+    /// Both sides inside.
+    In,
+    /// Both sides outside.
+    Out,
+    /// On the boundary, interior to the left.
+    OnPlus,
+    /// On the boundary, interior to the right.
+    OnMinus,
+}
+
+impl Membership {
+    /// From the two sides: is the left one inside, is the right one.
+    pub fn from_sides(left: bool, right: bool) -> Membership {
+        match (left, right) {
+            (true, true) => Membership::In,
+            (false, false) => Membership::Out,
+            (true, false) => Membership::OnPlus,
+            (false, true) => Membership::OnMinus,
+        }
+    }
+
+    /// Whether the left side is inside.
+    pub fn left(self) -> bool {
+        matches!(self, Membership::In | Membership::OnPlus)
+    }
+
+    /// Whether the right side is inside.
+    pub fn right(self) -> bool {
+        matches!(self, Membership::In | Membership::OnMinus)
+    }
+
+    fn by_side(self, other: Membership, operation: impl Fn(bool, bool) -> bool) -> Membership {
+        Membership::from_sides(operation(self.left(), other.left()), operation(self.right(), other.right()))
+    }
+
+    /// Membership in A ∪ B from those in A and in B.
+    pub fn union(self, other: Membership) -> Membership {
+        self.by_side(other, |a, b| a | b)
+    }
+
+    /// Membership in A ∩ B from those in A and in B.
+    pub fn intersection(self, other: Membership) -> Membership {
+        self.by_side(other, |a, b| a & b)
+    }
+
+    /// Membership in A − B from those in A and in B.
+    pub fn difference(self, other: Membership) -> Membership {
+        self.by_side(other, |a, b| a & !b)
+    }
+
+    /// Membership in A ⊕ B from those in A and in B.
+    pub fn symmetric_difference(self, other: Membership) -> Membership {
+        self.by_side(other, |a, b| a ^ b)
+    }
+
+    /// Membership in the complement.
+    pub fn complement(self) -> Membership {
+        Membership::from_sides(!self.left(), !self.right())
+    }
+
+    /// The same sub-edge seen in the other direction: the sides change places.
+    pub fn reversed(self) -> Membership {
+        Membership::from_sides(self.right(), self.left())
+    }
+}
+
+impl Not for Membership {
+    type Output = Membership;
+    fn not(self) -> Membership {
+        self.complement()
+    }
+}

@@ -1,46 +1,254 @@
-//! region
-use crate::{Error, FillRule};
+//! The result: polygons with holes, islands in holes, and so on.
+
+use crate::area::enclosed_area;
+use crate::predicates::{Segment, Side, is_inside, lexicographic, rightward, side};
+use crate::rings::{Rings, ring_edges};
+use crate::{Csg, Error, FillRule, Scratch};
 use glam::DVec2;
-/// stub
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// A regularised set of points of the plane: polygons with holes, islands in the holes, to any depth.
+///
+/// Always valid: rings are simple and meet one another in common vertices only; outer rings run counter-clockwise,
+/// holes clockwise, so that the interior is on the left of every edge; the interior of each polygon is connected.
+/// Always canonical: each ring starts at its leftmost (then lowest) vertex, polygons are sorted by depth and then by
+/// that vertex, the holes of each by theirs. Equal sets with equal vertices are equal values.
+///
+/// ```
+/// use polycsg::{FillRule, Location, Region, DVec2};
+/// let square = |low: f64, high: f64| vec![[low, low], [high, low], [high, high], [low, high]];
+/// // Even-odd: a square with a hole, and an island in the hole.
+/// let region = Region::from_rings([square(0.0, 9.0), square(2.0, 7.0), square(3.0, 5.0)], FillRule::EvenOdd)?;
+/// let polygons: Vec<_> = region.polygons().collect();
+/// assert_eq!(polygons.len(), 2);
+/// assert_eq!((polygons[0].holes().count(), polygons[0].depth()), (1, 0));
+/// assert_eq!((polygons[1].holes().count(), polygons[1].depth()), (0, 1));
+/// assert_eq!(region.area(), 81.0 - 25.0 + 4.0);
+/// assert_eq!(region.locate(DVec2::new(6.0, 6.0)), Location::Outside);
+/// # Ok::<(), polycsg::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Region { points: Vec<DVec2> }
-/// stub
-#[derive(Clone, Copy, Debug)]
-pub struct Polygon<'r> { region: &'r Region }
-/// stub
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Location { /// in
- Inside, /// out
- Outside, /// on
- Boundary }
-impl<'r> Polygon<'r> {
-    /// counter-clockwise
-    pub fn outer(&self) -> &'r [DVec2] { &self.region.points }
-    /// clockwise
-    pub fn holes(&self) -> impl Iterator<Item = &'r [DVec2]> + use<'r> { std::iter::empty() }
-    /// number of polygons around it
-    pub fn depth(&self) -> usize { 0 }
+pub struct Region {
+    rings: Rings,
+    polygons: Vec<Span>,
 }
+
+/// A polygon's rings: from `first` to where the next polygon starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Span {
+    first: usize,
+    depth: usize,
+}
+
+/// One polygon of a [`Region`]: an outer ring and its holes.
+#[derive(Clone, Copy, Debug)]
+pub struct Polygon<'r> {
+    rings: &'r Rings,
+    first: usize,
+    end: usize,
+    depth: usize,
+}
+
+impl<'r> Polygon<'r> {
+    /// The outer ring, counter-clockwise, the first point not repeated.
+    pub fn outer(&self) -> &'r [DVec2] {
+        self.rings.ring(self.first)
+    }
+
+    /// The holes, each clockwise.
+    pub fn holes(&self) -> impl Iterator<Item = &'r [DVec2]> + use<'r> {
+        let rings = self.rings;
+        (self.first + 1..self.end).map(move |ring| rings.ring(ring))
+    }
+
+    /// How many polygons surround it: 0 outermost, 1 for an island in a hole of such a one, and so on.
+    pub fn depth(&self) -> usize {
+        self.depth
+    }
+}
+
+/// Where a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Location {
+    /// In the interior.
+    Inside,
+    /// In the exterior.
+    Outside,
+    /// On the boundary, exactly.
+    Boundary,
+}
+
 impl Region {
-    /// rings: anything like Vec<Vec<DVec2>>, &[Vec<[f64; 2]>], [[DVec2; 4]; 1]
-    pub fn from_rings<R, P>(_rings: R, _rule: FillRule) -> Result<Region, Error>
-    where R: IntoIterator, R::Item: AsRef<[P]>, P: Copy + Into<DVec2> { unimplemented!() }
-    /// u
-    pub fn union(&self, _other: &Region) -> Region { unimplemented!() }
-    /// i
-    pub fn intersection(&self, _other: &Region) -> Region { unimplemented!() }
-    /// d
-    pub fn difference(&self, _other: &Region) -> Region { unimplemented!() }
-    /// x
-    pub fn symmetric_difference(&self, _other: &Region) -> Region { unimplemented!() }
-    /// polygons, outermost first
-    pub fn polygons(&self) -> impl Iterator<Item = Polygon<'_>> { std::iter::empty() }
-    /// all rings: each polygon's outer ring (counter-clockwise), then its holes (clockwise)
-    pub fn rings(&self) -> impl Iterator<Item = &[DVec2]> { std::iter::empty() }
-    /// e
-    pub fn is_empty(&self) -> bool { self.points.is_empty() }
-    /// a
-    pub fn area(&self) -> f64 { unimplemented!() }
-    /// l
-    pub fn locate(&self, _point: DVec2) -> Location { unimplemented!() }
+    /// The set that raw rings mean under a fill rule.
+    ///
+    /// The rings may intersect themselves and one another, nest, touch, overlap, have spikes and repeated points; rings
+    /// without area add nothing. Anything that yields slices of points (`Vec<Vec<DVec2>>`, `[[f64; 2]; n]`, …) will do.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] names the first ring and vertex with a NaN or an infinity.
+    pub fn from_rings<R, P>(rings: R, rule: FillRule) -> Result<Region, Error>
+    where
+        R: IntoIterator,
+        R::Item: AsRef<[P]>,
+        P: Copy + Into<DVec2>,
+    {
+        Ok(Csg::rings(rings, rule)?.evaluate())
+    }
+
+    /// A ∪ B.
+    pub fn union(&self, other: &Region) -> Region {
+        (Csg::from(self) | Csg::from(other)).evaluate()
+    }
+
+    /// A ∩ B.
+    pub fn intersection(&self, other: &Region) -> Region {
+        (Csg::from(self) & Csg::from(other)).evaluate()
+    }
+
+    /// A − B.
+    pub fn difference(&self, other: &Region) -> Region {
+        (Csg::from(self) - Csg::from(other)).evaluate()
+    }
+
+    /// A ⊕ B, what lies in one of the two.
+    pub fn symmetric_difference(&self, other: &Region) -> Region {
+        (Csg::from(self) ^ Csg::from(other)).evaluate()
+    }
+
+    /// The polygons, outermost first.
+    pub fn polygons(&self) -> impl Iterator<Item = Polygon<'_>> {
+        (0..self.polygons.len()).map(|i| {
+            let rings = self.rings_of_polygon(i);
+            Polygon { rings: &self.rings, first: rings.start, end: rings.end, depth: self.polygons[i].depth }
+        })
+    }
+
+    /// All rings, each polygon's outer ring followed by its holes; the interior is on the left of each.
+    pub fn rings(&self) -> impl Iterator<Item = &[DVec2]> + Clone {
+        self.rings.iter()
+    }
+
+    /// Whether the set is empty.
+    pub fn is_empty(&self) -> bool {
+        self.polygons.is_empty()
+    }
+
+    /// The area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
+    pub fn area(&self) -> f64 {
+        enclosed_area(self.rings().map(ring_edges))
+    }
+
+    /// Where a finite point lies, exactly. O(n).
+    pub fn locate(&self, point: DVec2) -> Location {
+        let mut above = false;
+        for edge in self.rings().flat_map(ring_edges) {
+            match look_down(edge, point) {
+                Look::On => return Location::Boundary,
+                Look::Hits => above = !above,
+                Look::Misses => {}
+            }
+        }
+        if above { Location::Inside } else { Location::Outside }
+    }
+
+    /// Checks the promises of this type independently of how the value came about, exactly. Expected O(n log n).
+    ///
+    /// # Errors
+    /// The first broken promise: [`Invalid`].
+    pub fn validate(&self) -> Result<(), Invalid> {
+        crate::validate::validate(self)
+    }
+
+    pub(crate) fn rings_of(&self) -> &Rings {
+        &self.rings
+    }
+
+    fn rings_of_polygon(&self, polygon: usize) -> Range<usize> {
+        let end = self.polygons.get(polygon + 1).map_or(self.rings.len(), |next| next.first);
+        self.polygons[polygon].first..end
+    }
+
+    /// The region that these rings bound by their direction, evaluated anew.
+    pub(crate) fn evaluated_again(&self) -> Region {
+        Csg::positive(self.rings.clone()).evaluate_in(&mut Scratch::default())
+    }
+}
+
+/// What is wrong with a region; no operation of this crate yields such a one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Invalid {
+    /// Two edges meet otherwise than in a common vertex; edges count through [`Region::rings`].
+    Contact {
+        /// One edge.
+        edge: usize,
+        /// The other.
+        other: usize,
+    },
+    /// Direction, nesting or order of the rings is not the one promised.
+    Structure,
+}
+
+impl std::fmt::Display for Invalid {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Invalid::Contact { edge, other } => {
+                write!(f, "edges {edge} and {other} meet otherwise than in a common vertex")
+            }
+            Invalid::Structure => write!(f, "the direction, nesting or order of the rings is not canonical"),
+        }
+    }
+}
+
+impl std::error::Error for Invalid {}
+
+enum Look {
+    On,
+    Hits,
+    Misses,
+}
+
+/// What a ray down from `p`, just right of it, does with an edge.
+fn look_down(edge: Segment, p: DVec2) -> Look {
+    let [a, b] = rightward(edge);
+    if p == a || p == b {
+        return Look::On;
+    }
+    let spans = a.x <= p.x && p.x <= b.x;
+    if !spans || p.y < a.y.min(b.y) {
+        return Look::Misses;
+    }
+    match side(a, b, p) {
+        Side::On if is_inside([a, b], p) => Look::On,
+        Side::Left if p.x < b.x => Look::Hits,
+        _ => Look::Misses,
+    }
+}
+
+/// Builds a region from rings that are valid and in order.
+#[derive(Debug, Default)]
+pub(crate) struct RegionBuilder {
+    region: Region,
+}
+
+impl RegionBuilder {
+    /// Starts a polygon; its rings follow, the outer one first.
+    pub(crate) fn polygon(&mut self, depth: u32) {
+        self.region.polygons.push(Span { first: self.region.rings.len(), depth: depth as usize });
+    }
+
+    pub(crate) fn ring(&mut self, points: impl Iterator<Item = DVec2>) {
+        points.for_each(|p| self.region.rings.push(p));
+        self.region.rings.close();
+    }
+
+    pub(crate) fn build(self) -> Region {
+        debug_assert!(
+            self.region
+                .rings()
+                .all(|ring| { ring.iter().skip(1).all(|&p| lexicographic(ring[0], p) == Ordering::Less) })
+        );
+        self.region
+    }
 }

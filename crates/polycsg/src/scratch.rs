@@ -1,4 +1,32 @@
-//! Buffers
-/// stub
+//! The buffers of all stages.
+
+use crate::arrangement::Arrangement;
+use crate::contacts::Contacts;
+use crate::edges::Edges;
+use crate::labels::Labels;
+use crate::select::Selection;
+use crate::strips::Strips;
+use crate::truth::Truth;
+
+/// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
+///
+/// ```
+/// use polycsg::{Csg, FillRule, Region, Scratch};
+/// let a = Region::from_rings([[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]], FillRule::NonZero)?;
+/// let b = Region::from_rings([[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]], FillRule::NonZero)?;
+/// let mut scratch = Scratch::default();
+/// let common = Csg::from(&a) & Csg::from(&b);
+/// assert_eq!(common.evaluate_in(&mut scratch).area(), 1.0);
+/// assert_eq!(common.boundary(&mut scratch).area(), 1.0); // without rings
+/// # Ok::<(), polycsg::Error>(())
+/// ```
 #[derive(Debug, Default)]
-pub struct Scratch {}
+pub struct Scratch {
+    pub(crate) truth: Truth,
+    pub(crate) edges: Edges,
+    pub(crate) strips: Strips,
+    pub(crate) contacts: Contacts,
+    pub(crate) arrangement: Arrangement,
+    pub(crate) labels: Labels,
+    pub(crate) selection: Selection,
+}

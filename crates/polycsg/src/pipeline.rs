@@ -1,0 +1,38 @@
+//! The stages in a row.
+
+use crate::csg::Csg;
+use crate::{Boundary, Region, Scratch, link, nest, repair};
+
+/// Edges, contacts, arrangement, memberships.
+pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
+    let Scratch { truth, edges, strips, contacts, arrangement, labels, .. } = scratch;
+    truth.compile(csg);
+    edges.collect(csg, truth);
+    strips.build(edges.ids().map(|e| (e, edges.segment(e))));
+    contacts.find(edges, strips);
+    arrangement.split(edges, contacts);
+    labels.classify(edges, strips, contacts, arrangement, truth);
+}
+
+/// … and the pieces whose sides differ, rounded.
+pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<'s> {
+    arrange(csg, scratch);
+    let Scratch { edges, contacts, arrangement, labels, selection, .. } = scratch;
+    selection.select(edges, contacts, arrangement, labels);
+    Boundary::new(selection, edges)
+}
+
+/// … repaired, linked to rings and nested.
+///
+/// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
+/// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
+pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
+    boundary(csg, scratch);
+    let Scratch { edges, contacts, strips, selection, .. } = scratch;
+    let outline = repair::mend(edges, contacts, selection, strips);
+    let cycles = link::link(&outline);
+    match nest::nest(&outline, &cycles, strips) {
+        Ok(region) => region,
+        Err(nest::Misnested) => region(&Csg::positive(cycles.to_rings(&outline)), scratch),
+    }
+}

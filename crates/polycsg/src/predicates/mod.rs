@@ -1,0 +1,30 @@
+//! The only place that decides a sign.
+//!
+//! Every predicate answers with an enum: a floating-point filter with a proven error bound first, exact
+//! integers where the filter cannot tell. All are right for every finite `f64`, subnormal and huge ones included.
+//!
+//! | predicate | question | degree |
+//! | --- | --- | --- |
+//! | [`side`] | on which side of a directed line does a point lie | 2 |
+//! | [`turn`] | does one direction turn left or right of another | 2 |
+//! | [`crossing_order`] | which of two crossings comes first along an edge | 4 |
+//! | [`height_order`] | which of two edges is lower at an abscissa | 3 |
+//! | [`crossing_x_order`] | does a crossing lie left of an abscissa | 3 |
+//! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
+
+mod exact;
+mod order;
+mod orient;
+mod round;
+
+pub(crate) use exact::Ratio;
+pub(crate) use order::{
+    crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
+};
+pub(crate) use orient::{Area, Side, doubled_area, side, side_of, turn};
+pub(crate) use round::{crossing_point, crossing_ratio};
+
+use glam::DVec2;
+
+/// A directed straight edge, from `[0]` to `[1]`.
+pub(crate) type Segment = [DVec2; 2];

@@ -1,0 +1,95 @@
+//! Orders: along an edge, along an abscissa, of abscissae.
+
+use super::orient::{Side, UNIT, side};
+use super::round::{crossing_point, crossing_ratio};
+use super::{Ratio, Segment, exact::integers, turn};
+use dashu_int::IBig;
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// By x, then by y. Both points finite.
+#[inline]
+pub(crate) fn lexicographic(a: DVec2, b: DVec2) -> Ordering {
+    match a.x.partial_cmp(&b.x) {
+        Some(Ordering::Equal) => a.y.partial_cmp(&b.y).unwrap_or(Ordering::Equal),
+        order => order.unwrap_or(Ordering::Equal),
+    }
+}
+
+/// The order along `e` of its crossings with `f` and with `g`; both cross `e` properly.
+///
+/// With n, m the doubled areas of (f, start of e) and (f, end of e), which have opposite signs, the crossing lies at
+/// the parameter |n| / (|n| + |m|), so that the order is the sign of |n_f| |m_g| - |n_g| |m_f|.
+#[cold]
+pub(crate) fn crossing_order(e: Segment, f: Segment, g: Segment) -> Ordering {
+    let [ax, ay, bx, by, fax, fay, fbx, fby, gax, gay, gbx, gby] = integers([
+        e[0].x, e[0].y, e[1].x, e[1].y, f[0].x, f[0].y, f[1].x, f[1].y, g[0].x, g[0].y, g[1].x, g[1].y,
+    ]);
+    let distance = |x: &IBig, y: &IBig, p: [&IBig; 4]| {
+        IBig::from(((p[0] - x) * (p[3] - y) - (p[1] - y) * (p[2] - x)).into_parts().1)
+    };
+    let (f, g) = ([&fax, &fay, &fbx, &fby], [&gax, &gay, &gbx, &gby]);
+    let (nf, mf) = (distance(&ax, &ay, f), distance(&bx, &by, f));
+    let (ng, mg) = (distance(&ax, &ay, g), distance(&bx, &by, g));
+    (nf * mg).cmp(&(ng * mf))
+}
+
+/// Which of two edges is lower just right of the abscissa `x`; `Equal` when they run together there.
+///
+/// Both edges span `x`: their leftmost ends lie at or left of it, their rightmost ends right of it.
+pub(crate) fn height_order(e: Segment, f: Segment, x: f64) -> Ordering {
+    let (e, f) = (rightward(e), rightward(f));
+    let ((ye, de), (yf, df)) = (height(e, x), height(f, x));
+    if ye + de < yf - df {
+        return Ordering::Less;
+    }
+    if ye - de > yf + df {
+        return Ordering::Greater;
+    }
+    let at = Ratio::from_f64(x);
+    at.ordinate_on(e).compare(&at.ordinate_on(f)).then_with(|| match turn(f, e) {
+        Side::Right => Ordering::Less,
+        Side::On => Ordering::Equal,
+        Side::Left => Ordering::Greater,
+    })
+}
+
+/// Whether the crossing of `e` and `f` lies left of, on or right of the abscissa `x`.
+pub(crate) fn crossing_x_order(e: Segment, f: Segment, x: f64) -> Ordering {
+    // Rounding to nearest is monotone and keeps x, so only a tie needs the exact crossing.
+    match crossing_point(e, f).x.partial_cmp(&x) {
+        Some(Ordering::Equal) | None => crossing_ratio(e, f)[0].compare(&Ratio::from_f64(x)),
+        Some(order) => order,
+    }
+}
+
+/// The edge directed from its lexicographically smaller end.
+pub(crate) fn rightward(e: Segment) -> Segment {
+    if lexicographic(e[0], e[1]) == Ordering::Greater { [e[1], e[0]] } else { e }
+}
+
+/// The ordinate of a rightward, not vertical edge at `x`, and a bound on its error.
+///
+/// With the parameter in [0, 1] the seven roundings amount to less than 8u (|y0| + |y1|); an overflow makes the sum
+/// NaN or infinite, and either fails every comparison.
+fn height(e: Segment, x: f64) -> (f64, f64) {
+    let t = (x - e[0].x) / (e[1].x - e[0].x);
+    let scale = e[0].y.abs() + e[1].y.abs();
+    let error = if scale > 1e-290 { 16.0 * UNIT * scale } else { f64::INFINITY };
+    (e[0].y + t * (e[1].y - e[0].y), error)
+}
+
+/// Whether `p`, a point on the line of `e`, lies strictly inside `e`.
+pub(crate) fn is_inside(e: Segment, p: DVec2) -> bool {
+    let (from, to) = (lexicographic(e[0], p), lexicographic(p, e[1]));
+    from == to && from != Ordering::Equal
+}
+
+/// Whether the explicit point `p` on `e` comes before or after the crossing of `e` with `g`.
+pub(crate) fn point_crossing_order(e: Segment, p: DVec2, g: Segment) -> Ordering {
+    match side(g[0], g[1], p) {
+        Side::On => Ordering::Equal,
+        s if s == side(g[0], g[1], e[0]) => Ordering::Less,
+        _ => Ordering::Greater,
+    }
+}

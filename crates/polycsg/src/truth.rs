@@ -1,0 +1,211 @@
+//! The state of a walk over the arrangement: how often each operand covers the place, and whether the whole
+//! expression holds there.
+//!
+//! Winding numbers are kept in counters; a gate counts its members that hold. When a counter's truth changes, the
+//! change climbs towards the root only while it changes a gate's truth too. Operands that wind once at most
+//! (regions) and stand under one union, intersection or symmetric difference share one counter: the number of
+//! operands that contain the place decides.
+
+use crate::csg::{Csg, FillRule, Operator, Token};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rule {
+    NonZero,
+    Positive,
+    Odd,
+    /// As many as that: all of so many regions.
+    Equal(i32),
+}
+
+impl Rule {
+    #[inline]
+    fn holds(self, winding: i32) -> bool {
+        match self {
+            Rule::NonZero => winding != 0,
+            Rule::Positive => winding > 0,
+            Rule::Odd => winding & 1 == 1,
+            Rule::Equal(count) => winding == count,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Counter {
+    winding: i32,
+    rule: Rule,
+    holds: bool,
+    gate: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Any,
+    All,
+    Odd,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Gate {
+    kind: Kind,
+    members: i32,
+    true_members: i32,
+    holds: bool,
+    /// The gate above and whether this one enters it negated; the root has none.
+    above: Option<(u32, bool)>,
+    /// The counter that the gate's regions share.
+    shared: Option<u32>,
+}
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(crate) struct Truth {
+    counters: Vec<Counter>,
+    gates: Vec<Gate>,
+    /// The counter of each operand; an open edge has none.
+    operands: Vec<Option<u32>>,
+}
+
+/// A gate that awaits operands: `remaining` of them, the first into `first`, all others into `rest`.
+struct Open {
+    remaining: usize,
+    first: u32,
+    rest: u32,
+}
+
+impl Truth {
+    /// Compiles an expression; the state is that of a place outside of everything.
+    pub(crate) fn compile(&mut self, csg: &Csg<'_>) {
+        self.counters.clear();
+        self.gates.clear();
+        self.operands.clear();
+        self.add_gate(Kind::Any, None);
+        let mut open = vec![Open { remaining: 1, first: 0, rest: 0 }];
+        for token in csg.postfix().iter().rev() {
+            while open.last().is_some_and(|top| top.remaining == 0) {
+                open.pop();
+            }
+            let Some(top) = open.last_mut() else { break };
+            top.remaining -= 1;
+            let gate = if top.remaining == 0 { top.first } else { top.rest };
+            match token {
+                Token::Operator(operator, count) => open.push(self.open(*operator, *count, gate)),
+                Token::Region(_) => self.add_region(gate),
+                Token::Rings(_, rule) => self.add_rings(*rule, gate),
+                Token::Edge(_) => self.operands.push(None),
+            }
+        }
+        self.operands.reverse();
+    }
+
+    fn open(&mut self, operator: Operator, count: usize, above: u32) -> Open {
+        let kind = match operator {
+            Operator::Union => Kind::Any,
+            Operator::Intersection | Operator::Difference => Kind::All,
+            Operator::SymmetricDifference => Kind::Odd,
+        };
+        // Same in same is one gate.
+        let first = if self.gates[above as usize].kind == kind {
+            above
+        } else {
+            self.add_gate(kind, Some((above, false)))
+        };
+        let subtracts = operator == Operator::Difference;
+        let rest = if subtracts { self.add_gate(Kind::Any, Some((first, true))) } else { first };
+        Open { remaining: count, first, rest }
+    }
+
+    fn add_gate(&mut self, kind: Kind, above: Option<(u32, bool)>) -> u32 {
+        if let Some((gate, negated)) = above {
+            self.gates[gate as usize].members += 1;
+            self.gates[gate as usize].true_members += i32::from(negated);
+        }
+        self.gates.push(Gate { kind, members: 0, true_members: 0, holds: false, above, shared: None });
+        index(self.gates.len() - 1)
+    }
+
+    fn add_counter(&mut self, rule: Rule, gate: u32) -> u32 {
+        self.gates[gate as usize].members += 1;
+        self.counters.push(Counter { winding: 0, rule, holds: false, gate });
+        index(self.counters.len() - 1)
+    }
+
+    fn add_region(&mut self, gate: u32) {
+        let rule = match self.gates[gate as usize].kind {
+            Kind::Any => Rule::Positive,
+            Kind::All => Rule::Equal(0),
+            Kind::Odd => Rule::Odd,
+        };
+        let counter = match self.gates[gate as usize].shared {
+            Some(counter) => counter,
+            None => self.add_counter(rule, gate),
+        };
+        self.gates[gate as usize].shared = Some(counter);
+        if let Rule::Equal(count) = &mut self.counters[counter as usize].rule {
+            *count += 1;
+        }
+        self.operands.push(Some(counter));
+    }
+
+    fn add_rings(&mut self, rule: FillRule, gate: u32) {
+        let rule = match rule {
+            FillRule::EvenOdd => Rule::Odd,
+            FillRule::NonZero => Rule::NonZero,
+            FillRule::Positive => Rule::Positive,
+        };
+        let counter = self.add_counter(rule, gate);
+        self.operands.push(Some(counter));
+    }
+
+    /// The counter of an operand.
+    pub(crate) fn counter(&self, operand: usize) -> Option<u32> {
+        self.operands[operand]
+    }
+
+    /// Whether the expression holds at the walk's place.
+    #[inline]
+    pub(crate) fn holds(&self) -> bool {
+        self.gates[0].holds
+    }
+
+    /// Moves the walk over an edge: the winding number of one counter changes by `change`.
+    #[inline]
+    pub(crate) fn cross(&mut self, counter: u32, change: i32) {
+        let counter = &mut self.counters[counter as usize];
+        counter.winding += change;
+        let holds = counter.rule.holds(counter.winding);
+        if holds != counter.holds {
+            counter.holds = holds;
+            let gate = counter.gate;
+            self.climb(gate, holds);
+        }
+    }
+
+    fn climb(&mut self, mut gate: u32, mut holds: bool) {
+        loop {
+            let g = &mut self.gates[gate as usize];
+            g.true_members += if holds { 1 } else { -1 };
+            let now = match g.kind {
+                Kind::Any => g.true_members > 0,
+                Kind::All => g.true_members == g.members,
+                Kind::Odd => g.true_members & 1 == 1,
+            };
+            if now == g.holds {
+                return;
+            }
+            g.holds = now;
+            let Some((above, negated)) = g.above else { return };
+            (gate, holds) = (above, now != negated);
+        }
+    }
+
+    /// Whether the walk has come back to a place outside of everything.
+    pub(crate) fn is_outside(&self) -> bool {
+        self.counters.iter().all(|c| c.winding == 0)
+    }
+}
+
+/// Ids are 32 bits wide: more than 2^32 of anything would not fit in memory.
+#[inline]
+pub(crate) fn index(i: usize) -> u32 {
+    u32::try_from(i).expect("fewer than 2^32 vertices, edges and operands")
+}

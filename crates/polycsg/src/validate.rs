@@ -1,0 +1,38 @@
+//! The promises of a region, checked exactly.
+
+use crate::predicates::{Segment, Side, is_inside, side};
+use crate::region::{Invalid, Region};
+use crate::rings::ring_edges;
+use crate::strips::Strips;
+use crate::truth::index;
+
+/// See [`Region::validate`].
+pub(crate) fn validate(region: &Region) -> Result<(), Invalid> {
+    let edges: Vec<Segment> = region.rings().flat_map(ring_edges).collect();
+    let mut strips = Strips::default();
+    strips.build(edges.iter().enumerate().map(|(i, &e)| (index(i), e)));
+    let mut contact = None;
+    strips.pairs(|i, j| {
+        if contact.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
+            contact = Some(Invalid::Contact { edge: i.min(j) as usize, other: i.max(j) as usize });
+        }
+    });
+    if let Some(contact) = contact {
+        return Err(contact);
+    }
+    // Without contacts nothing can be cut or rounded: evaluation can only find another structure.
+    if region.evaluated_again() == *region { Ok(()) } else { Err(Invalid::Structure) }
+}
+
+/// Whether two edges have any point in common but one end of each.
+fn meet_wrongly(s: Segment, t: Segment) -> bool {
+    let sides =
+        [side(s[0], s[1], t[0]), side(s[0], s[1], t[1]), side(t[0], t[1], s[0]), side(t[0], t[1], s[1])];
+    let common_ends = t.iter().filter(|p| s.contains(p)).count();
+    let touches = [(s, t[0]), (s, t[1]), (t, s[0]), (t, s[1])]
+        .into_iter()
+        .zip(sides)
+        .any(|((edge, p), side)| side == Side::On && is_inside(edge, p));
+    let crosses = !sides.contains(&Side::On) && sides[0] != sides[1] && sides[2] != sides[3];
+    common_ends == 2 || touches || crosses
+}
