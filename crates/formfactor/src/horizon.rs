@@ -4,6 +4,7 @@ use crate::lambert::Sight;
 use crate::polygon::{PlanarPolygon, ROUNDING};
 use crate::predicates::{Height, over_horizon};
 use crate::twofold::{Offset, Twofold};
+use glam::DVec3;
 use std::cmp::Ordering;
 
 /// A vertex as seen from dA: on its edge within 2^-98 of the edge's ends.
@@ -12,6 +13,8 @@ pub(crate) struct Vertex {
     pub(crate) offset: Offset,
     /// Index among the polygon's points of the vertex that it is, `None` for a clip point.
     pub(crate) given: Option<usize>,
+    /// How far it may lie from where it stands: from the polygon moved onto its plane.
+    pub(crate) slack: f64,
 }
 
 /// Loops of vertices as seen from dA.
@@ -20,8 +23,11 @@ pub(crate) type Loops = Vec<Vec<Vertex>>;
 /// The loops of a polygon as seen from dA, unclipped.
 pub(crate) fn seen(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
     let mut index = 0..polygon.points().len();
-    let mut vertex =
-        |p: &glam::DVec3| Vertex { offset: Offset::between(from.position(), *p), given: index.next() };
+    let mut vertex = |p: &DVec3| Vertex {
+        offset: Offset::between(from.position(), *p),
+        given: index.next(),
+        slack: polygon.deviation(),
+    };
     polygon.loops().map(|l| l.iter().map(&mut vertex).collect()).collect()
 }
 
@@ -73,16 +79,15 @@ fn cut(a: Vertex, height_a: Twofold, b: Vertex, height_b: Twofold) -> Vertex {
     let (inner, outer, height, depth) =
         if height_a.hi > 0.0 { (a, b, height_a, height_b) } else { (b, a, height_b, height_a) };
     let share = height / (height - depth);
-    Vertex { offset: inner.offset.toward(outer.offset, share), given: None }
+    Vertex { offset: inner.offset.toward(outer.offset, share), given: None, slack: a.slack.max(b.slack) }
 }
 
-/// The direction to a vertex, rounded to doubles. `deviation` is how far it may lie from where it stands.
-pub(crate) fn sight(vertex: &Vertex, deviation: f64) -> Sight {
+/// The direction to a vertex, rounded to doubles.
+pub(crate) fn sight(vertex: &Vertex) -> Sight {
     let toward = vertex.offset.round();
-    let [x, y, z] = vertex.offset.0;
-    let rest = [(x, toward.x), (y, toward.y), (z, toward.z)]
-        .map(|(exact, rounded)| (exact.hi - rounded + exact.lo).abs());
+    let rest = vertex.offset.0.map(|x| (x.hi - x.round() + x.lo).abs());
     let lost: f64 = rest.iter().sum();
-    let blur = (lost + deviation) / toward.length() * (1.0 + 8.0 * ROUNDING);
+    let blur = (lost + vertex.slack) / toward.length() * (1.0 + 8.0 * ROUNDING);
+    // A clip point is within 2^-98 of its edge; 2^-96 leaves room for its being near.
     Sight { toward, blur: if vertex.given.is_none() { blur + ROUNDING * ROUNDING * 1024.0 } else { blur } }
 }

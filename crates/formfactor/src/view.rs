@@ -46,7 +46,7 @@ impl<'a> View<'a> {
     pub(crate) fn contour(&self) -> ContourSum {
         let mut sum = ContourSum::new(self.from.normal());
         for vertices in &self.loops {
-            let sights: Vec<Sight> = vertices.iter().map(|v| sight(v, self.to.deviation())).collect();
+            let sights: Vec<Sight> = vertices.iter().map(sight).collect();
             sum.add_loop(&sights);
         }
         sum
@@ -55,14 +55,13 @@ impl<'a> View<'a> {
     /// The direction to a point of the target's plane: exact for the target's own vertices, else as near as doubles are,
     /// with the blur that rounding its two coordinates brought.
     pub(crate) fn sight(&self, flat: DVec2) -> Sight {
-        if let Some(index) = self.to.points().iter().position(|p| self.to.flat(*p) == flat) {
+        let slack = self.to.deviation();
+        let given = self.to.points().iter().position(|p| self.to.flat(*p) == flat);
+        if let Some(index) = given {
             let offset = Offset::between(self.from.position(), self.to.points()[index]);
-            return sight(&Vertex { offset, given: Some(index) }, self.to.deviation());
+            return sight(&Vertex { offset, given, slack });
         }
-        let seen = sight(
-            &Vertex { offset: self.to.lift(self.from.position(), flat), given: None },
-            self.to.deviation(),
-        );
+        let seen = sight(&Vertex { offset: self.to.lift(self.from.position(), flat), given, slack });
         let anchor = self.to.flat(self.to.plane().corners[0]);
         // The dropped axis is the steepest: a step in a kept coordinate is at most sqrt 2 times as long in the plane.
         let step = 1.5 * ROUNDING * (flat.x.abs() + flat.y.abs());
@@ -81,29 +80,26 @@ pub(crate) struct Spot {
 /// A vertex on the target's plane, its two kept coordinates rounded.
 fn spot(from: &DifferentialArea, to: &PlanarPolygon, vertex: &Vertex) -> Spot {
     if let Some(index) = vertex.given {
-        return Spot { flat: to.flat(to.points()[index]), sight: sight(vertex, to.deviation()) };
+        return Spot { flat: to.flat(to.points()[index]), sight: sight(vertex) };
     }
     let [u, v, _] = to.axes();
     let flat = [u, v].map(|axis| (Twofold::from(from.position()[axis]) + vertex.offset.0[axis]).round());
-    Spot::measured(from, to, flat.into(), vertex.offset, to.deviation())
+    Spot::measured(from, to, flat.into(), vertex)
 }
 
 impl Spot {
-    /// The spot `flat`, its blur measured as the angle between the direction to it and the direction it stands for.
-    ///
-    /// `deviation` is how far the vertex behind it may be from where it stands.
+    /// The spot `flat`, its blur measured as the angle between the direction to it and that to the vertex it stands for.
     pub(crate) fn measured(
         from: &DifferentialArea,
         to: &PlanarPolygon,
         flat: DVec2,
-        meant: Offset,
-        deviation: f64,
+        vertex: &Vertex,
     ) -> Self {
-        let (toward, put) = (meant.round(), to.lift(from.position(), flat).round());
+        let (toward, put) = (vertex.offset.round(), to.lift(from.position(), flat).round());
         let off = Arc::between(Sight { toward, blur: 0.0 }, Sight { toward: put, blur: 0.0 }).angle();
         let anchor = to.flat(to.plane().corners[0]);
         let slope = to.lift_error() * ((flat.x - anchor.x).abs() + (flat.y - anchor.y).abs()) / put.length();
-        let blur = off * (1.0 + 16.0 * ROUNDING) + 4.0 * ROUNDING + slope + deviation / toward.length();
+        let blur = off * (1.0 + 16.0 * ROUNDING) + 4.0 * ROUNDING + slope + vertex.slack / toward.length();
         // NaN comes of a spot at dA itself: it may be anywhere.
         Self { flat, sight: Sight { toward, blur: if blur <= PI { blur } else { PI } } }
     }

@@ -52,8 +52,12 @@ fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Plan
 
 /// Lambert's sum over the visible part's directed boundary: no rings are built.
 pub(crate) fn visible_sum(view: &View, shadows: &[Shadow], scratch: &mut Scratch) -> ContourSum {
-    let csg = leaf(&view.flat) - union(shadows);
-    let boundary = csg.boundary(scratch);
+    boundary_sum(view, &(leaf(&view.flat) - union(shadows)), scratch)
+}
+
+/// Lambert's sum over the boundary of a set of the target's plane.
+pub(crate) fn boundary_sum(view: &View, set: &Csg<'_>, scratch: &mut Scratch) -> ContourSum {
+    let boundary = set.boundary(scratch);
     let mut sum = ContourSum::new(view.from.normal());
     for edge in boundary.edges() {
         sum.add(view.sight(edge.start), view.sight(edge.end));

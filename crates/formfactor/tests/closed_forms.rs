@@ -45,7 +45,12 @@ fn setups() -> Vec<(&'static str, [f64; 3], [f64; 3], Vec<[f64; 3]>)> {
         ("dA-perp-corner-1-1-1", o, z, wall(1.0, unit, unit)),
         ("dA-perp-corner-1-2-0.25", o, z, wall(0.25, [0.0, 2.0], unit)),
         ("dA-tri", o, z, vec![[1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, 0.0, 1.0]]),
-        ("dA-tri-generic", [0.1, 0.2, 0.3], [1.0, 2.0, 2.0], vec![[1.0, 0.0, 1.0], [0.0, 2.0, 3.0], [-1.0, 1.0, 2.0]]),
+        (
+            "dA-tri-generic",
+            [0.1, 0.2, 0.3],
+            [1.0, 2.0, 2.0],
+            vec![[1.0, 0.0, 1.0], [0.0, 2.0, 3.0], [-1.0, 1.0, 2.0]],
+        ),
         ("dA-ngon-64-r1-h1", o, z, ngon),
         ("dA-horizon-clip", o, z, wall(1.0, two, two)),
         ("dA-near-1e-3", o, z, ceiling(two, two, 1e-3)),
@@ -76,9 +81,20 @@ fn point_factors_equal_their_closed_forms() {
             "complement" => unoccluded_complement(&from, &to),
             _ => unoccluded(&from, &to),
         };
-        let (expected, slack) = if gives == "half_minus" { (0.5 - expected, 1.2e-16) } else { (expected, expected * 1.2e-16) };
+        let (expected, slack) =
+            if gives == "half_minus" { (0.5 - expected, 1.2e-16) } else { (expected, expected * 1.2e-16) };
         let error = (factor.value - expected).abs();
-        println!("{id:28} {:e} rel {:.1e} abs {:.1e} bound {:.1e}", factor.value, error / expected, error, factor.error_bound);
-        assert!(error <= factor.error_bound + slack, "{id}: {error:e} is over the bound {:e}", factor.error_bound);
+        println!(
+            "{id:28} {:e} rel {:.1e} abs {:.1e} bound {:.1e}",
+            factor.value,
+            error / expected,
+            error,
+            factor.error_bound
+        );
+        assert!(
+            error <= factor.error_bound + slack,
+            "{id}: {error:e} is over the bound {:e}",
+            factor.error_bound
+        );
     }
 }

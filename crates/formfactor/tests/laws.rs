@@ -1,0 +1,177 @@
+//! Laws that form factors obey, on random input.
+use formfactor::{
+    DVec3, DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded,
+};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+fn triangle(points: [DVec3; 3]) -> Option<PlanarPolygon> {
+    PlanarPolygon::new([points]).ok()
+}
+
+/// A point of a small lattice: coincidences of every kind are common.
+fn lattice(size: i32) -> impl Strategy<Value = DVec3> {
+    let part = move || (-size..=size).prop_map(f64::from);
+    (part(), part(), part()).prop_map(DVec3::from)
+}
+
+fn anywhere() -> impl Strategy<Value = DVec3> {
+    (-3.0..3.0, -3.0..3.0, -3.0..3.0).prop_map(DVec3::from)
+}
+
+fn triangles(
+    points: impl Strategy<Value = DVec3> + Clone,
+    count: usize,
+) -> impl Strategy<Value = Vec<PlanarPolygon>> {
+    let corners = prop::array::uniform3(points);
+    prop::collection::vec(corners, 0..=count).prop_map(|all| all.into_iter().filter_map(triangle).collect())
+}
+
+fn area() -> impl Strategy<Value = DifferentialArea> {
+    lattice(2).prop_filter_map("a normal", |normal| DifferentialArea::new(DVec3::ZERO, normal).ok())
+}
+
+fn facing(corners: [DVec3; 3]) -> Option<PlanarPolygon> {
+    let polygon = triangle(corners)?;
+    let [a, b, c] = corners;
+    if polygon.normal().dot(a) < 0.0 { Some(polygon) } else { triangle([a, c, b]) }
+}
+
+fn target(points: impl Strategy<Value = DVec3> + Clone) -> impl Strategy<Value = PlanarPolygon> {
+    prop::array::uniform3(points).prop_filter_map("a triangle", facing)
+}
+
+fn agree(a: FormFactor, b: FormFactor) -> Result<(), TestCaseError> {
+    let allowed = a.error_bound + b.error_bound;
+    prop_assert!((a.value - b.value).abs() <= allowed, "{a:?} and {b:?}");
+    prop_assert!(allowed < 1e-9, "{allowed:e} says too little");
+    Ok(())
+}
+
+/// Stratified rays over the hemisphere, cosine-weighted: the fraction that reaches the target first.
+fn by_rays(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> f64 {
+    const SIDE: u32 = 96;
+    let normal = from.normal();
+    let across = normal.any_orthonormal_vector();
+    let along = normal.cross(across);
+    let meets = |direction: DVec3, polygon: &PlanarPolygon| {
+        let corners: Vec<DVec3> = polygon.loops().flatten().map(|p| *p - from.position()).collect();
+        let turns = [0, 1, 2].map(|i| corners[i].cross(corners[(i + 1) % 3]).dot(direction));
+        let plane = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let t = plane.dot(corners[0]) / plane.dot(direction);
+        let inside = turns.iter().all(|s| *s > 0.0) || turns.iter().all(|s| *s < 0.0);
+        (inside && t > 0.0).then_some(t)
+    };
+    let reaches = |i: u32, j: u32| {
+        let (u, v) = ((f64::from(i) + 0.5) / f64::from(SIDE), (f64::from(j) + 0.4) / f64::from(SIDE));
+        let (r, phi) = (u.sqrt(), TAU * v);
+        let direction = r * phi.cos() * across + r * phi.sin() * along + (1.0 - u).sqrt() * normal;
+        meets(direction, to)
+            .is_some_and(|t| !occluders.iter().any(|o| meets(direction, o).is_some_and(|s| s < t)))
+    };
+    let hits =
+        (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| (i, j))).filter(|(i, j)| reaches(*i, *j)).count();
+    f64::from(u32::try_from(hits).unwrap()) / f64::from(SIDE * SIDE)
+}
+
+/// The twelve triangles of a cuboid, their fronts inward, or outward when `solid`.
+fn cuboid(center: DVec3, half: DVec3, frame: glam::DMat3, solid: bool) -> Vec<PlanarPolygon> {
+    let corner = |i: usize| {
+        let sign = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
+        center + frame * (half * DVec3::new(sign(1), sign(2), sign(4)))
+    };
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let halves = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+    let oriented = halves.map(|[a, b, c]| if solid { [a, c, b] } else { [a, b, c] });
+    oriented.map(|t| triangle(t.map(corner)).expect("a face")).collect()
+}
+
+fn rotation() -> impl Strategy<Value = glam::DMat3> {
+    (anywhere(), 0.0..TAU).prop_filter_map("an axis", |(axis, angle)| {
+        Some(glam::DMat3::from_axis_angle(axis.try_normalize()?, angle))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn occlusion_takes_away_and_never_all_plus_more(
+        from in area(), to in target(lattice(3)), occluders in triangles(lattice(3), 8),
+    ) {
+        let (free, seen) = (unoccluded(&from, &to), form_factor(&from, &to, &occluders));
+        prop_assert!(seen.value >= 0.0 && free.value <= 1.0);
+        prop_assert!(seen.value <= free.value + free.error_bound + seen.error_bound);
+    }
+
+    #[test]
+    fn both_routes_agree_on_lattices(from in area(), to in target(lattice(3)), occluders in triangles(lattice(3), 8)) {
+        agree(form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders))?;
+    }
+
+    #[test]
+    fn both_routes_agree_anywhere(from in area(), to in target(anywhere()), occluders in triangles(anywhere(), 8)) {
+        agree(form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders))?;
+    }
+
+    #[test]
+    fn rays_agree_roughly(from in area(), to in target(anywhere()), occluders in triangles(anywhere(), 6)) {
+        let exact = form_factor(&from, &to, &occluders).value;
+        let sampled = by_rays(&from, &to, &occluders);
+        prop_assert!((exact - sampled).abs() < 0.012, "{exact} is not {sampled}");
+    }
+
+    #[test]
+    fn the_order_of_occluders_does_not_matter(
+        from in area(), to in target(lattice(3)), occluders in triangles(lattice(3), 8),
+    ) {
+        let backward: Vec<PlanarPolygon> = occluders.iter().rev().cloned().collect();
+        agree(form_factor(&from, &to, &occluders), form_factor(&from, &to, &backward))?;
+    }
+
+    #[test]
+    fn a_target_is_the_sum_of_its_halves(
+        from in area(), corners in prop::array::uniform3(lattice(3)), occluders in triangles(lattice(3), 6),
+    ) {
+        // Doubled, so that the midpoint is a lattice point too.
+        let [a, b, c] = corners.map(|p| 2.0 * p);
+        let middle = (b + c) / 2.0;
+        let (Some(whole), Some(left), Some(right)) = (facing([a, b, c]), facing([a, b, middle]), facing([a, middle, c])) else {
+            return Ok(());
+        };
+        let [whole, left, right] = [whole, left, right].map(|part| form_factor(&from, &part, &occluders));
+        let sum = FormFactor { value: left.value + right.value, error_bound: left.error_bound + right.error_bound };
+        agree(whole, sum)?;
+    }
+
+    #[test]
+    fn an_occluder_in_two_halves_hides_the_same(
+        from in area(), to in target(lattice(3)), corners in prop::array::uniform3(lattice(3)),
+        others in triangles(lattice(3), 4),
+    ) {
+        let [a, b, c] = corners.map(|p| p / 4.0);
+        let middle = (b + c) / 2.0;
+        let (Some(whole), Some(left), Some(right)) = (triangle([a, b, c]), triangle([a, b, middle]), triangle([a, middle, c])) else {
+            return Ok(());
+        };
+        let past = |more: &[PlanarPolygon]| form_factor(&from, &to, &[&others[..], more].concat());
+        agree(past(&[whole]), past(&[left, right]))?;
+    }
+
+    #[test]
+    fn a_closed_room_is_seen_once(
+        half in (0.5..3.0, 0.5..3.0, 0.5..3.0), frame in rotation(), inner in rotation(),
+        at in (-0.9..-0.5, -0.9..0.9, -0.9..0.9), normal in anywhere(),
+    ) {
+        let half = DVec3::from(half);
+        let mut polygons = cuboid(DVec3::ZERO, half, frame, false);
+        // A block in the half of the room that holds no point.
+        polygons.extend(cuboid(frame * (half * DVec3::new(0.3, 0.0, 0.0)), DVec3::splat(0.1 * half.min_element()), inner, true));
+        let Ok(from) = DifferentialArea::new(frame * (half * DVec3::from(at)), normal) else { return Ok(()) };
+        let row = Enclosure::new(polygons).row(&from);
+        let sum: f64 = row.iter().map(|f| f.value).sum();
+        let bound: f64 = row.iter().map(|f| f.error_bound).sum();
+        prop_assert!((sum - 1.0).abs() <= bound + 1e-15, "the sum is off by {:e}, bound {bound:e}", sum - 1.0);
+        prop_assert!(bound < 1e-11, "{bound:e} says too little");
+    }
+}
