@@ -1,4 +1,5 @@
 //! Laws that form factors obey, on random input.
+use formfactor::glam;
 use formfactor::{
     DVec3, DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded,
 };
@@ -10,12 +11,12 @@ fn triangle(points: [DVec3; 3]) -> Option<PlanarPolygon> {
 }
 
 /// A point of a small lattice: coincidences of every kind are common.
-fn lattice(size: i32) -> impl Strategy<Value = DVec3> {
-    let part = move || (-size..=size).prop_map(f64::from);
-    (part(), part(), part()).prop_map(DVec3::from)
+fn lattice(size: i32) -> impl Strategy<Value = DVec3> + Clone {
+    let part = -size..=size;
+    (part.clone(), part.clone(), part).prop_map(|(x, y, z)| glam::IVec3::new(x, y, z).as_dvec3())
 }
 
-fn anywhere() -> impl Strategy<Value = DVec3> {
+fn anywhere() -> impl Strategy<Value = DVec3> + Clone {
     (-3.0..3.0, -3.0..3.0, -3.0..3.0).prop_map(DVec3::from)
 }
 
