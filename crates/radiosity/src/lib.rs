@@ -8,9 +8,13 @@ pub use formfactor;
 pub use glam;
 
 mod error;
+pub mod expose;
 mod interpolate;
+pub mod io;
 mod mesh;
+pub mod picture;
 mod scene;
+pub mod scenes;
 mod solve;
 
 pub use error::Error;

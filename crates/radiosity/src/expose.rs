@@ -1,0 +1,105 @@
+//! Exposure: from radiosity, which has no upper end, to what a screen can show.
+use crate::{Scene, Solution};
+
+/// The intensity that the average surface gets: mid grey.
+const MID_GREY: f64 = 0.18;
+
+/// Intensity = 1 − exp(−K·B) in every band: a small K is dark, a large K bright ([G] equation 2.17).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exposure {
+    k: f64,
+}
+
+impl Exposure {
+    /// With the given K, in m²/W; `None` unless it is positive and finite.
+    #[must_use]
+    pub fn new(k: f64) -> Option<Self> {
+        (k.is_finite() && k > 0.0).then_some(Self { k })
+    }
+
+    /// K such that the average radiosity of what does not emit becomes mid grey, 0.18 of full intensity.
+    ///
+    /// The average is geometric, over the lit elements of patches without emission, weighted by area; of the bands it
+    /// takes the luminance (Rec. 709). Where nothing but lamps is lit, the lamps count; where nothing is lit, K is 1.
+    #[must_use]
+    pub fn automatic(scene: &Scene, solution: &Solution) -> Self {
+        let dark = |patch: usize| scene.patches[patch].emission.iter().all(|band| *band == 0.0);
+        let mean = mean_luminance(solution, dark).or_else(|| mean_luminance(solution, |_| true));
+        let k = mean.map(|luminance| -(-MID_GREY).ln_1p() / luminance);
+        k.and_then(Self::new).unwrap_or(Self { k: 1.0 })
+    }
+
+    /// K, in m²/W.
+    #[must_use]
+    pub fn k(self) -> f64 {
+        self.k
+    }
+
+    /// The linear intensities, 0 to 1, of red, green and blue radiosities.
+    #[must_use]
+    pub fn intensity(self, radiosity: [f64; 3]) -> [f64; 3] {
+        radiosity.map(|band| -(-self.k * band.max(0.0)).exp_m1())
+    }
+}
+
+/// Red, green and blue out of values that stand band by band: the first three bands; of fewer, the last is repeated.
+#[must_use]
+pub fn rgb(values: &[f64], bands: usize) -> Vec<[f64; 3]> {
+    let colour = |bands: &[f64]| std::array::from_fn(|band| bands[band.min(bands.len() - 1)]);
+    values.chunks(bands.max(1)).map(colour).collect()
+}
+
+/// The sRGB transfer function: what an 8-bit channel stores for a linear intensity from 0 to 1 (IEC 61966-2-1).
+#[must_use]
+pub fn srgb(intensity: f64) -> f64 {
+    if intensity <= 0.003_130_8 { 12.92 * intensity } else { 1.055 * intensity.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The geometric mean, weighted by area, over lit elements of the chosen patches.
+fn mean_luminance(solution: &Solution, chosen: impl Fn(usize) -> bool) -> Option<f64> {
+    let mesh = &solution.mesh;
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for (index, colour) in rgb(&solution.radiosity, solution.bands).into_iter().enumerate() {
+        let luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+        if luminance > 0.0 && chosen(mesh.elements[index].patch) {
+            let area = mesh.area(index);
+            sum += area * luminance.ln();
+            weight += area;
+        }
+    }
+    (weight > 0.0).then(|| (sum / weight).exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intensity_starts_at_zero_rises_and_never_passes_one() {
+        let exposure = Exposure::new(2.0).unwrap();
+        let [none, some, all] = exposure.intensity([0.0, std::f64::consts::LN_2 / 2.0, 1e300]);
+        assert_eq!((none, all), (0.0, 1.0));
+        assert!((some - 0.5).abs() < 1e-15);
+        assert_eq!(exposure.intensity([-1.0; 3]), [0.0; 3]);
+    }
+
+    #[test]
+    fn k_is_positive_and_finite() {
+        assert!([0.0, -1.0, f64::NAN, f64::INFINITY].iter().all(|k| Exposure::new(*k).is_none()));
+    }
+
+    #[test]
+    fn fewer_bands_than_three_repeat_the_last() {
+        assert_eq!(rgb(&[1.0, 2.0], 1), [[1.0; 3], [2.0; 3]]);
+        assert_eq!(rgb(&[1.0, 2.0], 2), [[1.0, 2.0, 2.0]]);
+        assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 4), [[1.0, 2.0, 3.0]]);
+    }
+
+    #[test]
+    fn the_transfer_function_meets_its_known_values() {
+        assert_eq!(srgb(0.0), 0.0);
+        assert!((srgb(1.0) - 1.0).abs() < 1e-12);
+        assert!((srgb(0.18) - 0.461_356).abs() < 1e-6);
+        assert!((srgb(0.003_130_8 + 1e-12) - srgb(0.003_130_8)).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,69 @@
+//! Perspective cameras.
+use super::super::{Error, Fault};
+use super::file::{File, Node, child, descend};
+use super::walk::{Sight, name_of};
+use crate::Camera;
+use glam::DVec3;
+
+/// The cameras of the scene; others than perspective ones draw a warning.
+pub(super) fn cameras<'a>(
+    file: &File<'a>,
+    sights: &[Sight<'a>],
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Camera>, Error> {
+    let mut all = Vec::new();
+    for sight in sights {
+        match descend(sight.camera, &["optics", "technique_common", "perspective"]) {
+            Some(perspective) => all.push(camera(file, sight, perspective)?),
+            None => {
+                let place = file.place(sight.camera);
+                warnings.push(format!("{place}: only perspective cameras are read; this one is left out"));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// A camera looks along its node's −z, with +y up.
+fn camera<'a>(file: &File<'a>, sight: &Sight<'a>, perspective: Node<'a>) -> Result<Camera, Error> {
+    let (vertical_fov, aspect) = lens(file, perspective)?;
+    let world = sight.visit.world;
+    let turned = |axis| world.transform_vector3(axis).try_normalize();
+    let axes = turned(DVec3::NEG_Z).zip(turned(DVec3::Y));
+    let upright = axes.filter(|(direction, up)| direction.cross(*up).try_normalize().is_some());
+    let (direction, up) = upright.ok_or_else(|| file.fault(sight.visit.node, Fault::Axis))?;
+    let name = name_of(sight.visit.node, "camera").into();
+    Ok(Camera { name, position: world.w_axis.truncate(), direction, up, vertical_fov, aspect })
+}
+
+/// The vertical field of view in radians, and width over height. Of `xfov`, `yfov` and `aspect_ratio` any two give the
+/// third; one alone is completed by 4:3.
+fn lens<'a>(file: &File<'a>, perspective: Node<'a>) -> Result<(f64, f64), Error> {
+    let horizontal = half_tangent(file, perspective, "xfov")?;
+    let vertical = half_tangent(file, perspective, "yfov")?;
+    let ratio = ratio(file, perspective)?;
+    let (tangent, aspect) = match (horizontal, vertical, ratio) {
+        (_, Some(vertical), Some(ratio)) => (vertical, ratio),
+        (Some(horizontal), Some(vertical), None) => (vertical, horizontal / vertical),
+        (Some(horizontal), None, _) => (horizontal / ratio.unwrap_or(4.0 / 3.0), ratio.unwrap_or(4.0 / 3.0)),
+        (None, Some(vertical), None) => (vertical, 4.0 / 3.0),
+        (None, None, _) => return Err(file.fault(perspective, Fault::Child("yfov"))),
+    };
+    Ok((2.0 * tangent.atan(), aspect))
+}
+
+/// The tangent of half the angle that a child states in degrees.
+fn half_tangent<'a>(file: &File<'a>, lens: Node<'a>, name: &'static str) -> Result<Option<f64>, Error> {
+    let Some(element) = child(lens, name) else { return Ok(None) };
+    let [degrees] = file.array(element)?;
+    if degrees > 0.0 && degrees < 180.0 {
+        return Ok(Some((degrees.to_radians() / 2.0).tan()));
+    }
+    Err(file.fault(element, Fault::Angle(degrees)))
+}
+
+fn ratio<'a>(file: &File<'a>, lens: Node<'a>) -> Result<Option<f64>, Error> {
+    let Some(element) = child(lens, "aspect_ratio") else { return Ok(None) };
+    let [ratio] = file.array(element)?;
+    if ratio > 0.0 { Ok(Some(ratio)) } else { Err(file.fault(element, Fault::Ratio(ratio))) }
+}

@@ -1,0 +1,150 @@
+//! The parsed file: elements found by tag and by id, faults reported with their line.
+use super::super::{Error, Fault};
+use std::collections::HashMap;
+use std::str::FromStr;
+
+pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
+
+/// A COLLADA document and its ids.
+pub(super) struct File<'a> {
+    name: &'a str,
+    pub(super) root: Node<'a>,
+    ids: HashMap<&'a str, Node<'a>>,
+}
+
+impl<'a> File<'a> {
+    /// Checks the root element and its version; where an id stands twice, the first counts.
+    pub(super) fn new(name: &'a str, document: &'a roxmltree::Document<'a>) -> Result<Self, Error> {
+        let mut ids = HashMap::new();
+        for node in document.descendants() {
+            if let Some(id) = node.attribute("id") {
+                ids.entry(id).or_insert(node);
+            }
+        }
+        let file = Self { name, root: document.root_element(), ids };
+        if file.root.tag_name().name() != "COLLADA" {
+            return Err(file.fault(file.root, Fault::NotCollada));
+        }
+        let version = file.attribute(file.root, "version")?;
+        if !["1.4", "1.5"].iter().any(|known| version.starts_with(known)) {
+            return Err(file.fault(file.root, Fault::Version(version.into())));
+        }
+        Ok(file)
+    }
+
+    /// `file:line:column` of an element.
+    pub(super) fn place(&self, node: Node) -> String {
+        let at = node.document().text_pos_at(node.range().start);
+        format!("{}:{}:{}", self.name, at.row, at.col)
+    }
+
+    pub(super) fn fault(&self, node: Node, fault: Fault) -> Error {
+        let at = node.document().text_pos_at(node.range().start);
+        Error::Scene {
+            file: self.name.into(),
+            line: at.row,
+            column: at.col,
+            element: node.tag_name().name().into(),
+            fault,
+        }
+    }
+
+    pub(super) fn attribute(&self, node: Node<'a>, name: &'static str) -> Result<&'a str, Error> {
+        node.attribute(name).ok_or_else(|| self.fault(node, Fault::Attribute(name)))
+    }
+
+    pub(super) fn child(&self, node: Node<'a>, name: &'static str) -> Result<Node<'a>, Error> {
+        child(node, name).ok_or_else(|| self.fault(node, Fault::Child(name)))
+    }
+
+    /// Whether some element has this id.
+    pub(super) fn has_id(&self, id: &str) -> bool {
+        self.ids.contains_key(id)
+    }
+
+    /// The element with this id, if it is a `wanted`.
+    pub(super) fn by_id(&self, id: &str, wanted: &str) -> Option<Node<'a>> {
+        self.ids.get(id).copied().filter(|node| node.tag_name().name() == wanted)
+    }
+
+    /// What the reference in an attribute names. A bare id, without `#`, is taken as well.
+    pub(super) fn target(
+        &self,
+        node: Node<'a>,
+        attribute: &'static str,
+        wanted: &'static str,
+    ) -> Result<Node<'a>, Error> {
+        let url = self.attribute(node, attribute)?.trim();
+        let id = url.strip_prefix('#').unwrap_or(url);
+        self.by_id(id, wanted).ok_or_else(|| {
+            let external = id == url && url.contains(['#', '/', ':']);
+            let fault = if external {
+                Fault::External(url.into())
+            } else {
+                Fault::Unresolved { url: url.into(), wanted }
+            };
+            self.fault(node, fault)
+        })
+    }
+
+    /// The finite numbers that are an element's text.
+    pub(super) fn numbers(&self, node: Node<'a>) -> Result<Vec<f64>, Error> {
+        words(node).map(|word| self.number(node, word)).collect()
+    }
+
+    fn number(&self, node: Node<'a>, word: &str) -> Result<f64, Error> {
+        let number = f64::from_str(word).ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| self.fault(node, Fault::Number(shorten(word))))
+    }
+
+    /// Exactly `N` numbers.
+    pub(super) fn array<const N: usize>(&self, node: Node<'a>) -> Result<[f64; N], Error> {
+        let numbers = self.numbers(node)?;
+        let found = numbers.len();
+        numbers.try_into().map_err(|_| self.fault(node, Fault::Count { found, wanted: N }))
+    }
+
+    /// The whole numbers that are an element's text.
+    pub(super) fn wholes(&self, node: Node<'a>) -> Result<Vec<usize>, Error> {
+        words(node).map(|word| self.whole(node, word)).collect()
+    }
+
+    fn whole(&self, node: Node<'a>, word: &str) -> Result<usize, Error> {
+        word.parse().map_err(|_| self.fault(node, Fault::Whole(shorten(word))))
+    }
+
+    /// A whole number in an attribute, or `otherwise` where it is absent.
+    pub(super) fn whole_attribute(
+        &self,
+        node: Node<'a>,
+        name: &'static str,
+        otherwise: usize,
+    ) -> Result<usize, Error> {
+        node.attribute(name).map_or(Ok(otherwise), |text| self.whole(node, text.trim()))
+    }
+}
+
+/// Child elements of that tag, in any namespace.
+pub(super) fn children<'a>(node: Node<'a>, name: &'static str) -> impl Iterator<Item = Node<'a>> {
+    node.children().filter(move |child| child.tag_name().name() == name)
+}
+
+pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> {
+    children(node, name).next()
+}
+
+/// Follows child elements down a path of tags.
+pub(super) fn descend<'a>(node: Node<'a>, path: &[&'static str]) -> Option<Node<'a>> {
+    path.iter().try_fold(node, |at, name| child(at, name))
+}
+
+/// The words of an element's text; comments between them are skipped.
+fn words<'a>(node: Node<'a>) -> impl Iterator<Item = &'a str> {
+    let texts = node.children().filter(Node::is_text);
+    texts.flat_map(|text| text.text().unwrap_or_default().split_ascii_whitespace())
+}
+
+/// A hostile word may be as long as the file.
+fn shorten(word: &str) -> String {
+    word.chars().take(40).collect()
+}

@@ -1,0 +1,98 @@
+//! What a polygon reflects and emits: the material bound to its symbol, through the effect.
+use super::super::{Error, Fault};
+use super::file::{File, Node, child, children, descend};
+
+/// The reflectance of a surface that says nothing, or shows a texture.
+const DEFAULT_REFLECTANCE: f64 = 0.5;
+
+/// Red, green and blue of a surface.
+#[derive(Clone, Copy)]
+pub(super) struct Finish {
+    pub(super) reflectance: [f64; 3],
+    /// Radiance.
+    pub(super) emission: [f64; 3],
+}
+
+/// The finish that `instance`, an `<instance_geometry>`, binds to `symbol`.
+pub(super) fn finish<'a>(
+    file: &File<'a>,
+    instance: Node<'a>,
+    symbol: Option<&str>,
+    warnings: &mut Vec<String>,
+) -> Result<Finish, Error> {
+    let mut plain = |why: &str| {
+        let place = file.place(instance);
+        warnings.push(format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken"));
+        Ok(Finish { reflectance: [DEFAULT_REFLECTANCE; 3], emission: [0.0; 3] })
+    };
+    let Some(symbol) = symbol else { return plain("polygons without a material") };
+    let Some(material) = bound(file, instance, symbol)? else {
+        return plain(&format!("the material {symbol:?} is not bound"));
+    };
+    let effect = file.target(file.child(material, "instance_effect")?, "url", "effect")?;
+    let Some(shader) = shader(effect) else {
+        return plain(&format!("the effect of {symbol:?} has no common shader"));
+    };
+    Ok(Finish {
+        reflectance: colour(file, effect, shader, "diffuse", DEFAULT_REFLECTANCE, warnings)?,
+        emission: colour(file, effect, shader, "emission", 0.0, warnings)?,
+    })
+}
+
+/// The `<instance_material>` of that symbol, or, since some exporters bind nothing, the material of that id.
+fn bound<'a>(file: &File<'a>, instance: Node<'a>, symbol: &str) -> Result<Option<Node<'a>>, Error> {
+    let common = descend(instance, &["bind_material", "technique_common"]);
+    let mut bindings = common.into_iter().flat_map(|common| children(common, "instance_material"));
+    match bindings.find(|binding| binding.attribute("symbol") == Some(symbol)) {
+        Some(binding) => file.target(binding, "target", "material").map(Some),
+        None => Ok(file.by_id(symbol, "material")),
+    }
+}
+
+fn shader(effect: Node<'_>) -> Option<Node<'_>> {
+    let technique = descend(effect, &["profile_COMMON", "technique"])?;
+    ["lambert", "phong", "blinn", "constant"].iter().find_map(|name| child(technique, name))
+}
+
+/// A shader's colour: 0 where it is absent, `otherwise`, with a warning, where it is a texture.
+fn colour<'a>(
+    file: &File<'a>,
+    effect: Node<'a>,
+    shader: Node<'a>,
+    name: &'static str,
+    otherwise: f64,
+    warnings: &mut Vec<String>,
+) -> Result<[f64; 3], Error> {
+    let Some(slot) = child(shader, name) else { return Ok([0.0; 3]) };
+    if let Some(element) = child(slot, "color").or_else(|| parameter(effect, slot)) {
+        return rgb(file, element);
+    }
+    let place = file.place(slot);
+    warnings.push(format!("{place}: textures are not read; {name} {otherwise} is taken"));
+    Ok([otherwise; 3])
+}
+
+/// The `<float3>` or `<float4>` of the `<newparam>` that a `<param ref="…">` names.
+fn parameter<'a>(effect: Node<'a>, slot: Node<'a>) -> Option<Node<'a>> {
+    let name = child(slot, "param")?.attribute("ref")?;
+    let places = [Some(effect), child(effect, "profile_COMMON")];
+    let mut parameters = places.into_iter().flatten().flat_map(|place| children(place, "newparam"));
+    let parameter = parameters.find(|parameter| parameter.attribute("sid") == Some(name))?;
+    child(parameter, "float3").or_else(|| child(parameter, "float4"))
+}
+
+/// Three numbers, or four, of which the last is opacity and left out.
+fn rgb<'a>(file: &File<'a>, element: Node<'a>) -> Result<[f64; 3], Error> {
+    let numbers = file.numbers(element)?;
+    let &[red, green, blue, ref rest @ ..] = numbers.as_slice() else {
+        return Err(file.fault(element, Fault::Count { found: numbers.len(), wanted: 4 }));
+    };
+    if rest.len() > 1 {
+        return Err(file.fault(element, Fault::Count { found: numbers.len(), wanted: 4 }));
+    }
+    let colour = [red, green, blue];
+    match colour.into_iter().find(|value| *value < 0.0) {
+        Some(value) => Err(file.fault(element, Fault::Negative(value))),
+        None => Ok(colour),
+    }
+}

@@ -1,0 +1,92 @@
+//! A `<mesh>` with a colour at every vertex, as text.
+use glam::DVec3;
+use std::fmt::{Display, Write};
+
+/// Triangles in a geometry's coordinates, grouped by material symbol.
+#[derive(Default)]
+pub(super) struct LitMesh {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) colours: Vec<[f64; 3]>,
+    pub(super) groups: Vec<Group>,
+}
+
+/// The triangles of one primitive.
+pub(super) struct Group {
+    pub(super) material: Option<String>,
+    pub(super) triangles: Vec<[usize; 3]>,
+}
+
+/// The ids of the mesh's parts, none of them used elsewhere in the file.
+pub(super) struct Ids {
+    pub(super) positions: String,
+    pub(super) colours: String,
+    pub(super) vertices: String,
+}
+
+impl LitMesh {
+    /// The element, from `<mesh>` to `</mesh>`.
+    pub(super) fn text(&self, ids: &Ids) -> String {
+        let points = self.positions.iter().map(|point| point.to_array());
+        let positions = source(&ids.positions, ["X", "Y", "Z"], points);
+        let colours = source(&ids.colours, ["R", "G", "B"], self.colours.iter().copied());
+        let vertices = format!(
+            "<vertices id=\"{}\"><input semantic=\"POSITION\" source=\"#{}\"/></vertices>\n",
+            escape(&ids.vertices),
+            escape(&ids.positions)
+        );
+        let groups: String = self.groups.iter().map(|group| group.text(ids)).collect();
+        format!("<mesh>\n{positions}{colours}{vertices}{groups}</mesh>")
+    }
+}
+
+impl Group {
+    fn text(&self, ids: &Ids) -> String {
+        let symbol = self.material.as_ref().map(|symbol| format!(" material=\"{}\"", escape(symbol)));
+        format!(
+            "<triangles{} count=\"{}\">\n\
+             <input semantic=\"VERTEX\" source=\"#{}\" offset=\"0\"/>\n\
+             <input semantic=\"COLOR\" source=\"#{}\" offset=\"0\" set=\"0\"/>\n<p>{}</p>\n</triangles>\n",
+            symbol.unwrap_or_default(),
+            self.triangles.len(),
+            escape(&ids.vertices),
+            escape(&ids.colours),
+            list(self.triangles.iter().flatten())
+        )
+    }
+}
+
+/// A `<source>` of three numbers each.
+fn source(id: &str, names: [&str; 3], rows: impl Iterator<Item = [f64; 3]>) -> String {
+    let numbers: Vec<f64> = rows.flatten().collect();
+    let parameters = names.map(|name| format!("<param name=\"{name}\" type=\"float\"/>")).concat();
+    let (id, count, rows) = (escape(id), numbers.len(), numbers.len() / 3);
+    let array = format!(
+        "<float_array id=\"{id}-array\" count=\"{count}\">{}</float_array>",
+        list(numbers.iter().map(decimal))
+    );
+    let accessor =
+        format!("<accessor source=\"#{id}-array\" count=\"{rows}\" stride=\"3\">{parameters}</accessor>");
+    format!("<source id=\"{id}\">\n{array}\n<technique_common>{accessor}</technique_common>\n</source>\n")
+}
+
+/// Words with a space between them.
+pub(crate) fn list(words: impl Iterator<Item = impl Display>) -> String {
+    let mut text = String::new();
+    for (index, word) in words.enumerate() {
+        let gap = if index == 0 { "" } else { " " };
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{gap}{word}");
+    }
+    text
+}
+
+/// The shortest decimal that reads back as the same number; −0 is written as 0.
+pub(crate) fn decimal(number: &f64) -> String {
+    let text = format!("{:?}", number + 0.0);
+    text.strip_suffix(".0").map(Into::into).unwrap_or(text)
+}
+
+/// Text that may stand in an attribute.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}

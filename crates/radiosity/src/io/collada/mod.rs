@@ -1,0 +1,115 @@
+//! COLLADA 1.4 and 1.5: scenes read, and written back with light on their surfaces.
+//!
+//! Read: the visual scene that `<scene>` instances, nodes with their transforms (all but `<skew>`), `<instance_node>`,
+//! `<polylist>`, `<polygons>` with holes, `<triangles>`, `<tristrips>`, `<trifans>`, materials by the diffuse colour
+//! (reflectance) and the emission colour (radiance) of their common profile, perspective cameras. What is left out draws a
+//! warning. Every polygon becomes a one-sided patch; its front is the side from which it is counter-clockwise.
+//!
+//! A polygon that is not planar is split into triangles, one without area is left out, both with a warning. A node whose
+//! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
+mod camera;
+mod file;
+mod material;
+mod mesh_text;
+mod patches;
+mod primitive;
+mod split;
+mod transform;
+mod walk;
+mod write;
+
+use super::Error;
+use crate::{Mesh, Scene};
+use file::{File, child};
+use glam::DVec3;
+pub(crate) use mesh_text::{decimal, list};
+use std::path::Path;
+
+/// The text of a COLLADA file, which a result can be written back into.
+#[derive(Clone, Debug)]
+pub struct Collada {
+    name: String,
+    text: String,
+}
+
+/// What `<asset>` says about the coordinates, which stay as they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asset {
+    /// The axis that points up; y where the file says nothing.
+    pub up: DVec3,
+    /// Length of the file's unit in metres; 1 where the file says nothing.
+    pub unit: f64,
+}
+
+impl Collada {
+    /// Reads a file's text.
+    ///
+    /// # Errors
+    /// [`Error::Read`] when the system does not give it, [`Error::Encoding`] when it is not UTF-8.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let name = path.display().to_string();
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { name, text }),
+            Err(wrong) => Err(Error::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
+        }
+    }
+
+    /// Takes a text as the file `name`, which messages will show.
+    pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// The scene: patches, cameras and warnings, in the file's units and axes.
+    ///
+    /// # Errors
+    /// [`Error::Xml`] and [`Error::Scene`], with the line.
+    pub fn scene(&self) -> Result<Scene, Error> {
+        self.with_file(|file| {
+            let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
+            let patches = patches::patches(file, &instances, &mut warnings)?;
+            let cameras = camera::cameras(file, &sights, &mut warnings)?;
+            Ok(Scene { patches, cameras, bands: 3, warnings })
+        })
+    }
+
+    /// The unit and the up axis.
+    ///
+    /// # Errors
+    /// [`Error::Xml`] and [`Error::Scene`], with the line.
+    pub fn asset(&self) -> Result<Asset, Error> {
+        self.with_file(asset)
+    }
+
+    /// The file's text with each lit geometry replaced by the mesh's triangles, `colours` (three per vertex of the
+    /// mesh) at their vertices, in the node's coordinates. Everything else stays byte for byte; a geometry that several
+    /// nodes instance gets a copy for each.
+    ///
+    /// `scene` must be this file's scene and `mesh` a mesh of its patches.
+    ///
+    /// # Errors
+    /// As [`Collada::scene`].
+    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, Error> {
+        self.with_file(|file| write::with_light(&self.text, file, &write::Light { scene, mesh, colours }))
+    }
+
+    fn with_file<T>(&self, read: impl FnOnce(&File) -> Result<T, Error>) -> Result<T, Error> {
+        let document = roxmltree::Document::parse(&self.text)
+            .map_err(|source| Error::Xml { file: self.name.clone(), source })?;
+        read(&File::new(&self.name, &document)?)
+    }
+}
+
+fn asset(file: &File) -> Result<Asset, Error> {
+    let asset = child(file.root, "asset");
+    let axis = asset.and_then(|asset| child(asset, "up_axis")).and_then(|axis| axis.text());
+    let up = match axis.map(str::trim) {
+        Some("X_UP") => DVec3::X,
+        Some("Z_UP") => DVec3::Z,
+        _ => DVec3::Y,
+    };
+    let unit = asset.and_then(|asset| child(asset, "unit")).and_then(|unit| unit.attribute("meter"));
+    let metres = unit.and_then(|metres| metres.trim().parse().ok());
+    Ok(Asset { up, unit: metres.filter(|metres: &f64| metres.is_normal() && *metres > 0.0).unwrap_or(1.0) })
+}

@@ -1,0 +1,234 @@
+//! A geometry's polygons: positions through sources and accessors, loops through the primitives' indices.
+use super::super::{Error, Fault};
+use super::file::{File, Node, child, children, descend};
+use glam::DVec3;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// A `<polylist>`, `<triangles>`, …: polygons of one material.
+pub(super) struct Primitive<'a> {
+    pub(super) element: Node<'a>,
+    /// The symbol that the instance binds to a material.
+    pub(super) material: Option<&'a str>,
+    pub(super) polygons: Vec<Polygon>,
+}
+
+/// Loops of points in the geometry's coordinates; the first is the outline, the others are holes.
+pub(super) type Polygon = Vec<Vec<DVec3>>;
+
+/// The primitives of a geometry that have area, and warnings about what has none.
+pub(super) fn primitives<'a>(
+    file: &File<'a>,
+    geometry: Node<'a>,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Primitive<'a>>, Error> {
+    let Some(mesh) = child(geometry, "mesh") else {
+        warnings
+            .push(format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry)));
+        return Ok(Vec::new());
+    };
+    let mut sources = HashMap::new();
+    let mut all = Vec::new();
+    for element in surfaces(geometry) {
+        let polygons = polygons(file, element, &mut sources)?;
+        all.push(Primitive { element, material: element.attribute("material"), polygons });
+    }
+    if let Some(line) = mesh.children().find(|node| matches!(node.tag_name().name(), "lines" | "linestrips"))
+    {
+        warnings.push(format!("{}: lines have no area; they are left out", file.place(line)));
+    }
+    Ok(all)
+}
+
+/// The primitive elements of a geometry that have area, in the order of the file.
+pub(super) fn surfaces<'a>(geometry: Node<'a>) -> impl Iterator<Item = Node<'a>> {
+    let elements = child(geometry, "mesh").into_iter().flat_map(|mesh| mesh.children());
+    elements.filter(|node| {
+        matches!(node.tag_name().name(), "polylist" | "polygons" | "triangles" | "tristrips" | "trifans")
+    })
+}
+
+fn polygons<'a>(
+    file: &File<'a>,
+    element: Node<'a>,
+    sources: &mut HashMap<Node<'a>, Vec<DVec3>>,
+) -> Result<Vec<Polygon>, Error> {
+    let Some(layout) = layout(file, element)? else { return Ok(Vec::new()) };
+    let positions = match sources.entry(layout.source) {
+        Entry::Occupied(known) => known.into_mut(),
+        Entry::Vacant(new) => new.insert(positions(file, layout.source)?),
+    };
+    let points = Points { file, layout: &layout, positions };
+    let outlines = |rings: Vec<Vec<DVec3>>| rings.into_iter().map(|ring| vec![ring]);
+    let mut all = Vec::new();
+    match element.tag_name().name() {
+        "polylist" => all.extend(outlines(polylist(file, element, &points)?)),
+        "polygons" => all = with_holes(file, element, &points)?,
+        tag => {
+            for p in children(element, "p") {
+                let ring = points.ring(p)?;
+                all.extend(outlines(triangles(file, p, tag, &ring)?));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Where the position's index stands among the indices of a vertex, and what it points into.
+struct Layout<'a> {
+    stride: usize,
+    offset: usize,
+    source: Node<'a>,
+}
+
+/// `None` for a primitive without any input: it has no polygons either.
+fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, Error> {
+    let (mut stride, mut vertex) = (0, None);
+    for input in children(element, "input") {
+        let offset = file.whole_attribute(input, "offset", 0)?;
+        let next = offset.checked_add(1).ok_or_else(|| file.fault(input, Fault::Huge("the offset")))?;
+        stride = stride.max(next);
+        if input.attribute("semantic") == Some("VERTEX") {
+            vertex = Some((input, offset));
+        }
+    }
+    let Some((input, offset)) = vertex else {
+        let empty = child(element, "p").is_none() && child(element, "ph").is_none();
+        return if empty {
+            Ok(None)
+        } else {
+            Err(file.fault(element, Fault::Child("input semantic=\"VERTEX\"")))
+        };
+    };
+    let vertices = file.target(input, "source", "vertices")?;
+    let position = children(vertices, "input").find(|input| input.attribute("semantic") == Some("POSITION"));
+    let position =
+        position.ok_or_else(|| file.fault(vertices, Fault::Child("input semantic=\"POSITION\"")))?;
+    Ok(Some(Layout { stride, offset, source: file.target(position, "source", "source")? }))
+}
+
+/// The points of a source, through its accessor where it has one.
+fn positions<'a>(file: &File<'a>, source: Node<'a>) -> Result<Vec<DVec3>, Error> {
+    let array = file.child(source, "float_array")?;
+    let Some(accessor) = descend(source, &["technique_common", "accessor"]) else {
+        return points(file, array, 3, 0, None);
+    };
+    let array = match accessor.attribute("source") {
+        Some(_) => file.target(accessor, "source", "float_array")?,
+        None => array,
+    };
+    let stride = file.whole_attribute(accessor, "stride", 1)?;
+    let offset = file.whole_attribute(accessor, "offset", 0)?;
+    let count =
+        accessor.attribute("count").map(|_| file.whole_attribute(accessor, "count", 0)).transpose()?;
+    if stride < 3 {
+        return Err(file.fault(accessor, Fault::Count { found: stride, wanted: 3 }));
+    }
+    points(file, array, stride, offset, count)
+}
+
+/// As many points as `count` says, or as the array holds.
+fn points<'a>(
+    file: &File<'a>,
+    array: Node<'a>,
+    stride: usize,
+    offset: usize,
+    count: Option<usize>,
+) -> Result<Vec<DVec3>, Error> {
+    let numbers = file.numbers(array)?;
+    let short = |wanted| file.fault(array, Fault::Count { found: numbers.len(), wanted });
+    let values = numbers.get(offset..).ok_or_else(|| short(offset))?;
+    let whole = values.chunks(stride).filter(|chunk| chunk.len() >= 3);
+    let all = whole.map(|chunk| DVec3::new(chunk[0], chunk[1], chunk[2]));
+    let points: Vec<DVec3> = all.take(count.unwrap_or(usize::MAX)).collect();
+    match count {
+        Some(count) if points.len() < count => {
+            Err(short(count.saturating_mul(stride).saturating_add(offset)))
+        }
+        _ => Ok(points),
+    }
+}
+
+/// Turns index lists into points.
+struct Points<'f, 'a> {
+    file: &'f File<'a>,
+    layout: &'f Layout<'a>,
+    positions: &'f [DVec3],
+}
+
+impl<'a> Points<'_, 'a> {
+    /// The points of a `<p>` or `<h>`.
+    fn ring(&self, p: Node<'a>) -> Result<Vec<DVec3>, Error> {
+        let indices = self.file.wholes(p)?;
+        let Layout { stride, offset, .. } = *self.layout;
+        if indices.len() % stride != 0 {
+            let wanted = indices.len().next_multiple_of(stride);
+            return Err(self.file.fault(p, Fault::Count { found: indices.len(), wanted }));
+        }
+        indices.chunks(stride).map(|vertex| self.point(p, vertex[offset])).collect()
+    }
+
+    fn point(&self, p: Node<'a>, index: usize) -> Result<DVec3, Error> {
+        let len = self.positions.len();
+        self.positions.get(index).copied().ok_or_else(|| self.file.fault(p, Fault::Index { index, len }))
+    }
+}
+
+fn polylist<'a>(
+    file: &File<'a>,
+    element: Node<'a>,
+    points: &Points<'_, 'a>,
+) -> Result<Vec<Vec<DVec3>>, Error> {
+    let Some(p) = child(element, "p") else { return Ok(Vec::new()) };
+    let counts = file.wholes(file.child(element, "vcount")?)?;
+    let ring = points.ring(p)?;
+    let wanted = counts.iter().fold(0_usize, |sum, count| sum.saturating_add(*count));
+    if wanted != ring.len() {
+        return Err(file.fault(p, Fault::Count { found: ring.len(), wanted }));
+    }
+    let mut rest = ring.as_slice();
+    let mut next = |count: usize| {
+        let (polygon, after) = rest.split_at(count);
+        rest = after;
+        polygon.to_vec()
+    };
+    Ok(counts.into_iter().map(&mut next).collect())
+}
+
+fn with_holes<'a>(
+    file: &File<'a>,
+    element: Node<'a>,
+    points: &Points<'_, 'a>,
+) -> Result<Vec<Polygon>, Error> {
+    let mut all = Vec::new();
+    for polygon in element.children() {
+        match polygon.tag_name().name() {
+            "p" => all.push(vec![points.ring(polygon)?]),
+            "ph" => {
+                let outline = points.ring(file.child(polygon, "p")?)?;
+                let holes = children(polygon, "h").map(|hole| points.ring(hole));
+                all.push(std::iter::once(Ok(outline)).chain(holes).collect::<Result<_, _>>()?);
+            }
+            _ => {}
+        }
+    }
+    Ok(all)
+}
+
+/// The triangles of a list, a strip (every second one turned) or a fan.
+fn triangles<'a>(file: &File<'a>, p: Node<'a>, tag: &str, ring: &[DVec3]) -> Result<Vec<Vec<DVec3>>, Error> {
+    if tag == "triangles" {
+        if ring.len() % 3 != 0 {
+            let wanted = ring.len().next_multiple_of(3);
+            return Err(file.fault(p, Fault::Count { found: ring.len(), wanted }));
+        }
+        return Ok(ring.chunks(3).map(<[_]>::to_vec).collect());
+    }
+    let strip = tag == "tristrips";
+    let corners = |i: usize| match (strip, i % 2) {
+        (true, 0) => [i, i + 1, i + 2],
+        (true, _) => [i + 1, i, i + 2],
+        (false, _) => [0, i + 1, i + 2],
+    };
+    Ok((0..ring.len().saturating_sub(2)).map(|i| corners(i).map(|k| ring[k]).to_vec()).collect())
+}

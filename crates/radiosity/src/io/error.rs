@@ -1,0 +1,158 @@
+//! What can go wrong with files.
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a file was not read or written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The file could not be read.
+    #[error("{}: cannot be read: {source}; check its name and permissions", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file could not be written; what stood there before still stands.
+    #[error("{}: cannot be written: {source}; check the folder and its permissions", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// More data than the format can hold.
+    #[error("{bytes} bytes do not fit into a GLB file, which ends at 4 GiB; use fewer elements")]
+    Size {
+        /// Length of the data.
+        bytes: usize,
+    },
+    /// The bytes are not text in UTF-8.
+    #[error("{file}: byte {position} is not UTF-8; save the file in UTF-8")]
+    Encoding {
+        /// The file.
+        file: String,
+        /// Offset of the first wrong byte.
+        position: usize,
+    },
+    /// The text is not well-formed XML.
+    #[error("{file}:{}:{}: not well-formed XML: {source}; export the file again", source.pos().row, source.pos().col)]
+    Xml {
+        /// The file.
+        file: String,
+        /// What the parser says.
+        source: roxmltree::Error,
+    },
+    /// An element of the file cannot be taken.
+    #[error("{file}:{line}:{column}: <{element}>: {fault}")]
+    Scene {
+        /// The file.
+        file: String,
+        /// Line, from 1.
+        line: u32,
+        /// Column, from 1.
+        column: u32,
+        /// The element's tag.
+        element: String,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+}
+
+/// What is wrong with an element of a scene file, and how to mend it.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The root element is another one.
+    #[error("the root element is not <COLLADA>; export the scene as COLLADA 1.4 or 1.5")]
+    NotCollada,
+    /// A version that is not read.
+    #[error("COLLADA version {0:?} is not read; export the scene as COLLADA 1.4 or 1.5")]
+    Version(String),
+    /// An attribute is missing.
+    #[error("the attribute {0} is missing; add it")]
+    Attribute(&'static str),
+    /// A child element is missing.
+    #[error("a child <{0}> is missing; add it")]
+    Child(&'static str),
+    /// A reference to something that does not exist.
+    #[error("{url:?} names no <{wanted}> of this file; correct the reference or add the element")]
+    Unresolved {
+        /// The reference.
+        url: String,
+        /// The element it should name.
+        wanted: &'static str,
+    },
+    /// A reference to another file.
+    #[error("{0:?} refers to another file; merge the files into one")]
+    External(String),
+    /// Text that is no finite number.
+    #[error("{0:?} is not a finite number; correct it")]
+    Number(String),
+    /// Text that is no index.
+    #[error("{0:?} is not a whole number from 0 on; correct it")]
+    Whole(String),
+    /// Another number of values than needed.
+    #[error("{found} values stand where {wanted} are needed; correct the list")]
+    Count {
+        /// How many stand there.
+        found: usize,
+        /// How many are needed.
+        wanted: usize,
+    },
+    /// An index beyond the end of what it points into.
+    #[error("index {index} is out of range: there are {len}; correct it")]
+    Index {
+        /// The index.
+        index: usize,
+        /// Number of things it may point to.
+        len: usize,
+    },
+    /// An accessor or input whose numbers cannot be right.
+    #[error("{0} is too large; correct it")]
+    Huge(&'static str),
+    /// A rotation axis or view direction of length zero, or parallel to another.
+    #[error("its axes have no direction of their own; give axes that are neither zero nor parallel")]
+    Axis,
+    /// A matrix with a perspective part.
+    #[error("the matrix's last row is not 0 0 0 1; bake the transform into the geometry")]
+    Projective,
+    /// Something that is not read.
+    #[error("this element is not read; bake the transform into a <matrix>")]
+    Unsupported,
+    /// The product of the node transforms leaves the range of numbers.
+    #[error("the node's transform is not finite; give smaller factors")]
+    Overflow,
+    /// A field of view outside the possible.
+    #[error("the angle {0} is not between 0 and 180 degrees; correct it")]
+    Angle(f64),
+    /// A ratio that is not positive.
+    #[error("the ratio {0} is not positive; correct it")]
+    Ratio(f64),
+    /// A colour below zero.
+    #[error("the colour {0} is negative; give 0 or more")]
+    Negative(f64),
+    /// A node that contains itself.
+    #[error("the node instances itself; remove one of the <instance_node>")]
+    Cycle,
+    /// Nesting of instances beyond the limit.
+    #[error("instances are nested more than {0} deep; flatten the scene")]
+    Nesting(usize),
+    /// More things than the reader takes.
+    #[error("the scene has more than {limit} {what}; split it")]
+    TooMany {
+        /// What there are too many of.
+        what: &'static str,
+        /// The limit.
+        limit: usize,
+    },
+    /// A polygon that the form factors refuse.
+    #[error("polygon {polygon}: {source}")]
+    Shape {
+        /// Index of the polygon within the element, from 0.
+        polygon: usize,
+        /// What the form factors say.
+        source: formfactor::Error,
+    },
+}

@@ -1,0 +1,8 @@
+//! Scene files in, results out: COLLADA, glTF binary, whole files only.
+pub mod collada;
+mod error;
+pub mod glb;
+mod save;
+
+pub use error::{Error, Fault};
+pub use save::save;

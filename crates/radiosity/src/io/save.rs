@@ -1,0 +1,87 @@
+//! Whole files or none.
+use super::Error;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Writes a file whole or not at all: into a temporary file of the same folder, renamed when complete.
+///
+/// A link is followed, so that its target is replaced and not the link. What is not a regular file (`/dev/stdout`, a
+/// pipe) is written to directly.
+///
+/// # Errors
+/// [`Error::Write`]; what stood at `path` before still stands.
+pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
+    let path = path.as_ref();
+    let written = match path.metadata() {
+        Ok(found) if !found.is_file() => std::fs::write(path, bytes),
+        Ok(_) => path.canonicalize().and_then(|place| replace(&place, bytes)),
+        Err(_) => replace(path, bytes),
+    };
+    written.map_err(|source| Error::Write { path: path.into(), source })
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = temporary().tempfile_in(folder(path))?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|refused| refused.error)?;
+    Ok(())
+}
+
+fn folder(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.into(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// Temporary files are private by default; results get the permissions that any new file gets.
+#[cfg(unix)]
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    use std::os::unix::fs::PermissionsExt;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".radiosity-").permissions(std::fs::Permissions::from_mode(0o666));
+    builder
+}
+
+#[cfg(not(unix))]
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".radiosity-");
+    builder
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.bin");
+        save(&path, b"first").unwrap();
+        save(&path, b"second").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_missing_folder_and_a_folder_as_target_are_typed_errors() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = save(folder.path().join("none/out.bin"), b"x").unwrap_err();
+        assert!(matches!(missing, Error::Write { .. }), "{missing}");
+        assert!(matches!(save(folder.path(), b"x"), Err(Error::Write { .. })));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let (target, link) = (folder.path().join("target"), folder.path().join("link"));
+        save(&target, b"old").unwrap();
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        save(&link, b"new").unwrap();
+        assert_eq!(std::fs::read(&target).unwrap(), b"new");
+        assert!(link.symlink_metadata().unwrap().is_symlink());
+    }
+}

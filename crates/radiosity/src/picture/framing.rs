@@ -1,0 +1,33 @@
+//! A camera for scenes that have none.
+use crate::{Camera, Scene};
+use glam::DVec3;
+
+/// A camera that sees the whole scene, from the front, somewhat from the right and from above.
+///
+/// `up` is the axis that points up. The front is −y where z is up, else +z. The field of view is 40 degrees, the picture
+/// 4:3.
+#[must_use]
+pub fn framing(scene: &Scene, up: DVec3) -> Camera {
+    let (low, high) = bounds(scene);
+    let (centre, radius) = (low.midpoint(high), (high - low).length() / 2.0);
+    let front = if up.z > 0.0 { DVec3::NEG_Y } else { DVec3::Z };
+    let toward_viewer = (front + 0.5 * up.cross(front) + 0.4 * up).normalize();
+    let vertical_fov = 40_f64.to_radians();
+    let distance = radius / (vertical_fov / 2.0).sin();
+    Camera {
+        name: "framing".into(),
+        position: centre + distance * toward_viewer,
+        direction: -toward_viewer,
+        up,
+        vertical_fov,
+        aspect: 4.0 / 3.0,
+    }
+}
+
+/// The corners of the box around all patches; the unit box where there are none.
+fn bounds(scene: &Scene) -> (DVec3, DVec3) {
+    let loops = scene.patches.iter().flat_map(|patch| patch.polygon.loops());
+    let points = loops.flatten().copied();
+    let around = points.map(|point| (point, point)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    around.unwrap_or((DVec3::ZERO, DVec3::ONE))
+}

@@ -1,0 +1,81 @@
+//! A picture of the light: the mesh's triangles seen by a camera, as PNG.
+mod framing;
+mod raster;
+
+pub use framing::framing;
+
+use crate::expose::{Exposure, srgb};
+use crate::{Camera, Mesh};
+use raster::{Eye, SAMPLES, Triangle, raster};
+use rayon::prelude::*;
+
+/// Rows drawn at a time by one thread.
+const BAND: usize = 8;
+/// The longest side, in pixels.
+const MAX_SIDE: u32 = 16_384;
+
+/// Draws the mesh as the camera sees it; returns the bytes of a PNG, 8 bits per channel, sRGB.
+///
+/// `radiosity` is red, green and blue at every vertex of the mesh; it is interpolated over the triangles, then exposed.
+/// Patches are one-sided: seen from behind they are not drawn, so that a closed room can be looked into from outside.
+/// Where nothing is seen the picture is black. `width` and the height that the camera's aspect gives are kept between
+/// 1 and 16384. Each pixel is the mean of 16 samples. The bytes do not depend on the number of threads.
+///
+/// # Panics
+/// When `radiosity` is shorter than the mesh's vertices.
+#[must_use]
+pub fn draw(mesh: &Mesh, radiosity: &[[f64; 3]], camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
+    let (width, height) = size(camera, width);
+    let eye = Eye::new(camera, width, height);
+    let triangles: Vec<Triangle> = eye.triangles(mesh, radiosity);
+    let mut bytes = vec![0; 3 * width * height];
+    let bands = bytes.par_chunks_mut(3 * width * BAND).enumerate();
+    bands.for_each(|(band, bytes)| {
+        let top = band * BAND;
+        let rows = bytes.len() / (3 * width);
+        let samples = raster(&triangles, top..top + rows, width);
+        for (pixel, samples) in bytes.chunks_mut(3).zip(samples.chunks(SAMPLES)) {
+            pixel.copy_from_slice(&pixel_of(samples, exposure));
+        }
+    });
+    png(&bytes, width, height)
+}
+
+/// Width as asked, height by the aspect.
+fn size(camera: &Camera, width: u32) -> (usize, usize) {
+    let width = width.clamp(1, MAX_SIDE);
+    let height = (f64::from(width) / camera.aspect).round().clamp(1.0, f64::from(MAX_SIDE));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and MAX_SIDE")]
+    let height = height as usize;
+    (width as usize, height)
+}
+
+/// The mean of the samples' intensities, encoded.
+fn pixel_of(samples: &[[f64; 3]], exposure: Exposure) -> [u8; 3] {
+    let mut sum = [0.0; 3];
+    for sample in samples.iter().filter(|sample| **sample != [0.0; 3]) {
+        let intensity = exposure.intensity(*sample);
+        sum = std::array::from_fn(|band| sum[band] + intensity[band]);
+    }
+    let samples = SAMPLES as f64;
+    sum.map(|band| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 255")]
+        let byte = (255.0 * srgb(band / samples)).round() as u8;
+        byte
+    })
+}
+
+fn png(bytes: &[u8], width: usize, height: usize) -> Vec<u8> {
+    let side = |side: usize| u32::try_from(side).expect("sides are at most MAX_SIDE");
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, side(width), side(height));
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(bytes)?;
+        writer.finish()
+    });
+    written.expect("a picture of the stated size is written to memory");
+    file
+}

@@ -1,0 +1,148 @@
+//! Triangles to samples, without clipping: a sample's ray meets a triangle where three planes through the eye say so.
+//!
+//! With the corners v0, v1, v2 as seen from the eye, the ray of direction d lies inside when d·(v2×v1), d·(v0×v2) and
+//! d·(v1×v0) are all at least 0; these are also its perspective-correct barycentric weights, and their sum, over the
+//! volume −v0·(v1×v2), is 1 / depth (Olano and Greer 1997). Corners behind the eye need no care. Neighbours share the
+//! plane through their edge to the last bit, so that no ray passes between them.
+use crate::{Camera, Mesh};
+use glam::DVec3;
+use std::ops::Range;
+
+/// Samples per pixel.
+pub(super) const SAMPLES: usize = SIDE * SIDE;
+const SIDE: usize = 4;
+
+/// A camera's rays: through the picture's point (x, y), in pixels from the top left, runs `corner + x·right + y·down`.
+pub(super) struct Eye {
+    position: DVec3,
+    forward: DVec3,
+    corner: DVec3,
+    right: DVec3,
+    down: DVec3,
+    width: usize,
+    height: usize,
+}
+
+/// A triangle that faces the eye.
+pub(super) struct Triangle {
+    /// For each corner the plane through the eye and the opposite edge: its value at pixel (0, 0), per pixel to the right,
+    /// per pixel down.
+    planes: [[f64; 3]; 3],
+    volume: f64,
+    colours: [[f64; 3]; 3],
+    columns: Range<usize>,
+    rows: Range<usize>,
+}
+
+impl Eye {
+    pub(super) fn new(camera: &Camera, width: usize, height: usize) -> Self {
+        let forward = camera.direction.normalize();
+        let right = forward.cross(camera.up).normalize();
+        let down = forward.cross(right);
+        let half_height = (camera.vertical_fov / 2.0).tan();
+        let half_width = half_height * camera.aspect;
+        let corner = forward - half_width * right - half_height * down;
+        let right = right * (2.0 * half_width / width as f64);
+        let down = down * (2.0 * half_height / height as f64);
+        Self { position: camera.position, forward, corner, right, down, width, height }
+    }
+
+    /// The triangles of the mesh that face the eye and may be in the picture.
+    pub(super) fn triangles(&self, mesh: &Mesh, radiosity: &[[f64; 3]]) -> Vec<Triangle> {
+        let elements = mesh.elements.iter().map(|element| element.corners);
+        let seen = elements.filter_map(|corners| {
+            self.triangle(corners.map(|c| mesh.vertices[c] - self.position), corners.map(|c| radiosity[c]))
+        });
+        seen.collect()
+    }
+
+    fn triangle(&self, corners: [DVec3; 3], colours: [[f64; 3]; 3]) -> Option<Triangle> {
+        let [a, b, c] = corners;
+        let normals = [c.cross(b), a.cross(c), b.cross(a)];
+        let volume = a.dot(normals[0]);
+        let (columns, rows) = self.extent(corners)?;
+        let plane = |normal: DVec3| [self.corner, self.right, self.down].map(|axis| axis.dot(normal));
+        (volume > 0.0).then(|| Triangle { planes: normals.map(plane), volume, colours, columns, rows })
+    }
+
+    /// The pixels that the corners span; all when a corner is not in front of the eye, none when no corner is.
+    fn extent(&self, corners: [DVec3; 3]) -> Option<(Range<usize>, Range<usize>)> {
+        let depths = corners.map(|corner| corner.dot(self.forward));
+        if depths.iter().all(|depth| *depth <= 0.0) {
+            return None;
+        }
+        if depths.iter().any(|depth| *depth <= 0.0) {
+            return Some((0..self.width, 0..self.height));
+        }
+        let along = |axis: DVec3| {
+            let places = corners.map(|corner| corner / corner.dot(self.forward) - self.corner);
+            places.map(|place| place.dot(axis) / axis.length_squared())
+        };
+        let (columns, rows) = (span(along(self.right), self.width), span(along(self.down), self.height));
+        (!columns.is_empty() && !rows.is_empty()).then_some((columns, rows))
+    }
+}
+
+/// The pixels around three places, within the picture; one more on each side makes up for rounding.
+fn span(places: [f64; 3], len: usize) -> Range<usize> {
+    let low = places.into_iter().fold(f64::INFINITY, f64::min) - 1.0;
+    let high = places.into_iter().fold(f64::NEG_INFINITY, f64::max) + 2.0;
+    let kept = |place: f64| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and len")]
+        let kept = place.clamp(0.0, len as f64) as usize;
+        kept
+    };
+    kept(low)..kept(high)
+}
+
+/// The nearest triangle's radiosity at every sample of some rows: [`SAMPLES`] for each pixel, row after row.
+pub(super) fn raster(triangles: &[Triangle], rows: Range<usize>, width: usize) -> Vec<[f64; 3]> {
+    let count = rows.len() * width * SAMPLES;
+    let mut samples = Samples { colours: vec![[0.0; 3]; count], nearness: vec![0.0; count] };
+    for triangle in triangles {
+        for row in triangle.rows.start.max(rows.start)..triangle.rows.end.min(rows.end) {
+            for column in triangle.columns.clone() {
+                let first = ((row - rows.start) * width + column) * SAMPLES;
+                samples.cover(triangle, first, column, row);
+            }
+        }
+    }
+    samples.colours
+}
+
+/// What is seen, and 1 / depth of it: 0 where nothing is.
+struct Samples {
+    colours: Vec<[f64; 3]>,
+    nearness: Vec<f64>,
+}
+
+impl Samples {
+    /// Draws a triangle into one pixel, whose samples start at `first`.
+    fn cover(&mut self, triangle: &Triangle, first: usize, column: usize, row: usize) {
+        for sample in 0..SAMPLES {
+            let (x, y) = place(sample);
+            let (x, y) = (column as f64 + x, row as f64 + y);
+            let weights = triangle.planes.map(|[start, right, down]| start + x * right + y * down);
+            if weights.iter().any(|weight| *weight < 0.0) {
+                continue;
+            }
+            let sum: f64 = weights.iter().sum();
+            let nearness = sum / triangle.volume;
+            if nearness > self.nearness[first + sample] {
+                self.nearness[first + sample] = nearness;
+                self.colours[first + sample] = mix(&triangle.colours, weights, sum);
+            }
+        }
+    }
+}
+
+/// Where a sample lies within its pixel: a grid sheared both ways, so that no two share a row or a column.
+fn place(sample: usize) -> (f64, f64) {
+    let (i, j) = ((sample % SIDE) as f64, (sample / SIDE) as f64);
+    let side = SIDE as f64;
+    ((i + (j + 0.5) / side) / side, (j + (i + 0.5) / side) / side)
+}
+
+fn mix(colours: &[[f64; 3]; 3], weights: [f64; 3], sum: f64) -> [f64; 3] {
+    std::array::from_fn(|band| (0..3).map(|corner| weights[corner] / sum * colours[corner][band]).sum())
+}
