@@ -2,8 +2,9 @@
 use crate::exact::{Shadows, shadows, unseen};
 use crate::lambert::{ContourSum, Sight};
 use crate::polygon::ROUNDING;
+use crate::region::leaf;
 use crate::view::View;
-use crate::visible::{leaf, union};
+use crate::visible::union;
 use crate::{DifferentialArea, FormFactor, PlanarPolygon};
 use glam::DVec2;
 use polycsg::Region;

@@ -4,9 +4,10 @@
 //! double, it is that double, so that shadows that meet exactly do so in doubles too.
 use crate::horizon::{Loops, Vertex, clip, seen};
 use crate::predicates::Height;
+use crate::region::leaf;
 use crate::twofold::{Offset, Twofold};
 use crate::view::{Spot, View, swept};
-use crate::visible::{boundary_sum, leaf};
+use crate::visible::boundary_sum;
 use crate::{PlanarPolygon, Scratch};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;

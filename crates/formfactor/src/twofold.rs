@@ -51,10 +51,6 @@ impl Twofold {
     pub(crate) fn round(self) -> f64 {
         self.hi + self.lo
     }
-
-    pub(crate) fn abs(self) -> Self {
-        if self.hi < 0.0 { -self } else { self }
-    }
 }
 
 impl From<f64> for Twofold {

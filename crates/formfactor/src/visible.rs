@@ -2,10 +2,11 @@
 use crate::exact::{Shadows, shadows};
 use crate::lambert::ContourSum;
 use crate::project::Shadow;
+use crate::region::leaf;
 use crate::view::View;
 use crate::{DifferentialArea, PlanarPolygon, Scratch};
-use glam::{DVec2, DVec3};
-use polycsg::{Csg, FillRule, Region};
+use glam::DVec3;
+use polycsg::{Csg, Region};
 
 /// What a differential area sees of a target: a region of the target's plane, and where it lies in space.
 #[derive(Clone, Debug)]
@@ -63,11 +64,6 @@ pub(crate) fn boundary_sum(view: &View, set: &Csg<'_>, scratch: &mut Scratch) ->
         sum.add(view.sight(edge.start), view.sight(edge.end));
     }
     sum
-}
-
-/// The set inside an odd number of loops.
-pub(crate) fn leaf(loops: &[Vec<DVec2>]) -> Csg<'_> {
-    Csg::rings(loops, FillRule::EvenOdd).expect("projections are kept within finite bounds")
 }
 
 /// All that the shadows cover.

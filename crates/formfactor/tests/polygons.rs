@@ -1,0 +1,113 @@
+//! What a polygon accepts, refuses, and says of itself.
+use formfactor::{DVec3, DifferentialArea, Error, PlanarPolygon, form_factor, unoccluded, visible_part};
+
+const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+
+fn square(low: f64, high: f64, z: f64) -> Vec<[f64; 3]> {
+    vec![[low, low, z], [high, low, z], [high, high, z], [low, high, z]]
+}
+
+fn area_at(position: [f64; 3], normal: [f64; 3]) -> DifferentialArea {
+    DifferentialArea::new(position.into(), normal.into()).unwrap()
+}
+
+#[test]
+fn the_front_is_where_loop_0_is_counter_clockwise() {
+    assert_eq!(PlanarPolygon::new([SQUARE]).unwrap().normal(), DVec3::Z);
+    let reversed: Vec<_> = SQUARE.iter().rev().copied().collect();
+    assert_eq!(PlanarPolygon::new([reversed]).unwrap().normal(), -DVec3::Z);
+}
+
+#[test]
+fn areas_count_odd_insides() {
+    let area = |loops: &[Vec<[f64; 3]>]| PlanarPolygon::new(loops).unwrap().area();
+    assert_eq!(area(&[square(0.0, 4.0, 1.0)]), 16.0);
+    let mut hole = square(1.0, 3.0, 1.0);
+    assert_eq!(area(&[square(0.0, 4.0, 1.0), hole.clone()]), 12.0);
+    hole.reverse();
+    assert_eq!(area(&[square(0.0, 4.0, 1.0), hole.clone()]), 12.0);
+    assert_eq!(area(&[square(0.0, 4.0, 1.0), hole, square(1.5, 2.5, 1.0)]), 13.0);
+    let sloping =
+        PlanarPolygon::new([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 3.0, 4.0], [0.0, 3.0, 4.0]]]).unwrap();
+    assert!((sloping.area() - 5.0).abs() < 1e-14);
+}
+
+#[test]
+fn bad_polygons_are_named() {
+    let refused = |loops: &[Vec<[f64; 3]>]| PlanarPolygon::new(loops).unwrap_err();
+    assert_eq!(refused(&[]), Error::NoLoops);
+    assert_eq!(refused(&[SQUARE[..2].to_vec()]), Error::TooFewVertices { loop_index: 0, count: 2 });
+    let mut bad = square(1.0, 2.0, 0.0);
+    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+        bad[2][1] = number;
+        assert_eq!(refused(&[SQUARE.to_vec(), bad.clone()]), Error::BadVertex { loop_index: 1, vertex: 2 });
+    }
+    assert_eq!(refused(&[vec![[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]]]), Error::ZeroArea);
+    assert_eq!(refused(&[vec![[1.0; 3]; 5]]), Error::ZeroArea);
+    let bow_tie = vec![[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    assert_eq!(refused(&[bow_tie]), Error::ZeroArea);
+    let mut bent = SQUARE.to_vec();
+    bent[1][2] = 1e-9;
+    let error = refused(&[bent]);
+    assert!(matches!(error, Error::NotPlanar { loop_index: 0, .. }), "{error}");
+}
+
+#[test]
+fn bad_areas_are_named() {
+    let nan = DifferentialArea::new(DVec3::new(0.0, f64::NAN, 0.0), DVec3::Z);
+    assert_eq!(nan.unwrap_err(), Error::BadPoint);
+    for normal in [DVec3::ZERO, DVec3::new(f64::NAN, 0.0, 1.0), DVec3::new(0.0, f64::INFINITY, 0.0)] {
+        assert_eq!(DifferentialArea::new(DVec3::ZERO, normal).unwrap_err(), Error::BadNormal);
+    }
+}
+
+#[test]
+fn thin_triangles_are_exact_as_given() {
+    let thin = PlanarPolygon::new([[[0.1, 0.1, 0.1], [0.7, 0.7, 0.7], [0.3, 0.3, 0.300_000_000_000_000_04]]]);
+    assert!(thin.is_ok() && thin.unwrap().area() > 0.0);
+}
+
+#[test]
+fn whoever_stands_on_or_behind_a_plane_sees_none_of_it() {
+    let to = PlanarPolygon::new([SQUARE]).unwrap();
+    for (z, seen) in [(1.0, true), (5e-324, true), (0.0, false), (-1.0, false)] {
+        let from = area_at([1.0, 1.0, z], [0.0, 0.0, -1.0]);
+        let factor = unoccluded(&from, &to);
+        assert_eq!(factor.value > 0.0, seen, "at {z:e}: {factor:?}");
+        assert!(seen || factor.error_bound == 0.0);
+    }
+}
+
+#[test]
+fn the_visible_part_keeps_the_vertices_of_the_target() {
+    let to = PlanarPolygon::new([[[-1.0, 1.0, 2.1], [1.0, 1.0, 1.9], [1.0, -1.0, 1.7], [-1.0, -1.0, 1.9]]])
+        .unwrap();
+    let from = area_at([0.0; 3], [0.0, 0.0, 1.0]);
+    let occluder = PlanarPolygon::new([square(-0.25, 0.25, 1.0)]).unwrap();
+    let part = visible_part(&from, &to, &[occluder]);
+    let rings: Vec<Vec<DVec3>> = part.rings().collect();
+    assert_eq!(rings.len(), 2);
+    assert!(to.loops().flatten().all(|corner| rings[0].contains(corner)));
+    assert!(rings[1].iter().all(|p| (*p / p.z * 4.0).truncate().abs() == glam_one()), "{rings:?}");
+    assert!(part.area() < to.area());
+}
+
+fn glam_one() -> formfactor::glam::DVec2 {
+    formfactor::glam::DVec2::ONE
+}
+
+#[test]
+fn extreme_coordinates_neither_panic_nor_leave_the_unit_interval() {
+    let numbers = [0.0, 1.0, -1.0, 1e60, -1e60, 1e-60, 5e-324, -5e-324, 1e-160, 3.0];
+    let pick = |i: usize| numbers[(i * 7 + i / 10) % numbers.len()];
+    let point = |i: usize| DVec3::new(pick(3 * i), pick(3 * i + 1), pick(3 * i + 2));
+    let triangles: Vec<PlanarPolygon> = (0..400)
+        .filter_map(|i| PlanarPolygon::new([[point(i), point(i + 11), point(i + 47)]]).ok())
+        .collect();
+    assert!(triangles.len() > 50);
+    for (i, to) in triangles.iter().enumerate() {
+        let Ok(from) = DifferentialArea::new(point(i + 5), point(i + 90)) else { continue };
+        let factor = form_factor(&from, to, &triangles[..20]);
+        assert!((0.0..=1.0).contains(&factor.value) && factor.error_bound >= 0.0, "{factor:?}");
+    }
+}
