@@ -130,7 +130,7 @@ fn integers<const N: usize>(points: [DVec3; N]) -> [[IBig; 3]; N] {
 /// `x` as an integer times a power of two.
 fn significand(x: f64) -> (i64, i16) {
     let bits = x.to_bits();
-    let fraction = (bits & ((1 << 52) - 1)).cast_signed();
+    let fraction = i64::try_from(bits & ((1 << 52) - 1)).expect("52 bits fit");
     let biased = i16::try_from((bits >> 52) & 0x7ff).expect("eleven bits fit");
     let (magnitude, exponent) =
         if biased == 0 { (fraction, -1074) } else { (fraction | (1 << 52), biased - 1075) };

@@ -1,4 +1,5 @@
 //! Laws that form factors obey, on random input.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::glam;
 use formfactor::{
     DVec3, DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded,

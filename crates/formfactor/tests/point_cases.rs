@@ -1,4 +1,5 @@
 //! Occluded form factors against exact rational arithmetic.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::{DVec3, DifferentialArea, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded};
 use serde_json::Value;
 

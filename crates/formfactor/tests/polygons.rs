@@ -1,4 +1,5 @@
 //! What a polygon accepts, refuses, and says of itself.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::{DVec3, DifferentialArea, Error, PlanarPolygon, form_factor, unoccluded, visible_part};
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
