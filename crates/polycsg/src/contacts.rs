@@ -252,7 +252,11 @@ fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
 fn parameter(n: Area, m: Area) -> (f64, f32) {
     let (p, q) = (n.value.abs(), m.value.abs());
     let (length, error) = (p + q, n.error + m.error);
-    let bound = if 2.0 * error <= length { 2.0 * error / length + 4.0 * f64::EPSILON } else { f64::INFINITY };
+    let bound = if 2.0 * error <= length && length < f64::INFINITY {
+        2.0 * error / length + 4.0 * f64::EPSILON
+    } else {
+        f64::INFINITY
+    };
     (p / length, (bound * 1.000_001) as f32)
 }
 

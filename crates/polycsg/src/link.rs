@@ -15,7 +15,6 @@ use crate::rings::Rings;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
-use std::ops::Range;
 
 /// A simple ring: a span of point ids, the smallest first, and the cycle that it was cut from.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +32,8 @@ pub(crate) struct Cycles {
     rings: Vec<Ring>,
     /// The ring that each of the outline's edges belongs to.
     ring_of_edge: Vec<u32>,
+    /// Whether around each point edges arrive and leave in turn, as those of a boundary do.
+    pub(crate) alternate: bool,
 }
 
 impl Cycles {
@@ -59,32 +60,11 @@ impl Cycles {
     }
 }
 
-/// The outline's edges by the point that they leave: they are sorted by it.
-struct Leaving {
-    starts: Vec<u32>,
-}
-
-impl Leaving {
-    fn of(outline: &Outline) -> Leaving {
-        let mut starts = vec![0; outline.point_count() + 1];
-        for edge in outline.edges() {
-            starts[edge[0] as usize + 1] += 1;
-        }
-        for p in 1..starts.len() {
-            starts[p] += starts[p - 1];
-        }
-        Leaving { starts }
-    }
-
-    fn at(&self, point: u32) -> Range<u32> {
-        self.starts[point as usize]..self.starts[point as usize + 1]
-    }
-}
-
 /// Walks all edges and cuts the walks into rings.
 pub(crate) fn link(outline: &Outline) -> Cycles {
-    let leaving = Leaving::of(outline);
-    let mut cycles = Cycles { ring_of_edge: vec![u32::MAX; outline.edges().len()], ..Cycles::default() };
+    let (next, alternate) = successors(outline);
+    let mut cycles =
+        Cycles { ring_of_edge: vec![u32::MAX; outline.edges().len()], alternate, ..Cycles::default() };
     let mut walked = vec![false; outline.edges().len()];
     let mut cut = Cut { depth: vec![u32::MAX; outline.point_count()], chain: Vec::new() };
     let mut cycle = 0;
@@ -93,43 +73,45 @@ pub(crate) fn link(outline: &Outline) -> Cycles {
             continue;
         }
         let mut edge = first;
-        loop {
+        while !walked[edge as usize] {
             walked[edge as usize] = true;
             cut.visit(outline, edge, cycle, &mut cycles);
-            match next_edge(outline, &leaving, edge, |e| e == first || !walked[e as usize]) {
-                Some(next) if next != first => edge = next,
-                _ => break,
-            }
+            edge = next[edge as usize];
         }
         cycle += 1;
     }
     cycles
 }
 
-/// The edge that follows by the turn rule, of those that are open.
-fn next_edge(outline: &Outline, leaving: &Leaving, edge: u32, is_open: impl Fn(u32) -> bool) -> Option<u32> {
-    let [from, at] = outline.edges()[edge as usize];
-    let mut candidates = leaving.at(at).filter(|&e| is_open(e));
-    let mut best = candidates.next()?;
-    let (back, pivot) = (outline.point(from), outline.point(at));
-    let end = |e: u32| outline.point(outline.edges()[e as usize][1]);
-    for other in candidates {
-        if is_clockwise_nearer(pivot, back, end(other), end(best)) {
-            best = other;
+/// The edge that follows each edge by the turn rule, and whether around each point edges arrive and leave in turn.
+fn successors(outline: &Outline) -> (Vec<u32>, bool) {
+    let mut next = vec![u32::MAX; outline.edges().len()];
+    let mut alternate = true;
+    for point in 0..index(outline.point_count()) {
+        let (leaving, arriving) = (outline.leaving(point), outline.arriving(point));
+        if leaving.len() < 2 || !pair_by_angle(outline, point, &mut next) {
+            alternate &= leaving.len() < 2;
+            arriving.iter().zip(leaving).for_each(|(&a, l)| next[a as usize] = l);
         }
     }
-    Some(best)
+    (next, alternate)
 }
 
-/// Whether, turning clockwise around `pivot` from the direction of `back`, `a` comes before `b`.
-fn is_clockwise_nearer(pivot: DVec2, back: DVec2, a: DVec2, b: DVec2) -> bool {
-    let (a_after, b_after) = (by_angle(pivot, a, back), by_angle(pivot, b, back));
-    match (a_after == Ordering::Less, b_after == Ordering::Less) {
-        (true, false) => true,
-        (false, true) => false,
-        // Both on one side of the start: the larger angle comes first.
-        _ => by_angle(pivot, a, b) == Ordering::Greater,
-    }
+/// Follows each arriving edge by the first leaving one clockwise; false where two in a row arrive or leave.
+fn pair_by_angle(outline: &Outline, point: u32, next: &mut [u32]) -> bool {
+    let end =
+        |(edge, leaves): (u32, bool)| outline.point(outline.edges()[edge as usize][usize::from(leaves)]);
+    let leaving = outline.leaving(point).map(|edge| (edge, true));
+    let mut around: Vec<(u32, bool)> =
+        leaving.chain(outline.arriving(point).iter().map(|&edge| (edge, false))).collect();
+    around.sort_unstable_by(|&a, &b| by_angle(outline.point(point), end(a), end(b)));
+    let previous = around.iter().cycle().skip(around.len() - 1);
+    around.iter().zip(previous).all(|(&(edge, leaves), &(before, before_leaves))| {
+        if !leaves {
+            next[edge as usize] = before;
+        }
+        leaves != before_leaves
+    })
 }
 
 /// The order of two directions by angle in (-90°, 270°].

@@ -19,7 +19,7 @@ use crate::strips::Strips;
 use crate::truth::index;
 use std::cmp::Ordering;
 
-/// The rings are no boundary: some lies on the wrong side of another, or stands twice.
+/// The rings are no boundary: some lies on the wrong side of another, or edges around a point do not alternate.
 #[derive(Debug)]
 pub(crate) struct Misnested;
 
@@ -42,12 +42,13 @@ struct Nest<'a> {
     /// Per ring that is outer: the polygon around it.
     around: Vec<u32>,
     shells: Vec<Shell>,
-    /// Edges that arrive, sorted by their end.
-    arriving: Vec<u32>,
 }
 
 /// Builds the region; the outline's edges meet in shared points only.
 pub(crate) fn nest(outline: &Outline, cycles: &Cycles, strips: &mut Strips) -> Result<Region, Misnested> {
+    if !cycles.alternate {
+        return Err(Misnested);
+    }
     let rings = cycles.rings();
     let order = by_leftmost(outline, cycles);
     if rings.len() > 1 {
@@ -60,7 +61,6 @@ pub(crate) fn nest(outline: &Outline, cycles: &Cycles, strips: &mut Strips) -> R
         polygon: vec![NONE; rings.len()],
         around: vec![NONE; rings.len()],
         shells: Vec::new(),
-        arriving: arriving(outline),
     };
     let outer_of_cycle = outer_of_cycle(rings)?;
     for &ring in &order {
@@ -84,13 +84,6 @@ fn by_leftmost(outline: &Outline, cycles: &Cycles) -> Vec<u32> {
         a.0.cmp(&b.0).then_with(|| by_angle(point(a.0), point(a.1), point(b.1)))
     });
     order
-}
-
-/// The edges by their end.
-fn arriving(outline: &Outline) -> Vec<u32> {
-    let mut edges: Vec<u32> = (0..index(outline.edges().len())).collect();
-    edges.sort_unstable_by_key(|&e| outline.edges()[e as usize][1]);
-    edges
 }
 
 /// The outer ring of each cycle, if it has one.
@@ -172,28 +165,15 @@ impl Nest<'_> {
     fn clockwise_neighbour(&self, point: u32, next: u32) -> Option<(u32, bool)> {
         let p = |id: u32| self.outline.point(id);
         let angle = |a: u32, b: u32| by_angle(p(point), p(a), p(b));
-        let leaving = self.leaving(point).map(|(edge, to)| (edge, to, true));
-        let arriving = self.arriving(point).map(|(edge, from)| (edge, from, false));
+        let edge_end = |edge: u32, end: usize| self.outline.edges()[edge as usize][end];
+        let leaving = self.outline.leaving(point).map(|edge| (edge, edge_end(edge, 1), true));
+        let arriving = self.outline.arriving(point).iter().map(|&edge| (edge, edge_end(edge, 0), false));
         let others = leaving.chain(arriving).filter(|&(_, end, _)| end != next);
         // Smaller angles than next's come first, the largest of them; then the left half, again the largest.
         let below = |end: u32| angle(end, next) == Ordering::Less;
         let candidates = others.filter(|&(_, end, _)| below(end) || end < point);
         let nearest = candidates.max_by(|a, b| below(a.1).cmp(&below(b.1)).then_with(|| angle(a.1, b.1)));
         nearest.map(|(edge, _, leaves)| (edge, leaves))
-    }
-
-    fn leaving(&self, point: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let edges = self.outline.edges();
-        let first = edges.partition_point(|e| e[0] < point);
-        let own = edges[first..].iter().take_while(move |e| e[0] == point);
-        own.enumerate().map(move |(i, e)| (index(first + i), e[1]))
-    }
-
-    fn arriving(&self, point: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let edges = self.outline.edges();
-        let first = self.arriving.partition_point(|&e| edges[e as usize][1] < point);
-        let own = self.arriving[first..].iter().take_while(move |&&e| edges[e as usize][1] == point);
-        own.map(move |&e| (e, edges[e as usize][0]))
     }
 
     fn edge_below(&self, point: u32) -> Option<u32> {

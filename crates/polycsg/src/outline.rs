@@ -3,12 +3,18 @@
 use crate::predicates::lexicographic;
 use crate::truth::index;
 use glam::DVec2;
+use std::ops::Range;
 
 /// Points and directed edges by point ids, each edge once; the smaller id is the lexicographically smaller point.
 #[derive(Debug, Default)]
 pub(crate) struct Outline {
     points: Vec<DVec2>,
     edges: Vec<[u32; 2]>,
+    /// Per point its first leaving edge; edges are sorted by start.
+    leaving: Vec<u32>,
+    /// Per point the place of its first arriving edge in `by_end`.
+    arriving: Vec<u32>,
+    by_end: Vec<u32>,
 }
 
 impl Outline {
@@ -29,7 +35,37 @@ impl Outline {
             .edges
             .extend(ids.chunks_exact(2).filter(|pair| pair[0] != pair[1]).map(|pair| [pair[0], pair[1]]));
         outline.cancel();
+        outline.index_by_point();
         outline
+    }
+
+    fn index_by_point(&mut self) {
+        self.leaving = self.starts(0);
+        self.arriving = self.starts(1);
+        self.by_end.extend(0..index(self.edges.len()));
+        self.by_end.sort_unstable_by_key(|&e| self.edges[e as usize][1]);
+    }
+
+    /// Per point the number of edges whose given end has a smaller id.
+    fn starts(&self, end: usize) -> Vec<u32> {
+        let mut starts = vec![0; self.points.len() + 1];
+        for edge in &self.edges {
+            starts[edge[end] as usize + 1] += 1;
+        }
+        for p in 1..starts.len() {
+            starts[p] += starts[p - 1];
+        }
+        starts
+    }
+
+    /// The edges that leave a point.
+    pub(crate) fn leaving(&self, point: u32) -> Range<u32> {
+        self.leaving[point as usize]..self.leaving[point as usize + 1]
+    }
+
+    /// The edges that arrive at a point.
+    pub(crate) fn arriving(&self, point: u32) -> &[u32] {
+        &self.by_end[self.arriving[point as usize] as usize..self.arriving[point as usize + 1] as usize]
     }
 
     /// Sorts the edges by their ends and removes pairs of opposite ones.

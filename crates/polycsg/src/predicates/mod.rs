@@ -16,6 +16,8 @@ mod exact;
 mod order;
 mod orient;
 mod round;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use exact::Ratio;
 pub(crate) use order::{

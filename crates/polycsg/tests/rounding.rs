@@ -1,0 +1,84 @@
+//! Where rounding breaks things: slivers of a few ulps, bundles through nearly one point, the ends of the range.
+
+use polycsg::{Csg, DVec2, FillRule, Region};
+use proptest::prelude::*;
+
+/// Quads squeezed into a slab of a given height: most crossings round onto or over something.
+fn slab_quads(height: f64) -> impl Strategy<Value = Vec<Vec<DVec2>>> {
+    let point = (0.0..1.0f64, 0.0..1.0f64).prop_map(move |(x, y)| DVec2::new(x, 0.7 + y * height));
+    proptest::collection::vec(proptest::collection::vec(point, 4), 1..12)
+}
+
+/// Thin triangles whose long edges all pass within an ulp or so of one point.
+fn bundle() -> impl Strategy<Value = Vec<Vec<DVec2>>> {
+    let triangle =
+        (0.0..std::f64::consts::TAU, 1e-17..1e-15f64, 1.0..3.0f64).prop_map(|(angle, jitter, r)| {
+            let (s, c) = angle.sin_cos();
+            let centre = DVec2::new(0.3 + jitter, 0.7 - jitter);
+            vec![
+                centre - DVec2::new(c, s) * r,
+                centre + DVec2::new(c, s) * r,
+                centre + DVec2::new(c - 0.1, s) * r,
+            ]
+        });
+    proptest::collection::vec(triangle, 1..14)
+}
+
+fn check(a: &[Vec<DVec2>], b: &[Vec<DVec2>], slack: f64) -> Result<(), TestCaseError> {
+    let (csg_a, csg_b) = (
+        || Csg::rings(a, FillRule::EvenOdd).expect("finite"),
+        || Csg::rings(b, FillRule::EvenOdd).expect("finite"),
+    );
+    let region =
+        [csg_a() | csg_b(), csg_a() & csg_b(), csg_a() - csg_b(), csg_a() ^ csg_b()].map(|c| c.evaluate());
+    for r in &region {
+        prop_assert_eq!(r.validate(), Ok(()));
+    }
+    let [union, common, rest, either] = region.map(|r| r.area());
+    prop_assert!((union - common - either).abs() <= slack, "{union} {common} {either}");
+    prop_assert!((csg_a().evaluate().area() - common - rest).abs() <= slack);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn slivers_stay_valid((a, b) in (10i32..18).prop_flat_map(|digits| {
+        let height = 10f64.powi(-digits);
+        (slab_quads(height), slab_quads(height))
+    })) {
+        check(&a, &b, 1e-15)?;
+    }
+
+    #[test]
+    fn bundles_stay_valid(a in bundle(), b in bundle()) {
+        check(&a, &b, 1e-12)?;
+    }
+
+    #[test]
+    fn the_range_does_not_matter(quads in slab_quads(0.5), exponent in -950i32..1000) {
+        let scale = 2f64.powi(exponent);
+        let scaled: Vec<Vec<DVec2>> = quads.iter().map(|q| q.iter().map(|&p| p * scale).collect()).collect();
+        let (one, other) = (
+            Region::from_rings(&quads, FillRule::NonZero).expect("finite"),
+            Region::from_rings(&scaled, FillRule::NonZero).expect("finite"),
+        );
+        let rescaled: Vec<Vec<DVec2>> = one.rings().map(|r| r.iter().map(|&p| p * scale).collect()).collect();
+        prop_assert_eq!(other.rings().map(<[DVec2]>::to_vec).collect::<Vec<_>>(), rescaled);
+    }
+}
+
+#[test]
+fn subnormal_and_huge_coordinates_mix() {
+    let tiny = 5e-324;
+    let huge = f64::MAX;
+    let rings = [
+        [[-huge, -huge], [huge, -huge], [huge, huge], [-huge, huge]],
+        [[0.0, 0.0], [tiny, 0.0], [tiny, tiny], [0.0, tiny]],
+        [[-huge, 0.0], [huge, tiny], [huge, huge], [tiny, tiny]],
+    ];
+    let region = Region::from_rings(rings, FillRule::EvenOdd).expect("finite");
+    assert_eq!(region.validate(), Ok(()));
+    assert_eq!(region.area(), f64::INFINITY);
+}
