@@ -39,12 +39,10 @@ pub(crate) fn form_factor_past<'a>(
     };
     match shadows(&view, occluders) {
         Shadows::Total => FormFactor::default(),
-        Shadows::Some(shadows) if shadows.is_empty() && to.is_convex() => {
-            view.contour().form_factor(view.error)
-        }
-        Shadows::Some(shadows) => {
-            let error: f64 = shadows.iter().map(|s| s.error).sum();
-            visible_sum(&view, &shadows, scratch).form_factor(view.error + error)
+        Shadows::Some(shadows, doubt) => {
+            let free = shadows.is_empty() && to.is_convex();
+            let sum = if free { view.contour() } else { visible_sum(&view, &shadows, scratch) };
+            sum.form_factor(view.error + doubt)
         }
     }
 }
@@ -59,20 +57,22 @@ pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
 #[derive(Debug)]
 pub(crate) enum Shadows {
     Total,
-    Some(Vec<Shadow>),
+    /// The shadows, and a bound on the form factor of all that is wrong with them.
+    Some(Vec<Shadow>, f64),
 }
 
 /// The shadows of the occluders that can block.
 pub(crate) fn shadows<'a>(view: &View, occluders: impl IntoIterator<Item = &'a PlanarPolygon>) -> Shadows {
-    let mut found = Vec::new();
+    let (mut found, mut error) = (Vec::new(), 0.0);
     for occluder in occluders {
         match blocking(view, occluder) {
-            Blocking::None => (),
+            Blocking::None { doubt } => error += doubt,
             Blocking::Partial => found.extend(shadow(view, occluder)),
             Blocking::Total => return Shadows::Total,
         }
     }
-    Shadows::Some(found)
+    error += found.iter().map(|s: &Shadow| s.error).sum::<f64>();
+    Shadows::Some(found, error)
 }
 
 /// What a target gets that turns its back or lies below the horizon.

@@ -24,9 +24,9 @@ pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pl
     let whole = of_region(&view, &leaf(&view.flat).evaluate());
     let (hidden, error) = match shadows(&view, occluders) {
         Shadows::Total => (whole, 0.0),
-        Shadows::Some(shadows) => {
+        Shadows::Some(shadows, error) => {
             let region = (leaf(&view.flat) & union(&shadows)).evaluate();
-            (of_region(&view, &region), shadows.iter().map(|s| s.error).sum())
+            (of_region(&view, &region), error)
         }
     };
     FormFactor {

@@ -37,7 +37,7 @@ impl<'a> View<'a> {
         let spots: Vec<Vec<Spot>> =
             loops.iter().map(|l| l.iter().map(|v| spot(from, to, v)).collect()).collect();
         let flat: Vec<Vec<DVec2>> = spots.iter().map(|l| l.iter().map(|s| s.flat).collect()).collect();
-        let pyramid = Pyramid::over(from.position(), to, height.value.round(), &flat);
+        let pyramid = Pyramid::over(from, to, height.value.round(), &flat);
         let error = if cut { spots.iter().map(|l| swept(l)).sum() } else { 0.0 };
         Some(Self { from, to, height: height.value, loops, flat, error, pyramid })
     }

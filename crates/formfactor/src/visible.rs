@@ -47,7 +47,7 @@ fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Plan
     };
     match shadows(&view, occluders) {
         Shadows::Total => Region::default(),
-        Shadows::Some(shadows) => (leaf(&view.flat) - union(&shadows)).evaluate(),
+        Shadows::Some(shadows, _) => (leaf(&view.flat) - union(&shadows)).evaluate(),
     }
 }
 
