@@ -50,9 +50,9 @@ pub enum Error {
         /// The file.
         file: String,
         /// Line, from 1.
-        line: u32,
-        /// Column, from 1.
-        column: u32,
+        line: usize,
+        /// Column in bytes, from 1.
+        column: usize,
         /// The element's tag.
         element: String,
         /// What is wrong with it.

@@ -10,6 +10,8 @@ pub(super) struct File<'a> {
     name: &'a str,
     pub(super) root: Node<'a>,
     ids: HashMap<&'a str, Node<'a>>,
+    /// Where each line starts: warnings may be many, and each names its line.
+    lines: Vec<usize>,
 }
 
 impl<'a> File<'a> {
@@ -21,7 +23,9 @@ impl<'a> File<'a> {
                 ids.entry(id).or_insert(node);
             }
         }
-        let file = Self { name, root: document.root_element(), ids };
+        let breaks = document.input_text().match_indices('\n').map(|(at, _)| at + 1);
+        let lines = std::iter::once(0).chain(breaks).collect();
+        let file = Self { name, root: document.root_element(), ids, lines };
         if file.root.tag_name().name() != "COLLADA" {
             return Err(file.fault(file.root, Fault::NotCollada));
         }
@@ -34,19 +38,20 @@ impl<'a> File<'a> {
 
     /// `file:line:column` of an element.
     pub(super) fn place(&self, node: Node) -> String {
-        let at = node.document().text_pos_at(node.range().start);
-        format!("{}:{}:{}", self.name, at.row, at.col)
+        let (line, column) = self.position(node);
+        format!("{}:{line}:{column}", self.name)
+    }
+
+    /// Line and column, the latter in bytes, both from 1.
+    fn position(&self, node: Node) -> (usize, usize) {
+        let start = node.range().start;
+        let line = self.lines.partition_point(|line| *line <= start);
+        (line, start + 1 - self.lines[line - 1])
     }
 
     pub(super) fn fault(&self, node: Node, fault: Fault) -> Error {
-        let at = node.document().text_pos_at(node.range().start);
-        Error::Scene {
-            file: self.name.into(),
-            line: at.row,
-            column: at.col,
-            element: node.tag_name().name().into(),
-            fault,
-        }
+        let (line, column) = self.position(node);
+        Error::Scene { file: self.name.into(), line, column, element: node.tag_name().name().into(), fault }
     }
 
     pub(super) fn attribute(&self, node: Node<'a>, name: &'static str) -> Result<&'a str, Error> {

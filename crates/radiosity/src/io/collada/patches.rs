@@ -67,63 +67,89 @@ impl<'a> Drafts<'_, 'a> {
         }
         for (number, primitive) in primitives.iter().enumerate() {
             let finish = finish(self.file, instance.element, primitive.material, self.warnings)?;
-            for (polygon, loops) in primitive.polygons.iter().enumerate() {
-                let origin = Origin { instance: index, primitive: number, polygon };
-                self.add_polygon(instance, primitive, loops, finish, origin)?;
-            }
+            let origin = Origin { instance: index, primitive: number, polygon: 0 };
+            self.add_primitive(instance, primitive, finish, origin)?;
         }
         Ok(())
     }
 
-    fn add_polygon(
+    fn add_primitive(
         &mut self,
         instance: &Instance<'a>,
         primitive: &Primitive<'a>,
-        loops: &Polygon,
         finish: Finish,
         origin: Origin,
     ) -> Result<(), Error> {
-        if self.all.len() >= MAX_PATCHES {
-            let fault = Fault::TooMany { what: "polygons", limit: MAX_PATCHES };
-            return Err(self.file.fault(primitive.element, fault));
-        }
+        let fault = |fault| self.file.fault(primitive.element, fault);
         let base = name_of(instance.visit.node, "patch");
         let count = self.counts.entry(base.into()).or_default();
-        *count += 1;
-        let number = *count;
-        let loops = transformed(loops, &instance.visit.world);
-        let draft = |polygon, piece| Draft { base: base.into(), number, piece, polygon, finish, origin };
-        let warn = |why: String| {
-            format!(
-                "{}: {base}, polygon {} of this element: {why}",
-                self.file.place(primitive.element),
-                origin.polygon
-            )
-        };
-        match PlanarPolygon::new(&loops) {
-            Ok(polygon) => self.all.push(draft(polygon, None)),
-            Err(formfactor::Error::NotPlanar { distance, .. }) => {
-                let pieces = split(&loops);
-                let count = pieces.len();
-                self.warnings
-                    .push(warn(format!("not planar by {distance:.3e}; split into {count} triangles")));
-                let pieces = pieces.into_iter().zip(1..);
-                self.all.extend(pieces.map(|(polygon, piece)| draft(polygon, Some(piece))));
+        let mut flaws = Flaws::default();
+        for (polygon, loops) in primitive.polygons.iter().enumerate() {
+            if self.all.len() >= MAX_PATCHES {
+                return Err(fault(Fault::TooMany { what: "polygons", limit: MAX_PATCHES }));
             }
-            Err(
-                formfactor::Error::ZeroArea
-                | formfactor::Error::NoLoops
-                | formfactor::Error::TooFewVertices { .. },
-            ) => {
-                self.warnings.push(warn("no area; left out".into()));
-            }
-            Err(source) => {
-                return Err(self
-                    .file
-                    .fault(primitive.element, Fault::Shape { polygon: origin.polygon, source }));
-            }
+            *count += 1;
+            let number = *count;
+            let loops = transformed(loops, &instance.visit.world);
+            let pieces = planar(&loops, polygon, &mut flaws);
+            let pieces = pieces.map_err(|source| fault(Fault::Shape { polygon, source }))?;
+            let origin = Origin { polygon, ..origin };
+            let draft =
+                |(piece, polygon)| Draft { base: base.into(), number, piece, polygon, finish, origin };
+            self.all.extend(pieces.into_iter().map(draft));
         }
+        let place = self.file.place(primitive.element);
+        self.warnings.extend(flaws.sentences().map(|sentence| format!("{place}: {base}: {sentence}")));
         Ok(())
+    }
+}
+
+/// The polygon as it is, or, where it is not planar, its pieces, numbered from 1; nothing where it has no area.
+fn planar(
+    loops: &Polygon,
+    polygon: usize,
+    flaws: &mut Flaws,
+) -> Result<Vec<(Option<usize>, PlanarPolygon)>, formfactor::Error> {
+    match PlanarPolygon::new(loops) {
+        Ok(polygon) => Ok(vec![(None, polygon)]),
+        Err(formfactor::Error::NotPlanar { distance, .. }) => {
+            flaws.bent.push((polygon, distance));
+            Ok(split(loops).into_iter().zip(1..).map(|(piece, number)| (Some(number), piece)).collect())
+        }
+        Err(
+            formfactor::Error::ZeroArea
+            | formfactor::Error::NoLoops
+            | formfactor::Error::TooFewVertices { .. },
+        ) => {
+            flaws.empty.push(polygon);
+            Ok(Vec::new())
+        }
+        Err(other) => Err(other),
+    }
+}
+
+/// What is wrong with a primitive's polygons and was mended.
+#[derive(Default)]
+struct Flaws {
+    /// Those that are not planar, and by how much.
+    bent: Vec<(usize, f64)>,
+    /// Those that have no area.
+    empty: Vec<usize>,
+}
+
+impl Flaws {
+    /// One sentence for each kind of flaw.
+    fn sentences(&self) -> impl Iterator<Item = String> {
+        let worst = self.bent.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let bent = worst.map(|(polygon, distance)| {
+            let count = self.bent.len();
+            format!("{count} not planar (polygon {polygon} by {distance:.1e}); split into triangles")
+        });
+        let empty = self.empty.first().map(|polygon| {
+            let count = self.empty.len();
+            format!("{count} without area (the first is polygon {polygon}); left out")
+        });
+        bent.into_iter().chain(empty)
     }
 }
 

@@ -1,0 +1,98 @@
+//! The binary glTF: its layout, and what a viewer finds in it.
+use crate::samples::{fans, file, node, scene};
+use radiosity::expose::Exposure;
+use radiosity::io::collada::Collada;
+use radiosity::io::glb::glb;
+use radiosity::{Mesh, Scene};
+use serde_json::Value;
+
+struct Parts {
+    document: Value,
+    binary: Vec<u8>,
+}
+
+fn word(bytes: &[u8], at: usize) -> usize {
+    usize::try_from(u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())).unwrap()
+}
+
+/// Takes a file apart along its lengths.
+fn parts(bytes: &[u8]) -> Parts {
+    assert_eq!(&bytes[..4], b"glTF");
+    assert_eq!((word(bytes, 4), word(bytes, 8)), (2, bytes.len()));
+    let json = word(bytes, 12);
+    assert_eq!((&bytes[16..20], json % 4), (b"JSON".as_slice(), 0));
+    let document = serde_json::from_slice(&bytes[20..20 + json]).unwrap();
+    let Some(rest) = bytes.get(20 + json..).filter(|rest| !rest.is_empty()) else {
+        return Parts { document, binary: Vec::new() };
+    };
+    assert_eq!((&rest[4..8], word(rest, 0)), (b"BIN\0".as_slice(), rest.len() - 8));
+    Parts { document, binary: rest[8..].to_vec() }
+}
+
+impl Parts {
+    /// The rows of a vector accessor.
+    fn vectors(&self, name: &str) -> Vec<[f32; 3]> {
+        let index = &self.document["meshes"][0]["primitives"][0]["attributes"][name];
+        let accessor = &self.document["accessors"][usize::try_from(index.as_u64().unwrap()).unwrap()];
+        let view =
+            &self.document["bufferViews"][usize::try_from(accessor["bufferView"].as_u64().unwrap()).unwrap()];
+        let number = |name: &str| usize::try_from(view[name].as_u64().unwrap()).unwrap();
+        let bytes = &self.binary[number("byteOffset")..number("byteOffset") + number("byteLength")];
+        let floats: Vec<f32> =
+            bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
+        let rows: Vec<[f32; 3]> = floats.chunks(3).map(|row| row.try_into().unwrap()).collect();
+        assert_eq!(accessor["count"], rows.len());
+        let bound = |name: &str| -> [f32; 3] { serde_json::from_value(accessor[name].clone()).unwrap() };
+        for axis in 0..3 {
+            let column = rows.iter().map(|row| row[axis]);
+            assert_eq!(bound("min")[axis], column.clone().fold(f32::MAX, f32::min));
+            assert_eq!(bound("max")[axis], column.fold(f32::MIN, f32::max));
+        }
+        rows
+    }
+}
+
+fn written(text: &str, radiosity: f64) -> (Scene, Mesh, Parts) {
+    let (scene, asset) = (scene(text), Collada::from_text("test.dae", text).asset().unwrap());
+    let mesh = fans(&scene);
+    let light = vec![[radiosity, 0.0, 2.0 * radiosity]; mesh.vertices.len()];
+    let bytes = glb(&scene, &asset, &mesh, &light, Exposure::new(1.0).unwrap()).unwrap();
+    (scene, mesh, parts(&bytes))
+}
+
+#[test]
+fn positions_and_light_come_back() {
+    let text = file("", &node("n", "<translate>100 0 0</translate>", "square"));
+    let (_, mesh, parts) = written(&text, 0.5);
+    let middle = parts.document["nodes"][1]["translation"][0].as_f64().unwrap();
+    let xs = parts.vectors("POSITION").into_iter().map(|row| f64::from(row[0]) + middle);
+    assert!(xs.zip(&mesh.vertices).all(|(x, vertex)| x == vertex.x));
+    assert!(parts.vectors("_RADIOSITY").iter().all(|row| *row == [0.5, 0.0, 1.0]));
+    let [red, green, blue] = parts.vectors("COLOR_0")[0];
+    assert!((f64::from(red) - (1.0 - (-0.5_f64).exp())).abs() < 1e-7);
+    assert!((f64::from(blue) - (1.0 - (-1.0_f64).exp())).abs() < 1e-7);
+    assert_eq!(green, 0.0);
+}
+
+#[test]
+fn z_up_in_inches_becomes_y_up_in_metres() {
+    let (_, _, parts) = written(&file("", &node("n", "", "square")), 1.0);
+    let matrix: Vec<f64> = serde_json::from_value(parts.document["nodes"][0]["matrix"].clone()).unwrap();
+    // Columns: x stays, y goes to −z, z goes to y.
+    assert_eq!(matrix[..3], [0.0254, 0.0, 0.0]);
+    assert_eq!(matrix[4..7], [0.0, 0.0, -0.0254]);
+    assert_eq!(matrix[8..11], [0.0, 0.0254, 0.0]);
+}
+
+#[test]
+fn light_beyond_single_precision_stays_finite() {
+    let (_, _, parts) = written(&file("", &node("n", "", "square")), 1e300);
+    assert!(parts.vectors("_RADIOSITY").iter().flatten().all(|number| number.is_finite()));
+    assert_eq!(parts.vectors("COLOR_0")[0], [1.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_scene_without_patches_is_still_a_file() {
+    let (_, _, parts) = written(&file("", ""), 1.0);
+    assert!(parts.document.get("meshes").is_none() && parts.binary.is_empty());
+}

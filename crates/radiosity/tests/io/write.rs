@@ -1,0 +1,189 @@
+//! The file with light in it: what changes, what stays.
+use crate::samples::{fans, file, geometry, instance, names, node, polylist, scene};
+use radiosity::glam::DVec3;
+use radiosity::io::collada::Collada;
+use radiosity::{Mesh, Scene, scenes};
+
+/// The text lit by fans of triangles, coloured by where their vertices are.
+fn lit(text: &str) -> (Scene, String) {
+    let before = scene(text);
+    let mesh = fans(&before);
+    let lit = Collada::from_text("test.dae", text).with_light(&before, &mesh, &colours(&mesh)).unwrap();
+    (before, lit)
+}
+
+fn colours(mesh: &Mesh) -> Vec<[f64; 3]> {
+    mesh.vertices.iter().map(|point| point.to_array()).collect()
+}
+
+/// The area and area-weighted centroid of all patches with the same node name.
+fn moments(scene: &Scene) -> Vec<(String, f64, DVec3)> {
+    let mut all: Vec<(String, f64, DVec3)> = Vec::new();
+    let mesh = fans(scene);
+    for (index, element) in mesh.elements.iter().enumerate() {
+        let name = scene.patches[element.patch].name.split('.').next().unwrap().to_owned();
+        let (area, moment) = (mesh.area(index), mesh.area(index) * mesh.centroid(index));
+        match all.iter_mut().find(|(known, ..)| *known == name) {
+            Some((_, sum, centre)) => (*sum, *centre) = (*sum + area, *centre + moment),
+            None => all.push((name, area, moment)),
+        }
+    }
+    all
+}
+
+fn assert_same_surfaces(before: &Scene, after: &Scene) {
+    let (before, after) = (moments(before), moments(after));
+    assert_eq!(before.len(), after.len());
+    for ((name, area, moment), (after_name, after_area, after_moment)) in before.into_iter().zip(after) {
+        assert_eq!(name, after_name);
+        assert!((area - after_area).abs() < 1e-12 * area, "{name}");
+        assert!((moment - after_moment).length() < 1e-12 * (area + moment.length()), "{name}");
+    }
+}
+
+#[test]
+fn everything_outside_the_meshes_stays_byte_for_byte() {
+    let odd = "<!-- déjà vu -->\r\n\t<extra  type='x' ><technique profile=\"p\"><a b = \"&lt;&#65;\"/></technique></extra>";
+    let text = file(odd, &node("n", "<translate>1 2 3</translate>", "square"));
+    let (_, lit) = lit(&text);
+    let parts = |text: &str| {
+        let (head, rest) = text.split_once("<mesh>").unwrap();
+        let (_, tail) = rest.split_once("</mesh>").unwrap();
+        (head.to_owned(), tail.to_owned())
+    };
+    assert_eq!(parts(&text), parts(&lit));
+    assert_ne!(text, lit);
+}
+
+#[test]
+fn a_written_file_reads_back_with_the_same_surfaces() {
+    let cube = geometry(
+        "cube",
+        "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1",
+        &polylist("cube", "4 4 4 4 4 4", "0 3 2 1  4 5 6 7  0 1 5 4  1 2 6 5  2 3 7 6  3 0 4 7"),
+    );
+    let library = format!("<library_geometries>{cube}</library_geometries>");
+    let transforms = "<translate>3 2 1</translate><rotate>1 2 3 40</rotate><scale>-1 2 3</scale>";
+    let text = file(&library, &format!("{}{}", node("c", transforms, "cube"), node("s", "", "square")));
+    let (before, lit) = lit(&text);
+    let after = scene(&lit);
+    assert!(after.warnings.is_empty(), "{:?}", after.warnings);
+    assert_same_surfaces(&before, &after);
+    for patch in &after.patches {
+        assert_eq!(patch.reflectance, before.patches[0].reflectance);
+    }
+    let normals =
+        |scene: &Scene| scene.patches.iter().map(|patch| patch.polygon.normal()).collect::<Vec<_>>();
+    for (index, normal) in normals(&after).into_iter().enumerate().take(12) {
+        assert!((normal - normals(&before)[index / 2]).length() < 1e-12);
+    }
+}
+
+#[test]
+fn materials_stay_with_their_triangles() {
+    let two = polylist("g", "3", "0 1 2")
+        + &polylist("g", "3", "0 2 3").replace("material=\"m\"", "material=\"n\"");
+    let library = format!(
+        "<library_geometries>{}</library_geometries>",
+        geometry("g", "0 0 0 1 0 0 1 1 0 0 1 0", &two)
+    );
+    let bound = instance("g", "grey").replace(
+        "</technique_common>",
+        "<instance_material symbol=\"n\" target=\"#lamp\"/></technique_common>",
+    );
+    let (before, lit) = lit(&file(&library, &format!("<node name=\"n\">{bound}</node>")));
+    let after = scene(&lit);
+    let emission =
+        |scene: &Scene| scene.patches.iter().map(|patch| patch.emission.clone()).collect::<Vec<_>>();
+    assert_eq!(emission(&before), [vec![0.0; 3], vec![1.0, 2.0, 3.0]]);
+    assert_eq!(emission(&before), emission(&after));
+}
+
+#[test]
+fn a_geometry_of_several_nodes_gets_a_copy_for_each() {
+    let nodes: String = (0..4)
+        .map(|i| node(&format!("n{i}"), &format!("<translate>{i} 0 0</translate>"), "square"))
+        .collect();
+    let (before, lit) = lit(&file("", &nodes));
+    assert_eq!(lit.matches("<geometry ").count(), 4);
+    assert_same_surfaces(&before, &scene(&lit));
+    // The colours are the world positions: each copy has its own.
+    for x in 0..4 {
+        assert!(lit.contains(&format!(">{x} 0 0 {} 0 0 {} 1 0 {x} 1 0<", x + 1, x + 1)), "{x}");
+    }
+}
+
+#[test]
+fn a_node_of_several_instances_is_copied_into_each() {
+    let inner = node("leaf", "<scale>1 2 1</scale>", "square");
+    let libraries = format!(
+        "<library_nodes>{inner}<node id=\"pair\"><instance_node url=\"#leaf\"/><node id=\"far\"><translate>0 0 5</translate><instance_node url=\"#leaf\"/></node></node></library_nodes>"
+    );
+    let door = |x: usize| {
+        format!("<node name=\"d{x}\"><translate>{x} 0 0</translate><instance_node url=\"#pair\"/></node>")
+    };
+    let nodes = format!("{}{}{}", door(10), door(20), node("single", "", "square"));
+    let text = file(&libraries, &nodes);
+    let (before, lit) = lit(&text);
+    let after = scene(&lit);
+    assert_eq!(names(&before), ["leaf.1", "leaf.2", "leaf.3", "leaf.4", "single"]);
+    assert_same_surfaces(&before, &after);
+    assert_unique_ids(&lit);
+    // The library itself stays as it was.
+    assert!(lit.contains(&libraries));
+}
+
+#[test]
+fn a_node_that_is_instanced_once_is_edited_where_it_stands() {
+    let libraries = format!("<library_nodes>{}</library_nodes>", node("leaf", "", "square"));
+    let door = "<node name=\"d\"><translate>7 0 0</translate><instance_node url=\"#leaf\"/></node>";
+    let (before, lit) = lit(&file(&libraries, &format!("{door}{}", node("other", "", "square"))));
+    assert!(lit.contains(door));
+    assert_same_surfaces(&before, &scene(&lit));
+}
+
+fn assert_unique_ids(text: &str) {
+    let document = roxmltree::Document::parse(text).unwrap();
+    let mut ids: Vec<&str> = document.descendants().filter_map(|node| node.attribute("id")).collect();
+    let count = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), count);
+}
+
+#[test]
+fn new_ids_keep_clear_of_old_ones() {
+    let text = file(
+        "<extra id=\"square-2\"/><extra id=\"square-lit-positions\"/>",
+        &format!("{}{}", node("a", "", "square"), node("b", "", "square")),
+    );
+    let (_, lit) = lit(&text);
+    assert_unique_ids(&lit);
+}
+
+#[test]
+fn writing_what_was_written_changes_nothing_but_ids() {
+    let (_, once) = lit(&file("", &node("n", "<rotate>0 0 1 90</rotate>", "square")));
+    let (_, twice) = lit(&once);
+    assert_same_surfaces(&scene(&once), &scene(&twice));
+}
+
+#[test]
+fn the_cornell_box_lit_keeps_its_names_and_areas() {
+    let text = scenes::write_scene("cornell-box").unwrap();
+    let before = scene(&text);
+    let options = radiosity::Options { elements: 300, max_shots: 1, ..Default::default() };
+    let solution = radiosity::solve(&before, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
+    let radiosity = radiosity::expose::rgb(&solution.vertex_radiosity(), solution.bands);
+    let lit = Collada::from_text("test.dae", text).with_light(&before, &solution.mesh, &radiosity).unwrap();
+    let after = scene(&lit);
+    assert!(after.warnings.is_empty(), "{:?}", after.warnings);
+    let area = |scene: &Scene, node: &str| -> f64 {
+        let of_node = |name: &str| name == node || name.starts_with(&format!("{node}."));
+        scene.patches.iter().filter(|patch| of_node(&patch.name)).map(|patch| patch.polygon.area()).sum()
+    };
+    for name in ["floor", "ceiling", "left", "light", "short-top", "tall-4"] {
+        let (old, new) = (area(&before, name), area(&after, name));
+        assert!((old - new).abs() < 1e-9 * old, "{name}: {old} {new}");
+    }
+}
