@@ -33,7 +33,7 @@ fn skirts(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
         return None;
     }
     let sights: Vec<Sight> = view.loops.iter().flatten().map(sight).collect();
-    let mut free = FormFactor { value: 0.0, error_bound: view.error + tilt(from) };
+    let mut free = FormFactor { value: 0.0, error_bound: view.doubt + tilt(from) };
     for (a, b) in sights.iter().zip(sights.iter().cycle().skip(1)) {
         // Seen from the front the loop is counter-clockwise, seen from above clockwise.
         let skirt = skirt(from.normal(), b.toward, a.toward)?;

@@ -1,9 +1,9 @@
 //! The exact form factor: the stages, one after the other.
-use crate::cull::{Blocking, blocking};
-use crate::project::{Shadow, shadow};
+use crate::cull::{Hidden, hidden};
+use crate::project::Shadow;
 use crate::view::View;
 use crate::visible::visible_sum;
-use crate::{DifferentialArea, PlanarPolygon, Scratch};
+use crate::{DifferentialArea, PlanarPolygon, Scratch, doubt};
 
 /// A form factor and how far it may be from the exact one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,9 +40,10 @@ pub(crate) fn form_factor_past<'a>(
     match shadows(&view, occluders) {
         Shadows::Total => FormFactor::default(),
         Shadows::Some(shadows, doubt) => {
-            let free = shadows.is_empty() && to.is_convex();
-            let sum = if free { view.contour() } else { visible_sum(&view, &shadows, scratch) };
-            sum.form_factor(view.error + doubt)
+            if shadows.is_empty() && to.is_convex() {
+                return view.contour().form_factor(view.doubt + doubt);
+            }
+            visible_sum(&view, &shadows, scratch).form_factor(view.rounding + view.doubt + doubt)
         }
     }
 }
@@ -65,17 +66,20 @@ pub(crate) enum Shadows {
 pub(crate) fn shadows<'a>(view: &View, occluders: impl IntoIterator<Item = &'a PlanarPolygon>) -> Shadows {
     let (mut found, mut error) = (Vec::new(), 0.0);
     for occluder in occluders {
-        match blocking(view, occluder) {
-            Blocking::None { doubt } => error += doubt,
-            Blocking::Partial => found.extend(shadow(view, occluder)),
-            Blocking::Total => return Shadows::Total,
+        match hidden(view, occluder) {
+            Hidden::Nothing(doubt) => error += doubt,
+            Hidden::Shadow(shadow) => {
+                error += shadow.error;
+                found.push(shadow);
+            }
+            Hidden::All => return Shadows::Total,
         }
     }
-    error += found.iter().map(|s: &Shadow| s.error).sum::<f64>();
+    found.retain(|shadow: &Shadow| !shadow.loops.is_empty());
     Shadows::Some(found, error)
 }
 
 /// What a target gets that turns its back or lies below the horizon.
 pub(crate) fn unseen(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
-    FormFactor { value: 0.0, error_bound: if to.is_ambiguous_from(from.position()) { 1.0 } else { 0.0 } }
+    FormFactor { value: 0.0, error_bound: doubt::of_unseen(from, to).min(1.0) }
 }

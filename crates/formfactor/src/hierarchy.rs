@@ -31,7 +31,7 @@ pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pl
     };
     FormFactor {
         value: (whole.value - hidden.value).max(0.0),
-        error_bound: whole.error_bound + hidden.error_bound + view.error + error + ROUNDING,
+        error_bound: whole.error_bound + hidden.error_bound + view.rounding + view.doubt + error + ROUNDING,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Clipping to dA's horizon, and clipping in general.
 use crate::DifferentialArea;
 use crate::lambert::Sight;
-use crate::polygon::{PlanarPolygon, ROUNDING};
+use crate::polygon::{PlanarPolygon, ROUNDING, SMALLEST};
 use crate::predicates::{Height, over_horizon};
 use crate::twofold::{Offset, Twofold};
 use glam::DVec3;
@@ -82,12 +82,23 @@ fn cut(a: Vertex, height_a: Twofold, b: Vertex, height_b: Twofold) -> Vertex {
     Vertex { offset: inner.offset.toward(outer.offset, share), given: None, slack: a.slack.max(b.slack) }
 }
 
-/// The direction to a vertex, rounded to doubles.
+/// The direction to a vertex, rounded to doubles, of a length that can be squared.
 pub(crate) fn sight(vertex: &Vertex) -> Sight {
     let toward = vertex.offset.round();
-    let rest = vertex.offset.0.map(|x| (x.hi - x.round() + x.lo).abs());
-    let lost: f64 = rest.iter().sum();
+    let lost: f64 = vertex.offset.0.iter().map(|x| (x.hi - x.round() + x.lo).abs()).sum();
     let blur = (lost + vertex.slack) / toward.length() * (1.0 + 8.0 * ROUNDING);
     // A clip point is within 2^-98 of its edge; 2^-96 leaves room for its being near.
-    Sight { toward, blur: if vertex.given.is_none() { blur + ROUNDING * ROUNDING * 1024.0 } else { blur } }
+    let clipped = if vertex.given.is_none() { ROUNDING * ROUNDING * 1024.0 } else { 0.0 };
+    if toward.abs().max_element() >= SHORT {
+        return Sight { toward, blur: blur + clipped };
+    }
+    // Powers of two: nothing is rounded that matters.
+    let mut longer = toward;
+    while longer.abs().max_element() < SHORT && longer != DVec3::ZERO {
+        longer /= SMALLEST;
+    }
+    Sight { toward: longer, blur: (lost + vertex.slack) / toward.abs().max_element() + clipped }
 }
+
+/// Directions shorter than this are made longer, before their squares underflow.
+const SHORT: f64 = 1e-100;

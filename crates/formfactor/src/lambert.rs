@@ -58,9 +58,20 @@ impl ContourSum {
 
     /// The form factor, `error` more having come about elsewhere.
     pub(crate) fn form_factor(&self, error: f64) -> FormFactor {
-        let value = self.sum.round().clamp(0.0, 1.0);
+        let sum = self.sum.round();
+        if sum.is_nan() {
+            // An edge through dA: nothing is known.
+            return FormFactor { value: 0.0, error_bound: 1.0 };
+        }
+        let value = sum.clamp(0.0, 1.0);
         FormFactor { value, error_bound: (self.error + error + ROUNDING * value).min(1.0) }
     }
+}
+
+/// The length of a vector whose square may underflow.
+fn length(v: DVec3) -> f64 {
+    let largest = v.abs().max_element();
+    if largest < 1e-140 && largest > 0.0 { (v / largest).length() * largest } else { v.length() }
 }
 
 /// A great-circle arc between two directions of any length.
@@ -76,7 +87,7 @@ impl Arc {
     pub(crate) fn between(a: Sight, b: Sight) -> Self {
         let cross = accurate_cross(a.toward, b.toward);
         let cosine = accurate_dot(a.toward, b.toward);
-        Self { cross, sine: cross.length(), cosine, lengths: a.toward.length() * b.toward.length() }
+        Self { cross, sine: length(cross), cosine, lengths: a.toward.length() * b.toward.length() }
     }
 
     pub(crate) fn angle(&self) -> f64 {

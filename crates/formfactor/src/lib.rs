@@ -5,6 +5,7 @@ pub use glam::DVec3;
 mod complement;
 mod cull;
 mod differential_area;
+mod doubt;
 mod enclosure;
 mod error;
 mod exact;

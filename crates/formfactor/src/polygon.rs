@@ -29,9 +29,13 @@ pub struct PlanarPolygon {
     normal: DVec3,
     /// The two kept axes, in the order that keeps loop 0 counter-clockwise, and the dropped one.
     axes: [usize; 3],
+    /// How much the dropped coordinate falls per step in a kept one.
+    slopes: [Twofold; 2],
     /// How far a vertex may lie from where it stands, after both are put on the plane.
     deviation: f64,
     convex: bool,
+    /// The points in the order of their kept coordinates.
+    order: Vec<usize>,
 }
 
 impl PlanarPolygon {
@@ -51,8 +55,13 @@ impl PlanarPolygon {
         let plane = plane_of(outer, normal)?;
         let axes = kept_axes(plane.normal.round());
         let deviation = deviation(&points, &ends, &plane, normal)?;
-        let mut polygon = Self { points, ends, plane, normal, axes, deviation, convex: false };
+        let [u, v, w] = axes;
+        let slopes = [u, v].map(|axis| plane.normal.0[axis] / plane.normal.0[w]);
+        let order = (0..points.len()).collect();
+        let mut polygon = Self { points, ends, plane, normal, axes, slopes, deviation, convex: false, order };
         polygon.convex = polygon.ends.len() == 1 && region::is_convex(&polygon.flat_loops()[0]);
+        let Self { points, order, .. } = &mut polygon;
+        order.sort_by(|a, b| by_kept_axes(axes, points[*a], points[*b]));
         Ok(polygon)
     }
 
@@ -72,6 +81,11 @@ impl PlanarPolygon {
     #[must_use]
     pub fn area(&self) -> f64 {
         region::area(&self.flat_loops()) * self.steepness()
+    }
+
+    /// The edges of every loop, those between equal points left out.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        self.loops().flat_map(pairs).filter(|(a, b)| a != b)
     }
 
     /// Every vertex, loop after loop.
@@ -97,6 +111,15 @@ impl PlanarPolygon {
         DVec2::new(point[self.axes[0]], point[self.axes[1]])
     }
 
+    /// The vertex with these kept coordinates.
+    pub(crate) fn find(&self, flat: DVec2) -> Option<usize> {
+        let [u, v, _] = self.axes;
+        let mut sought = DVec3::ZERO;
+        (sought[u], sought[v]) = (flat.x, flat.y);
+        let found = self.order.binary_search_by(|i| by_kept_axes(self.axes, self.points[*i], sought));
+        found.ok().map(|place| self.order[place])
+    }
+
     pub(crate) fn axes(&self) -> [usize; 3] {
         self.axes
     }
@@ -110,23 +133,9 @@ impl PlanarPolygon {
         self.plane.normal_error() / self.plane.normal.0[self.axes[2]].hi.abs()
     }
 
-    /// Whether rounding of the vertices leaves open on which side of the polygon `position` lies, straight before or
-    /// behind it; never so for polygons whose vertices are exactly coplanar.
-    pub(crate) fn is_ambiguous_from(&self, position: DVec3) -> bool {
-        if self.deviation == 0.0 {
-            return false;
-        }
-        let distance = self.plane.side(position).value.hi.abs() / self.plane.normal.round().length();
-        let below = self.points.iter().fold(self.points[0], |m, p| m.min(*p)) - 2.0 * self.deviation;
-        let above = self.points.iter().fold(self.points[0], |m, p| m.max(*p)) + 2.0 * self.deviation;
-        let inside = position.cmpge(below).all() && position.cmple(above).all();
-        inside && distance <= 2.0 * self.deviation
-    }
-
     /// The plane's point with the kept coordinates `flat`; a vertex is itself.
     pub(crate) fn raise(&self, flat: DVec2) -> DVec3 {
-        let vertex = self.points.iter().copied().find(|p| self.flat(*p) == flat);
-        vertex.unwrap_or_else(|| self.lift(DVec3::ZERO, flat).round())
+        self.find(flat).map_or_else(|| self.lift(DVec3::ZERO, flat).round(), |index| self.points[index])
     }
 
     /// Area in space per area in the two kept coordinates.
@@ -137,13 +146,14 @@ impl PlanarPolygon {
     /// Where the plane's point with the kept coordinates `flat` lies as seen from `position`.
     pub(crate) fn lift(&self, position: DVec3, flat: DVec2) -> Offset {
         let [u, v, w] = self.axes;
-        let (anchor, normal) = (self.plane.corners[0], &self.plane.normal.0);
-        let run = normal[u] * Twofold::difference(flat.x, anchor[u])
-            + normal[v] * Twofold::difference(flat.y, anchor[v]);
+        let anchor = self.plane.corners[0];
+        let [along_u, along_v] = self.slopes;
+        let run = along_u * Twofold::difference(flat.x, anchor[u])
+            + along_v * Twofold::difference(flat.y, anchor[v]);
         let mut offset = [Twofold::ZERO; 3];
         offset[u] = Twofold::difference(flat.x, position[u]);
         offset[v] = Twofold::difference(flat.y, position[v]);
-        offset[w] = Twofold::difference(anchor[w], position[w]) - run / normal[w];
+        offset[w] = Twofold::difference(anchor[w], position[w]) - run;
         Offset(offset)
     }
 }
@@ -206,6 +216,16 @@ fn plane_of(outer: &[DVec3], normal: DVec3) -> Result<Plane, Error> {
 
 fn farthest(points: &[DVec3], distance: impl Fn(DVec3) -> f64) -> DVec3 {
     points.iter().copied().fold(points[0], |best, p| if distance(p) > distance(best) { p } else { best })
+}
+
+/// Each point of a loop with the next.
+fn pairs(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> {
+    points.iter().copied().zip(points.iter().copied().cycle().skip(1))
+}
+
+fn by_kept_axes([u, v, _]: [usize; 3], a: DVec3, b: DVec3) -> Ordering {
+    // No point has a -0.0: a total order by value.
+    a[u].total_cmp(&b[u]).then(a[v].total_cmp(&b[v]))
 }
 
 /// Drops the axis along which the normal is longest.

@@ -2,16 +2,14 @@
 //!
 //! The projection is a pure function of the vertex in twofold arithmetic, rounded once: where the exact projection is a
 //! double, it is that double, so that shadows that meet exactly do so in doubles too.
+use crate::cull::Wall;
 use crate::horizon::{Loops, Vertex, clip, seen};
 use crate::predicates::Height;
-use crate::region::leaf;
 use crate::twofold::{Offset, Twofold};
 use crate::view::{Spot, View, swept};
-use crate::visible::boundary_sum;
-use crate::{PlanarPolygon, Scratch};
-use glam::{DVec2, DVec3};
+use crate::{PlanarPolygon, doubt};
+use glam::DVec2;
 use std::cmp::Ordering;
-use std::ops::Add;
 
 /// An occluder's shadow in the target's two kept coordinates, to be read by the even-odd rule.
 #[derive(Clone, Debug)]
@@ -21,49 +19,19 @@ pub(crate) struct Shadow {
     pub(crate) error: f64,
 }
 
-/// The shadow of the part of `occluder` between dA and the target's plane, right inside the target; `None` when no part
-/// of it is there.
-pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon) -> Option<Shadow> {
-    let sides: Vec<Height> = occluder.points().iter().map(|p| view.to.plane().side(*p)).collect();
-    if is_coplanar_but_for_rounding(view, occluder, &sides) {
-        return Some(Shadow { loops: Vec::new(), error: overlap(view, occluder) });
-    }
-    let mut loops = before_target(view, occluder, &sides);
-    for side in &view.pyramid.wide {
-        loops = inside(loops, side.normal);
-    }
-    if loops.is_empty() {
-        return None;
+/// The shadow of the part of `occluder` between dA and the target's plane, right inside the target; without loops when no
+/// part of it is there. `sides` are the heights of the occluder's points over the target's plane.
+pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> Shadow {
+    let mut loops = before_target(view, occluder, sides);
+    for wall in &view.pyramid.walls {
+        loops = inside(view, loops, wall);
     }
     let spots: Vec<Vec<Spot>> =
-        loops.iter().map(|l| l.iter().map(|v| project(view, occluder, v, &sides)).collect()).collect();
-    let open = if occluder.is_ambiguous_from(view.from.position()) { 1.0 } else { 0.0 };
-    Some(Shadow {
+        loops.iter().map(|l| l.iter().map(|v| project(view, occluder, v, sides)).collect()).collect();
+    Shadow {
         loops: spots.iter().map(|l| l.iter().map(|s| s.flat).collect()).collect(),
-        error: open + spots.iter().map(|l| swept(l)).sum::<f64>(),
-    })
-}
-
-/// How far off the two polygons' vertices may be from where they stand, as a height over the target's plane.
-fn doubt(view: &View, occluder: &PlanarPolygon) -> f64 {
-    2.0 * (view.to.deviation() + occluder.deviation()) * view.to.plane().normal.round().length()
-}
-
-/// Whether rounded vertices leave open if the occluder is coplanar with the target; never so for polygons whose vertices
-/// are exactly coplanar among themselves.
-fn is_coplanar_but_for_rounding(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> bool {
-    let doubt = doubt(view, occluder);
-    doubt > 0.0 && sides.iter().all(|s| s.value.hi.abs() <= doubt)
-}
-
-/// A bound on the form factor of the part of the target that a polygon in its plane overlaps.
-fn overlap(view: &View, polygon: &PlanarPolygon) -> f64 {
-    let flat: Vec<Vec<DVec2>> =
-        polygon.loops().map(|l| l.iter().map(|p| view.to.flat(*p)).collect()).collect();
-    let common = leaf(&view.flat) & leaf(&flat);
-    let factor = boundary_sum(view, &common, &mut Scratch::default()).form_factor(0.0);
-    let edges = polygon.points().iter().map(|p| polygon.deviation() / (*p - view.from.position()).length());
-    factor.value + factor.error_bound + 8.0 * edges.sum::<f64>()
+        error: spots.iter().map(|l| swept(l)).sum(),
+    }
 }
 
 /// The part of an occluder on dA's side of the target's plane: 0 < t <= 1 on every ray that meets it.
@@ -73,25 +41,21 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> Loo
         // Every vertex is a given one here.
         loops = clip(&loops, |v| v.given.map_or(Twofold::ZERO, |i| sides[i].value));
     }
-    let doubt = doubt(view, occluder);
-    if doubt > 0.0 {
-        let slack = 2.0 * doubt / sine_between(view, occluder) / view.to.plane().normal.round().length();
-        let at_target = |v: &&mut Vertex| v.given.is_none_or(|i| sides[i].value.hi.abs() <= doubt);
-        loops.iter_mut().flatten().filter(at_target).for_each(|v| v.slack += slack);
-    }
+    doubt::loosen(view, occluder, sides, &mut loops);
     loops
 }
 
-/// The sine of the angle between the occluder's plane and the target's: the line where they meet is known within the
-/// vertices' deviation divided by it.
-fn sine_between(view: &View, occluder: &PlanarPolygon) -> f64 {
-    view.to.normal().cross(occluder.normal()).length()
-}
-
-/// The part of loops on the inner side of a plane through dA. The plane may be rounded: see [`crate::cull::Pyramid`].
-fn inside(loops: Loops, side: DVec3) -> Loops {
-    let height = |v: &Vertex| Twofold::from(side.dot(v.offset.round()));
-    if loops.iter().flatten().all(|v| height(v).hi >= 0.0) { loops } else { clip(&loops, height) }
+/// The part of loops on the inner side of a wall. The wall stands well outside of the target: its place does not matter,
+/// only that clip points lie on their edges.
+fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
+    if loops.iter().flatten().all(|v| wall.side.of_offset(v.offset.round(), 0.0) == Ordering::Greater) {
+        return loops;
+    }
+    let out = Twofold::difference(wall.bound, view.from.position()[wall.axis]);
+    clip(&loops, |v| {
+        let height = v.offset.0[wall.axis] * view.height - out * depth(view, v.offset);
+        if wall.is_upper { -height } else { height }
+    })
 }
 
 /// Where the ray from dA through a vertex meets the target's plane.
@@ -106,11 +70,14 @@ fn project(view: &View, occluder: &PlanarPolygon, vertex: &Vertex, sides: &[Heig
 
 /// u = O_u + W_u H / depth(W), rounded once.
 fn flat(view: &View, offset: Offset) -> DVec2 {
-    let normal = view.to.plane().normal;
-    let depth = (0..3).map(|i| -(normal.0[i] * offset.0[i])).fold(Twofold::ZERO, Add::add);
-    let scale = view.height / depth;
+    let scale = view.height / depth(view, offset);
     let [u, v, _] = view.to.axes();
     let coordinate =
         |axis: usize| (Twofold::from(view.from.position()[axis]) + offset.0[axis] * scale).round();
     DVec2::new(coordinate(u), coordinate(v))
+}
+
+/// The distance from dA toward the target's plane, in the same measure as the view's height.
+fn depth(view: &View, offset: Offset) -> Twofold {
+    -view.to.plane().normal.dot(offset)
 }

@@ -4,7 +4,7 @@ use crate::horizon::{Loops, Vertex, above, sight};
 use crate::lambert::{Arc, ContourSum, Sight};
 use crate::polygon::ROUNDING;
 use crate::twofold::{Offset, Twofold};
-use crate::{DifferentialArea, PlanarPolygon};
+use crate::{DifferentialArea, PlanarPolygon, doubt};
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -18,8 +18,10 @@ pub(crate) struct View<'a> {
     pub(crate) height: Twofold,
     pub(crate) loops: Loops,
     pub(crate) flat: Vec<Vec<DVec2>>,
-    /// A bound on what rounding the clip points changes in the form factor of any part of the target.
-    pub(crate) error: f64,
+    /// A bound on what rounding the clip points of `flat` changes in the form factor of any part of the target.
+    pub(crate) rounding: f64,
+    /// What rounding of the target's vertices leaves open about the side on which dA lies.
+    pub(crate) doubt: f64,
     pub(crate) pyramid: Pyramid,
 }
 
@@ -38,8 +40,9 @@ impl<'a> View<'a> {
             loops.iter().map(|l| l.iter().map(|v| spot(from, to, v)).collect()).collect();
         let flat: Vec<Vec<DVec2>> = spots.iter().map(|l| l.iter().map(|s| s.flat).collect()).collect();
         let pyramid = Pyramid::over(from, to, height.value.round(), &flat);
-        let error = if cut { spots.iter().map(|l| swept(l)).sum() } else { 0.0 };
-        Some(Self { from, to, height: height.value, loops, flat, error, pyramid })
+        let rounding = if cut { spots.iter().map(|l| swept(l)).sum() } else { 0.0 };
+        let doubt = doubt::of_facing(from.position(), to);
+        Some(Self { from, to, height: height.value, loops, flat, rounding, doubt, pyramid })
     }
 
     /// Lambert's sum over the target as it stands: right for a convex one.
@@ -56,7 +59,7 @@ impl<'a> View<'a> {
     /// with the blur that rounding its two coordinates brought.
     pub(crate) fn sight(&self, flat: DVec2) -> Sight {
         let slack = self.to.deviation();
-        let given = self.to.points().iter().position(|p| self.to.flat(*p) == flat);
+        let given = self.to.find(flat);
         if let Some(index) = given {
             let offset = Offset::between(self.from.position(), self.to.points()[index]);
             return sight(&Vertex { offset, given, slack });
