@@ -76,9 +76,8 @@ impl Selection {
 
     fn count_degrees(&mut self, arrangement: &Arrangement, labels: &Labels) {
         for sub in arrangement.live() {
-            if let Some([start, _]) = directed(arrangement, labels, sub)
-                && let Some(i) = self.crossing_index(start)
-            {
+            let start = directed(arrangement, labels, sub).map(|[start, _]| start);
+            if let Some(i) = start.and_then(|start| self.crossing_index(start)) {
                 self.degree[i] = self.degree[i].saturating_add(1);
             }
         }

@@ -15,7 +15,7 @@ fn decode(x: f64) -> (Sign, u64, Option<i32>) {
         return (sign, 0, None);
     }
     let zeros = mantissa.trailing_zeros();
-    (sign, mantissa >> zeros, Some(exponent + zeros.cast_signed()))
+    (sign, mantissa >> zeros, Some(exponent + zeros as i32))
 }
 
 /// The exponent of the lowest set bit of any of the coordinates.
