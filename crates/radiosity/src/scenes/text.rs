@@ -68,15 +68,21 @@ fn lens(view: &View) -> String {
     )
 }
 
+/// A matrix, row by row, since not every program reads `<lookat>`: a camera looks along its −z with y up.
 fn view(view: &View) -> String {
-    let rows = [view.eye, view.interest, view.up].map(|row| list(row.to_array().iter().map(decimal)));
+    let back = (view.eye - view.interest).normalize();
+    let right = view.up.cross(back).normalize();
+    let axes = [right, back.cross(right), back, view.eye];
+    let row = |axis: usize| list(axes.map(|column| decimal(&column[axis])).iter());
     format!(
         r##"      <node id="camera" name="camera">
-        <lookat>{}</lookat>
+        <matrix>{}  {}  {}  0 0 0 1</matrix>
         <instance_camera url="#camera-lens"/>
       </node>
 "##,
-        rows.join("  ")
+        row(0),
+        row(1),
+        row(2)
     )
 }
 
