@@ -4,7 +4,7 @@ use crate::{Scene, Solution};
 /// The intensity that the average surface gets: mid grey.
 const MID_GREY: f64 = 0.18;
 
-/// Intensity = 1 − exp(−K·B) in every band: a small K is dark, a large K bright ([G] equation 2.17).
+/// Intensity = 1 − exp(−K·B) in every band: a small K is dark, a large K bright (Gomes 2010, equation 2.17).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposure {
     k: f64,

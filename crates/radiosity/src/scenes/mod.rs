@@ -1,4 +1,4 @@
-//! The sources' scenes, as code: each builds a [`Model`], which becomes a COLLADA text.
+//! The sources' scenes, as code: each is built as a list of named faces, which becomes a COLLADA text.
 mod cornell_box;
 mod text;
 
