@@ -1,4 +1,68 @@
-//! Exact form factors (view factors, configuration factors) from a point to a polygon, with occlusion.
+//! Exact form factors from a point to a polygon, with occlusion, each with an error bound.
+//!
+//! The **form factor** (also *view factor* or *configuration factor*) F(dA -> A) is the fraction of the power leaving an
+//! infinitesimal diffuse area dA that reaches a polygon A directly:
+//!
+//! F = integral over A of cos(theta) cos(theta') / (pi r^2) V dA,
+//!
+//! where r is the distance, the thetas are the angles with the two normals, and V is 1 where nothing stands in between
+//! and 0 elsewhere.
+//!
+//! ```
+//! use formfactor::{DVec3, DifferentialArea, PlanarPolygon, form_factor};
+//!
+//! // A floor element that looks up, a 2 x 2 lamp two units above it, and a board in between.
+//! let floor = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+//! let lamp = PlanarPolygon::new([[[-1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, -1.0, 2.0], [-1.0, -1.0, 2.0]]])?;
+//! let board = PlanarPolygon::new([[[-0.25, -0.25, 1.0], [0.25, -0.25, 1.0], [0.25, 0.25, 1.0], [-0.25, 0.25, 1.0]]])?;
+//!
+//! let f = form_factor(&floor, &lamp, &[board]);
+//! assert!((f.value - 0.165_978_835_648_252_18).abs() <= f.error_bound);
+//! assert!(f.error_bound < 1e-14);
+//! # Ok::<(), formfactor::Error>(())
+//! ```
+//!
+//! # Definitions
+//!
+//! * A **differential area** is a point with a normal. It sees the half-space in front of its *horizon*, the plane through
+//!   it across the normal.
+//! * A **polygon** is the set of points inside an odd number of its loops. Its *front* is where its loop 0 is
+//!   counter-clockwise. As a **target** it is one-sided: a dA on or behind its plane sees 0 of it. F is discontinuous there.
+//! * An **occluder** is a polygon of which either side blocks. It *blocks* the ray from dA to a point of the target exactly when it
+//!   meets the ray strictly between them (0 < t < 1). One that is coplanar with the target, or whose plane contains dA,
+//!   blocks nothing.
+//! * An [`Enclosure`] is a set of polygons each of which is a target and occludes the others.
+//!
+//! # How it works
+//!
+//! | stage | what it does |
+//! | --- | --- |
+//! | `horizon` | cuts off what of the target lies below dA's horizon |
+//! | `cull` | drops occluders that cannot matter, and stops when one hides everything: exact decisions |
+//! | `project` | clips the others to the space between dA and the target and casts them on the target's plane |
+//! | `visible` | subtracts the union of the shadows from the target with `polycsg`: exact topology |
+//! | `lambert` | sums 1/(2 pi) beta N . n over the directed edges of what remains, beta the angle an edge subtends and n the unit normal of its plane through dA |
+//!
+//! The plane's coordinates are two of the three in space, so that a target's vertices keep theirs bit for bit and a shadow
+//! that is representable is cast exactly. No tolerance decides anything.
+//!
+//! # The error bound
+//!
+//! `error_bound` holds always: |value - exact| <= `error_bound`, where exact is for the doubles as given. It adds up
+//!
+//! 1. the *arithmetic* of each term of the sum: some roundings of beta;
+//! 2. the *blur* of each vertex of the visible boundary: rounding a crossing to doubles turns the direction to it, by at
+//!    most that angle, and the turned edges sweep a part of the hemisphere;
+//! 3. the blur of each vertex of each shadow, *measured* as the angle between the directions to the vertex and to the
+//!    double it was projected to: the union of the shadows errs by no more than all that their edges sweep;
+//! 4. for polygons of more than three vertices that are not exactly coplanar, what moving the vertices onto the plane can
+//!    change.
+//!
+//! Where exact arithmetic decides that nothing is seen, the value is exactly 0: a target that turns its back or lies
+//! below the horizon, one that a single convex occluder covers, covers whose projections are doubles.
+//!
+//! Sources: Barreto, *Cálculo do Fator-de-Forma exato entre Áreas Diferencial e Finita Usando CSG* (2008), for the method;
+//! Lambert (1760) for the contour formula.
 pub use glam;
 pub use glam::DVec3;
 

@@ -156,3 +156,82 @@ fn order(value: &IBig) -> Ordering {
         (false, Sign::Positive) => Ordering::Greater,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn numbers() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            (-4i32..=4).prop_map(f64::from),
+            -1.0..1.0,
+            (-1.0..1.0).prop_map(|x: f64| x * 1e60),
+            (-1.0..1.0).prop_map(|x: f64| x * 1e-60),
+            Just(5e-324),
+            Just(-1e-200),
+        ]
+    }
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        (numbers(), numbers(), numbers()).prop_map(DVec3::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn the_filter_decides_as_integers_do(corners in prop::array::uniform3(point()), from in point(), to in point()) {
+            if let Some(plane) = Plane::through(corners) {
+                prop_assert_eq!(plane.height(from, to).sign, exact_height(&corners, from, to));
+                prop_assert_eq!(plane.side(to).sign, exact_height(&corners, corners[0], to));
+            }
+            prop_assert_eq!(turn(from, corners[0], corners[1], to), exact_height(&[from, corners[0], corners[1]], from, to));
+            prop_assert_eq!(over_horizon(corners[0], from, to).sign, exact_dot(corners[0], from, to));
+        }
+
+        #[test]
+        fn the_value_has_the_sign(corners in prop::array::uniform3(point()), from in point(), to in point()) {
+            if let Some(plane) = Plane::through(corners) {
+                let height = plane.height(from, to);
+                prop_assert_eq!(height.value.hi.partial_cmp(&0.0), Some(height.sign));
+            }
+        }
+
+        #[test]
+        fn points_of_a_plane_are_on_it(corners in prop::array::uniform3(point()), i in 0usize..3) {
+            if let Some(plane) = Plane::through(corners) {
+                prop_assert_eq!(plane.side(corners[i]).sign, Ordering::Equal);
+            }
+        }
+
+        #[test]
+        fn swapping_two_corners_turns_the_plane_over(corners in prop::array::uniform3(point()), at in point()) {
+            let [a, b, c] = corners;
+            if let (Some(plane), Some(turned)) = (Plane::through(corners), Plane::through([b, a, c])) {
+                prop_assert_eq!(plane.side(at).sign, turned.side(at).sign.reverse());
+            }
+        }
+    }
+
+    #[test]
+    fn a_last_bit_off_a_sloping_plane_is_seen() {
+        let plane =
+            Plane::through([DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 0.0, 1.0)]);
+        let plane = plane.expect("three points that span a plane");
+        let third = 1.0 / 3.0;
+        // 1/3 rounds down, so that three of them fall short of 1 by 3 * 2^-54 / 3.
+        assert_eq!(plane.side(DVec3::splat(third)).sign, Ordering::Less);
+        assert_eq!(plane.side(DVec3::splat(third + f64::EPSILON / 4.0)).sign, Ordering::Greater);
+        assert_eq!(plane.side(DVec3::new(0.25, 0.25, 0.5)).sign, Ordering::Equal);
+    }
+
+    #[test]
+    fn points_on_a_line_span_no_plane() {
+        let third = DVec3::new(0.1, 0.2, 0.3);
+        assert!(Plane::through([DVec3::ZERO, third, 2.0 * third]).is_none());
+        assert!(
+            Plane::through([DVec3::ZERO, third, DVec3::new(0.2, 0.4, 0.6 + f64::EPSILON / 2.0)]).is_some()
+        );
+    }
+}

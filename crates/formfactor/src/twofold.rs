@@ -172,3 +172,50 @@ pub(crate) fn accurate_dot(a: DVec3, b: DVec3) -> f64 {
     let second = two_sum(first.hi, z.hi);
     second.hi + (second.lo + first.lo + (x.lo + y.lo + z.lo))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashu_int::IBig;
+    use proptest::prelude::*;
+
+    /// A double of 20 bits times 2^-20 or so: sums and products of a few have an exact integer counterpart.
+    fn small() -> impl Strategy<Value = i64> {
+        -(1i64 << 52)..(1i64 << 52)
+    }
+
+    fn double(x: i64) -> f64 {
+        // At most 53 bits: exact.
+        x as f64
+    }
+
+    fn integer(x: Twofold) -> IBig {
+        IBig::try_from(x.hi).expect("an integer") + IBig::try_from(x.lo).expect("an integer")
+    }
+
+    proptest! {
+        #[test]
+        fn differences_and_products_of_doubles_are_exact(a in small(), b in small()) {
+            prop_assert_eq!(integer(Twofold::difference(double(a), double(b))), IBig::from(a) - IBig::from(b));
+            let product = Twofold::from(double(a)) * Twofold::from(double(b));
+            prop_assert_eq!(integer(product), IBig::from(a) * IBig::from(b));
+        }
+
+        #[test]
+        fn quotients_that_are_doubles_come_out(a in small(), b in 1i64..(1 << 52)) {
+            let product = Twofold::from(double(a)) * Twofold::from(double(b));
+            prop_assert_eq!((product / Twofold::from(double(b))).round(), double(a));
+        }
+
+        #[test]
+        fn accurate_products_round_the_exact_ones(v in prop::array::uniform6(small())) {
+            let (a, b) = (DVec3::new(double(v[0]), double(v[1]), double(v[2])), DVec3::new(double(v[3]), double(v[4]), double(v[5])));
+            let w: Vec<IBig> = v.iter().map(|x| IBig::from(*x)).collect();
+            let exact = &w[0] * &w[3] + &w[1] * &w[4] + &w[2] * &w[5];
+            let (dot, exact) = (accurate_dot(a, b), exact.to_f64().value());
+            prop_assert!((dot - exact).abs() <= 2.0 * f64::EPSILON * exact.abs());
+            let exact = (&w[1] * &w[5] - &w[2] * &w[4]).to_f64().value();
+            prop_assert!((accurate_cross(a, b).x - exact).abs() <= 2.0 * f64::EPSILON * exact.abs());
+        }
+    }
+}
