@@ -1,4 +1,5 @@
 //! A result of `polycsg` beside the oracle's, bit for bit where nothing had to be repaired.
+use crate::Ring;
 use crate::exact::{edges, twice_signed_area};
 use crate::generators::Pair;
 use crate::oracle::{Arrangement, Class, Operand, Operation, Outline, Place, Rule, locate, sort};
@@ -105,12 +106,39 @@ pub fn check(pair: &Pair, operation: Operation, arrangement: &Arrangement) -> Re
 pub fn check_region(region: &Region, outline: &Outline<'_>) -> Result<Verdict, String> {
     validity::check(&shapes(region)).map_err(|e| format!("invalid: {e}"))?;
     let merged = outline.merged();
-    if first_contact(&merged).is_none() {
+    if survives_rounding(&merged) {
         let found = sorted_edges(region);
         return if found == merged { Ok(Verdict::Exact) } else { Err(difference(&found, &merged)) };
     }
     check_area(region, outline)?;
     Ok(Verdict::Repaired)
+}
+
+/// True when rounded boundary edges still bound a set to their left: they meet nowhere but in shared ends, and none of
+/// them was turned over.
+pub fn survives_rounding(merged: &[[DVec2; 2]]) -> bool {
+    if first_contact(merged).is_some() {
+        return false;
+    }
+    let walks = Operand { rings: walks(merged), rule: Rule::Positive };
+    let arrangement = Arrangement::of(&[walks]);
+    arrangement.sub_edges.iter().all(|s| s.classes == [Class::OnPlus])
+}
+
+/// Closed walks that run through every edge once; where several go on, any may.
+fn walks(segments: &[[DVec2; 2]]) -> Vec<Ring> {
+    let mut left = segments.to_vec();
+    let mut walks = Vec::new();
+    while let Some([start, mut at]) = left.pop() {
+        let mut walk = vec![start];
+        while at != start {
+            walk.push(at);
+            let next = left.iter().position(|s| s[0] == at).expect("a boundary is closed");
+            at = left.swap_remove(next)[1];
+        }
+        walks.push(walk);
+    }
+    walks
 }
 
 fn check_area(region: &Region, outline: &Outline<'_>) -> Result<(), String> {
@@ -137,11 +165,14 @@ fn difference(found: &[[DVec2; 2]], expected: &[[DVec2; 2]]) -> String {
 /// Checks that boundary edges are the outline's pieces, each once, by operand, edge and rounded ends.
 ///
 /// A boundary edge may run straight through any number of crossings; of coincident edges any may stand for all.
-pub fn check_boundary(found: &[BoundaryEdge], outline: &Outline<'_>) -> Result<(), String> {
+pub fn check_boundary(
+    found: impl IntoIterator<Item = BoundaryEdge>,
+    outline: &Outline<'_>,
+) -> Result<(), String> {
     let starts = outline.starts();
     let mut uses = vec![0; outline.pieces.len()];
     for edge in found {
-        let path = path(edge, outline, &starts).ok_or_else(|| format!("no pieces make up {edge:?}"))?;
+        let path = path(&edge, outline, &starts).ok_or_else(|| format!("no pieces make up {edge:?}"))?;
         path.into_iter().for_each(|index| uses[index] += 1);
     }
     let length_is_lost = |i: usize| {
@@ -185,7 +216,9 @@ fn walk(
 
 /// Checks `polycsg::classify` of a segment against the oracle's classes of its pieces.
 pub fn check_classify(segment: [DVec2; 2], region: &Region) -> Result<(), String> {
-    let line = Operand { rings: vec![segment.to_vec()], rule: Rule::EvenOdd };
+    let [p, q] = segment;
+    // There and back twice: rings of fewer edges are no input. Only the first edge is read.
+    let line = Operand { rings: vec![vec![p, q, p, q]], rule: Rule::EvenOdd };
     let arrangement = Arrangement::of(&[line, operand(region)]);
     let pieces = arrangement.sub_edges.iter().filter(|s| (s.operand, s.edge) == (0, 0));
     let expected = joined(pieces.map(|s| (s.ends.map(|v| arrangement.vertices[v].point), s.classes[1])));

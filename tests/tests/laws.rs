@@ -6,9 +6,10 @@ use tests::against::{csg, leaf, operate, region, sorted_edges, twice_area};
 use tests::generators::{KINDS, Pair, lattice, nasty};
 use tests::oracle::{Operand, Operation, Rule};
 
-/// Lattices, and nasty input whose coordinates stay far from the ends of the range.
+/// Lattices, and nasty input whose coordinates are ordinary numbers.
 fn inputs() -> impl Iterator<Item = Pair> {
-    let kinds = (0..KINDS.len()).filter(|&k| !KINDS[k].0.contains("exponents") && !KINDS[k].0.contains("1e"));
+    let is_ordinary = |name: &str| !["exponents", "1e", "subnormals"].iter().any(|part| name.contains(part));
+    let kinds = (0..KINDS.len()).filter(move |&k| is_ordinary(KINDS[k].0));
     let nasty_pairs = kinds.flat_map(|kind| (0..10).map(move |seed| nasty(kind, seed)));
     (0..400).map(lattice).chain(nasty_pairs)
 }
@@ -201,7 +202,7 @@ fn quarter_turns_and_mirrors_map_results_to_results() {
 fn needs_no_repair(pair: &Pair) -> bool {
     let arrangement = tests::oracle::Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
     let merged = |o| arrangement.operation(o).merged();
-    Operation::ALL.iter().all(|&o| tests::validity::first_contact(&merged(o)).is_none())
+    Operation::ALL.iter().all(|&o| tests::against::survives_rounding(&merged(o)))
 }
 
 #[test]

@@ -172,14 +172,19 @@ fn arrange<T: Exact>(operands: &[Operand], grid: Grid, steps: impl Fn(f64) -> T)
     Arrangement { sub_edges, vertices, extent: extent.fold(0.0, |m, p| f64::max(m, p.abs().max_element())) }
 }
 
+/// Edges with a length, of rings with three or more of them: fewer bound nothing and are no input.
 fn collect<T: Exact>(operands: &[Operand], steps: impl Fn(f64) -> T) -> Vec<Edge<T>> {
     let mut collected = Vec::new();
-    for (operand, rings) in operands.iter().enumerate() {
-        for (number, (a, b)) in rings.rings.iter().flat_map(|ring| edges(ring)).enumerate() {
-            if a != b {
+    for (operand, Operand { rings, .. }) in operands.iter().enumerate() {
+        let mut first = 0;
+        for ring in rings {
+            let long: Vec<_> = edges(ring).enumerate().filter(|(_, (a, b))| a != b).collect();
+            let long = if long.len() < 3 { &[] } else { &long[..] };
+            for (number, (a, b)) in long {
                 let (start, end) = ([steps(a.x), steps(a.y)], [steps(b.x), steps(b.y)]);
-                collected.push(Edge::new(operand, number, start, end));
+                collected.push(Edge::new(operand, first + number, start, end));
             }
+            first += ring.len();
         }
     }
     collected

@@ -1,0 +1,29 @@
+//! Any text as a COLLADA file: a scene or a typed error, and a scene whose numbers can be used.
+#![no_main]
+use libfuzzer_sys::fuzz_target;
+use radiosity::io::Collada;
+
+fuzz_target!(|text: &str| {
+    let file = Collada::from_text("fuzz.dae", text);
+    if let Err(e) = file.asset() {
+        assert!(!e.to_string().is_empty());
+    }
+    match file.scene() {
+        Err(e) => assert!(e.to_string().contains("fuzz.dae"), "which file? {e}"),
+        Ok(scene) => {
+            for patch in &scene.patches {
+                assert!(patch.polygon.area() > 0.0, "{} has no area", patch.name);
+                assert!(
+                    patch.reflectance.iter().all(|r| (0.0..=1.0).contains(r)),
+                    "{} reflects too much",
+                    patch.name
+                );
+                assert!(
+                    patch.emission.iter().all(|e| e.is_finite() && *e >= 0.0),
+                    "{} emits nonsense",
+                    patch.name
+                );
+            }
+        }
+    }
+});
