@@ -1,6 +1,7 @@
 //! Which polygons can block: the target's pyramid, facing, total cover. What is not needed is not done.
 use crate::predicates::{Height, turn};
 use crate::project::{Shadow, shadow};
+use crate::tree::Extent;
 use crate::view::View;
 use crate::{DifferentialArea, PlanarPolygon, doubt};
 use glam::{DVec2, DVec3};
@@ -60,6 +61,13 @@ impl Side {
         let (height, size) = (self.normal.dot(offset), offset.abs() + DVec3::splat(slack * 1e13));
         if height.abs() <= 1e-13 * self.terms.dot(size) { Ordering::Equal } else { height.total_cmp(&0.0) }
     }
+
+    /// Whether the whole box between two offsets is outside: its innermost corner is, by the largest error of any.
+    fn excludes_box(&self, low: DVec3, high: DVec3, slack: f64) -> bool {
+        let innermost = (self.normal * low).max(self.normal * high).element_sum();
+        let size = low.abs().max(high.abs()) + DVec3::splat(slack * 1e13);
+        innermost < -1e-13 * self.terms.dot(size)
+    }
 }
 
 impl Pyramid {
@@ -96,6 +104,13 @@ impl Pyramid {
         let outside = |side: &Side, origin: DVec3| {
             polygon.points().iter().all(|p| side.of_offset(*p - origin, slack) == Ordering::Less)
         };
+        outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
+    }
+
+    /// Whether everything in a box is missed for certain.
+    pub(crate) fn misses_box(&self, extent: &Extent, slack: f64) -> bool {
+        let outside =
+            |side: &Side, origin: DVec3| side.excludes_box(extent.low - origin, extent.high - origin, slack);
         outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
     }
 

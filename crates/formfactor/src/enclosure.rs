@@ -1,18 +1,24 @@
 //! Many polygons that see and hide each other.
+use crate::cull::Pyramid;
 use crate::exact::form_factor_past;
+use crate::tree::Tree;
 use crate::{DifferentialArea, FormFactor, PlanarPolygon, Scratch};
 
 /// A set of polygons, each of which is a target and hides the others.
 #[derive(Clone, Debug, Default)]
 pub struct Enclosure {
     polygons: Vec<PlanarPolygon>,
+    tree: Tree,
+    /// The largest deviation of a vertex from where it stands.
+    deviation: f64,
 }
 
 impl Enclosure {
-    /// An enclosure of these polygons; a polygon's index is its id. It need not be closed.
+    /// An enclosure of these polygons; a polygon's index is its id. It need not be closed. Takes O(n log^2 n).
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
-        Self { polygons }
+        let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
+        Self { tree: Tree::over(&polygons), polygons, deviation }
     }
 
     /// The polygons, by id.
@@ -53,8 +59,12 @@ impl Enclosure {
         if from.owner() == Some(id) {
             return FormFactor::default();
         }
-        let others = self.polygons.iter().enumerate().filter(|(i, _)| *i != id && Some(*i) != from.owner());
-        form_factor_past(from, part, others.map(|(_, polygon)| polygon), scratch)
+        let slack = self.deviation + part.deviation();
+        let others = |pyramid: &Pyramid| {
+            let found = self.tree.find(|extent| pyramid.misses_box(extent, slack)).into_iter();
+            found.filter(|i| *i != id && Some(*i) != from.owner()).map(|i| &self.polygons[i])
+        };
+        form_factor_past(from, part, others, scratch)
     }
 
     /// The form factors to every polygon, by id.

@@ -1,5 +1,5 @@
 //! The exact form factor: the stages, one after the other.
-use crate::cull::{Hidden, hidden};
+use crate::cull::{Hidden, Pyramid, hidden};
 use crate::project::Shadow;
 use crate::view::View;
 use crate::visible::visible_sum;
@@ -24,20 +24,23 @@ pub struct FormFactor {
 /// linear in what culling drops, and that of one polygon Boolean for the rest.
 #[must_use]
 pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> FormFactor {
-    form_factor_past(from, to, occluders, &mut Scratch::default())
+    form_factor_past(from, to, |_| occluders, &mut Scratch::default())
 }
 
-/// [`form_factor`] with occluders from anywhere and buffers that are used again.
-pub(crate) fn form_factor_past<'a>(
+/// [`form_factor`] past what `occluders` finds for the target's pyramid, with buffers that are used again.
+pub(crate) fn form_factor_past<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
-    occluders: impl IntoIterator<Item = &'a PlanarPolygon>,
+    occluders: impl FnOnce(&Pyramid) -> I,
     scratch: &mut Scratch,
-) -> FormFactor {
+) -> FormFactor
+where
+    I: IntoIterator<Item = &'a PlanarPolygon>,
+{
     let Some(view) = View::new(from, to) else {
         return unseen(from, to);
     };
-    match shadows(&view, occluders) {
+    match shadows(&view, occluders(&view.pyramid)) {
         Shadows::Total => FormFactor::default(),
         Shadows::Some(shadows, doubt) => {
             if shadows.is_empty() && to.is_convex() {

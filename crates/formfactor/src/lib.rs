@@ -80,6 +80,7 @@ mod polygon;
 mod predicates;
 mod project;
 mod region;
+mod tree;
 mod twofold;
 mod view;
 mod visible;

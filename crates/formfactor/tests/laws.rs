@@ -209,6 +209,31 @@ proptest! {
     }
 
     #[test]
+    fn an_enclosure_finds_every_occluder(from in area(), polygons in triangles(anywhere(), 40), shift in anywhere()) {
+        // Small and all over the place, so that most can be skipped.
+        let small = |(i, p): (u32, &PlanarPolygon)| {
+            let at = shift * f64::from(i % 7) + DVec3::Z * f64::from(i % 3);
+            PlanarPolygon::new(p.loops().map(|l| l.iter().map(|v| *v / 4.0 + at).collect::<Vec<_>>())).expect("as good")
+        };
+        let polygons: Vec<PlanarPolygon> = (0..).zip(&polygons).map(small).collect();
+        let enclosure = Enclosure::new(polygons.clone());
+        for (id, row) in enclosure.row(&from).into_iter().enumerate() {
+            let others = [&polygons[..id], &polygons[id + 1..]].concat();
+            agree(row, form_factor(&from, &polygons[id], &others))?;
+        }
+    }
+
+    #[test]
+    fn an_owner_neither_sees_itself_nor_blocks(corners in prop::array::uniform3(anywhere()), to in target(anywhere())) {
+        let Some(owner) = triangle(corners) else { return Ok(()) };
+        let middle = corners.iter().sum::<DVec3>() / 3.0;
+        let from = DifferentialArea::new(middle, owner.normal()).expect("a point of it").owned_by(0);
+        let row = Enclosure::new(vec![owner, to.clone()]).row(&from);
+        prop_assert_eq!(row[0], FormFactor::default());
+        prop_assert_eq!(row[1], unoccluded(&from, &to));
+    }
+
+    #[test]
     fn a_closed_room_of_triangles_is_seen_once((faces, from) in room()) {
         seen_once(in_triangles(&faces), &from)?;
     }

@@ -1,0 +1,112 @@
+//! Boxes around polygons, in a binary tree: what lies outside of a pyramid is skipped branch by branch.
+use crate::PlanarPolygon;
+use glam::DVec3;
+
+/// A box with its faces along the axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    pub(crate) low: DVec3,
+    pub(crate) high: DVec3,
+}
+
+impl Extent {
+    const NOTHING: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    fn of(polygon: &PlanarPolygon) -> Self {
+        polygon.points().iter().fold(Self::NOTHING, |all, p| all.with(Self { low: *p, high: *p }))
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+}
+
+/// The boxes of all polygons. Node i's branches are 2 i + 1 and 2 i + 2; each takes half of its polygons.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tree {
+    extents: Vec<Extent>,
+    /// The polygons' ids in the order of the leaves.
+    ids: Vec<usize>,
+}
+
+/// A node with so few polygons has no branches.
+const LEAF: usize = 4;
+
+impl Tree {
+    /// Takes O(n log^2 n).
+    pub(crate) fn over(polygons: &[PlanarPolygon]) -> Self {
+        let extents: Vec<Extent> = polygons.iter().map(Extent::of).collect();
+        let mut tree = Self { extents: Vec::new(), ids: (0..polygons.len()).collect() };
+        let mut open = vec![(0, 0..polygons.len())];
+        while let Some((node, range)) = open.pop() {
+            let ids = &mut tree.ids[range.clone()];
+            let extent = ids.iter().fold(Extent::NOTHING, |all, id| all.with(extents[*id]));
+            let nodes = tree.extents.len().max(node + 1);
+            tree.extents.resize(nodes, Extent::NOTHING);
+            tree.extents[node] = extent;
+            if range.len() > LEAF {
+                sort_along_longest(ids, &extents, extent);
+                let middle = range.start + range.len() / 2;
+                open.push((2 * node + 1, range.start..middle));
+                open.push((2 * node + 2, middle..range.end));
+            }
+        }
+        tree
+    }
+
+    /// The polygons in leaves of which no box around them is `outside`.
+    pub(crate) fn find(&self, outside: impl Fn(&Extent) -> bool) -> Vec<usize> {
+        let mut found = Vec::new();
+        let mut open = vec![(0, 0..self.ids.len())];
+        while let Some((node, range)) = open.pop() {
+            if range.is_empty() || outside(&self.extents[node]) {
+                continue;
+            }
+            if range.len() <= LEAF {
+                found.extend_from_slice(&self.ids[range]);
+                continue;
+            }
+            let middle = range.start + range.len() / 2;
+            open.push((2 * node + 2, middle..range.end));
+            open.push((2 * node + 1, range.start..middle));
+        }
+        found
+    }
+}
+
+fn sort_along_longest(ids: &mut [usize], extents: &[Extent], whole: Extent) {
+    let size = whole.high - whole.low;
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    let middle = |id: usize| extents[id].low[axis] / 2.0 + extents[id].high[axis] / 2.0;
+    ids.sort_by(|a, b| middle(*a).total_cmp(&middle(*b)).then(a.cmp(b)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn nothing_that_meets_a_half_space_is_skipped(
+            corners in prop::collection::vec(prop::array::uniform3((-9.0..9.0, -9.0..9.0, -9.0..9.0)), 0..60),
+            axis in 0usize..3, bound in -9.0..9.0,
+        ) {
+            let polygons: Vec<PlanarPolygon> =
+                corners.iter().filter_map(|c| PlanarPolygon::new([c.map(DVec3::from)]).ok()).collect();
+            let mut found = Tree::over(&polygons).find(|extent| extent.low[axis] > bound);
+            found.sort_unstable();
+            prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]));
+            for (id, polygon) in polygons.iter().enumerate() {
+                let meets = polygon.points().iter().any(|p| p[axis] <= bound);
+                prop_assert!(!meets || found.binary_search(&id).is_ok());
+            }
+        }
+    }
+}
