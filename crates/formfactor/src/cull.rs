@@ -1,5 +1,5 @@
 //! Which polygons can block: the target's pyramid, facing, total cover. What is not needed is not done.
-use crate::predicates::{Height, turn};
+use crate::predicates::turn;
 use crate::project::{Shadow, shadow};
 use crate::tree::Extent;
 use crate::view::View;
@@ -121,18 +121,23 @@ impl Pyramid {
         polygon: &PlanarPolygon,
         slack: f64,
     ) -> Option<(DVec3, DVec3)> {
-        let outside =
-            |side: &Side, a: DVec3, b: DVec3, p: DVec3| match side.of_offset(p - self.position, slack) {
-                Ordering::Less => true,
-                Ordering::Equal => p == a || p == b || turn(self.position, a, b, p) != Ordering::Less,
-                Ordering::Greater => false,
-            };
         if !has_few_edges(to) {
             return None;
         }
+        let points = || polygon.points().iter().copied();
+        let place = |side: &Side, p: DVec3| side.of_offset(p - self.position, slack);
+        let outside = |side: &Side, a: DVec3, b: DVec3, p: DVec3| {
+            place(side, p) == Ordering::Less
+                || p == a
+                || p == b
+                || turn(self.position, a, b, p) != Ordering::Less
+        };
         let mut candidates = self.tight[1..].iter().zip(to.edges());
-        let found =
-            candidates.find(|(side, (a, b))| polygon.points().iter().all(|p| outside(side, *a, *b, *p)));
+        let found = candidates.find(|(side, (a, b))| {
+            // First what costs little.
+            points().all(|p| place(side, p) != Ordering::Greater)
+                && points().all(|p| outside(side, *a, *b, p))
+        });
         found.map(|(_, edge)| edge)
     }
 }
@@ -183,16 +188,16 @@ pub(crate) fn hidden(view: &View, occluder: &PlanarPolygon) -> Hidden {
     if let Some((a, b)) = view.pyramid.touched_edge(view.to, occluder, slack) {
         return Hidden::Nothing(doubt::of_touch(view, a, b, occluder));
     }
-    let facing = occluder.plane().side(view.from.position()).sign;
-    let sides: Vec<Height> = occluder.points().iter().map(|p| view.to.plane().side(*p)).collect();
-    let open = doubt::of_facing(view.from.position(), occluder) + doubt::of_contact(view, occluder, &sides);
+    let facing = occluder.plane().side_of(view.from.position());
+    let sides: Vec<Ordering> = occluder.points().iter().map(|p| view.to.plane().side_of(*p)).collect();
+    let open = doubt::of_facing(view.from.position(), occluder) + doubt::of_contact(view, occluder);
     if facing == Ordering::Equal
-        || sides.iter().all(|s| s.sign != Ordering::Greater)
-        || doubt::is_coplanar(view, occluder, &sides)
+        || sides.iter().all(|s| *s != Ordering::Greater)
+        || doubt::is_coplanar(view, occluder)
     {
         return Hidden::Nothing(open);
     }
-    let before = sides.iter().all(|s| s.sign != Ordering::Less);
+    let before = sides.iter().all(|s| *s != Ordering::Less);
     if before && slack == 0.0 && occluder.is_convex() && covers(view, occluder, facing) {
         return Hidden::All;
     }

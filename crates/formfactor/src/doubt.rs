@@ -5,7 +5,6 @@
 //! polygons whose vertices are exactly coplanar.
 use crate::horizon::Vertex;
 use crate::lambert::{Arc, Sight};
-use crate::predicates::Height;
 use crate::region::leaf;
 use crate::view::View;
 use crate::visible::boundary_sum;
@@ -43,12 +42,12 @@ pub(crate) fn of_touch(view: &View, a: DVec3, b: DVec3, occluder: &PlanarPolygon
 }
 
 /// Of a polygon that touches the target's plane, or is coplanar with it but for rounding.
-pub(crate) fn of_contact(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> f64 {
+pub(crate) fn of_contact(view: &View, occluder: &PlanarPolygon) -> f64 {
     let doubt = height(view, occluder);
-    if doubt == 0.0 || sides.iter().all(|s| s.value.hi.abs() > doubt) {
+    if doubt == 0.0 || !occluder.points().iter().any(|p| is_within(view, *p, doubt)) {
         return 0.0;
     }
-    if sides.iter().all(|s| s.value.hi.abs() <= doubt) {
+    if is_coplanar(view, occluder) {
         return overlap(view, occluder);
     }
     let slack = slack_at_target(view, occluder);
@@ -56,19 +55,25 @@ pub(crate) fn of_contact(view: &View, occluder: &PlanarPolygon, sides: &[Height]
 }
 
 /// Adds to vertices on the target's plane how far the line may be where the occluder meets it.
-pub(crate) fn loosen(view: &View, occluder: &PlanarPolygon, sides: &[Height], loops: &mut [Vec<Vertex>]) {
+pub(crate) fn loosen(view: &View, occluder: &PlanarPolygon, loops: &mut [Vec<Vertex>]) {
     let doubt = height(view, occluder);
     if doubt > 0.0 {
         let slack = slack_at_target(view, occluder);
-        let at_target = |v: &&mut Vertex| v.given.is_none_or(|i| sides[i].value.hi.abs() <= doubt);
+        let at_target =
+            |v: &&mut Vertex| v.given.is_none_or(|i| is_within(view, occluder.points()[i], doubt));
         loops.iter_mut().flatten().filter(at_target).for_each(|v| v.slack += slack);
     }
 }
 
 /// Whether an occluder may be coplanar with the target: it then counts as if it were.
-pub(crate) fn is_coplanar(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> bool {
+pub(crate) fn is_coplanar(view: &View, occluder: &PlanarPolygon) -> bool {
     let doubt = height(view, occluder);
-    doubt > 0.0 && sides.iter().all(|s| s.value.hi.abs() <= doubt)
+    doubt > 0.0 && occluder.points().iter().all(|p| is_within(view, *p, doubt))
+}
+
+/// Whether a point is no higher over the target's plane, on either side.
+fn is_within(view: &View, point: DVec3, height: f64) -> bool {
+    view.to.plane().side(point).value.hi.abs() <= height
 }
 
 /// How far off the two polygons' vertices may be, as a height over the target's plane.

@@ -1,8 +1,10 @@
-//! The only place that decides a sign in space: filter in twofold arithmetic, then big integers. Enums out, no tolerance.
+//! The only place that decides a sign in space: filter in doubles, filter in twofold arithmetic, then big integers. Enums
+//! out, no tolerance.
 //!
 //! Every decision is one polynomial: the height (b - a) x (c - a) . (x - y), degree 3 in the input's doubles. The filter
 //! errs by less than 2^-96 of the sum of the terms' magnitudes (see [`crate::twofold::size`] for why underflow is within
 //! that too); what it leaves open goes to integers, where nothing is rounded.
+use crate::polygon::ROUNDING;
 use crate::twofold::{Offset, Twofold, sizes};
 use dashu_int::{IBig, Sign};
 use glam::DVec3;
@@ -10,6 +12,11 @@ use std::cmp::Ordering;
 
 /// Relative error of the filter: 2^-96.
 const FILTER: f64 = 1.262_177_448_353_619e-29;
+
+/// Relative error of the filter in doubles: three factors of a few roundings each, and their sum.
+const QUICK: f64 = 32.0 * ROUNDING;
+/// More than underflow can take from a product of three, for coordinates up to 2^200.
+const QUICK_UNDERFLOW: f64 = 1e-240;
 
 /// A height with its sign decided exactly; `value` is within the filter's error, and zero when the sign is `Equal`.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +58,15 @@ impl Plane {
     }
 
     /// On which side of the plane `point` lies: `Greater` on the side of the normal.
+    pub(crate) fn side_of(&self, point: DVec3) -> Ordering {
+        let (normal, offset) = (self.normal.round(), point - self.corners[0]);
+        let value = normal.dot(offset);
+        let error =
+            QUICK * normal.abs().dot(offset.abs()) + FILTER * self.terms.dot(offset.abs()) + QUICK_UNDERFLOW;
+        if value.abs() > error { value.total_cmp(&0.0) } else { self.side(point).sign }
+    }
+
+    /// The height of `point` over the plane, with the sign of [`Self::side_of`].
     pub(crate) fn side(&self, point: DVec3) -> Height {
         if self.corners.contains(&point) {
             return Height { value: Twofold::ZERO, sign: Ordering::Equal };
@@ -69,6 +85,12 @@ pub(crate) fn over_horizon(normal: DVec3, position: DVec3, point: DVec3) -> Heig
 
 /// Whether `d` is left of, on, or right of the plane through `origin`, `a`, `b`: the sign of (a - o) x (b - o) . (d - o).
 pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
+    let [p, q, r] = [a, b, d].map(|x| x - origin);
+    let (value, [p, q, r]) = (p.cross(q).dot(r), [p, q, r].map(DVec3::abs));
+    let terms = DVec3::new(p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x).dot(r);
+    if value.abs() > QUICK * terms + QUICK_UNDERFLOW {
+        return value.total_cmp(&0.0);
+    }
     let (normal, terms) = Offset::between(origin, a).cross(Offset::between(origin, b));
     let offset = Offset::between(origin, d);
     let terms = terms.dot(offset.sizes());
@@ -185,6 +207,7 @@ mod tests {
             if let Some(plane) = Plane::through(corners) {
                 prop_assert_eq!(plane.height(from, to).sign, exact_height(&corners, from, to));
                 prop_assert_eq!(plane.side(to).sign, exact_height(&corners, corners[0], to));
+                prop_assert_eq!(plane.side_of(to), plane.side(to).sign);
             }
             prop_assert_eq!(turn(from, corners[0], corners[1], to), exact_height(&[from, corners[0], corners[1]], from, to));
             prop_assert_eq!(over_horizon(corners[0], from, to).sign, exact_dot(corners[0], from, to));

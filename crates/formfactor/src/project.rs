@@ -4,7 +4,6 @@
 //! double, it is that double, so that shadows that meet exactly do so in doubles too.
 use crate::cull::Wall;
 use crate::horizon::{Loops, Vertex, clip, seen};
-use crate::predicates::Height;
 use crate::twofold::{Offset, Twofold};
 use crate::view::{Spot, View, swept};
 use crate::{PlanarPolygon, doubt};
@@ -20,8 +19,8 @@ pub(crate) struct Shadow {
 }
 
 /// The shadow of the part of `occluder` between dA and the target's plane, right inside the target; without loops when no
-/// part of it is there. `sides` are the heights of the occluder's points over the target's plane.
-pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> Shadow {
+/// part of it is there. `sides` says on which side of the target's plane the occluder's points lie.
+pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> Shadow {
     let mut loops = before_target(view, occluder, sides);
     for wall in &view.pyramid.walls {
         loops = inside(view, loops, wall);
@@ -35,13 +34,14 @@ pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Height]) ->
 }
 
 /// The part of an occluder on dA's side of the target's plane: 0 < t <= 1 on every ray that meets it.
-fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Height]) -> Loops {
+fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> Loops {
     let mut loops = seen(view.from, occluder);
-    if sides.iter().any(|s| s.sign == Ordering::Less) {
+    if sides.contains(&Ordering::Less) {
         // Every vertex is a given one here.
-        loops = clip(&loops, |v| v.given.map_or(Twofold::ZERO, |i| sides[i].value));
+        let height = |i: usize| view.to.plane().side(occluder.points()[i]).value;
+        loops = clip(&loops, |v| v.given.map_or(Twofold::ZERO, height));
     }
-    doubt::loosen(view, occluder, sides, &mut loops);
+    doubt::loosen(view, occluder, &mut loops);
     loops
 }
 
@@ -59,8 +59,8 @@ fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
 }
 
 /// Where the ray from dA through a vertex meets the target's plane.
-fn project(view: &View, occluder: &PlanarPolygon, vertex: &Vertex, sides: &[Height]) -> Spot {
-    let on_plane = vertex.given.filter(|i| sides[*i].sign == Ordering::Equal);
+fn project(view: &View, occluder: &PlanarPolygon, vertex: &Vertex, sides: &[Ordering]) -> Spot {
+    let on_plane = vertex.given.filter(|i| sides[*i] == Ordering::Equal);
     let flat = on_plane.map_or_else(|| flat(view, vertex.offset), |i| view.to.flat(occluder.points()[i]));
     // Clip lines lie well outside of the target: so does whatever the bounds move.
     let [low, high] = view.pyramid.bounds;
