@@ -8,7 +8,7 @@
 //!
 //! where phi is the azimuth between a and b, beta the angle between them, and the azimuths add to 2 pi.
 use crate::horizon::sight;
-use crate::lambert::{Arc, Sight};
+use crate::lambert::{Sight, swept};
 use crate::polygon::ROUNDING;
 use crate::twofold::{accurate_cross, accurate_dot};
 use crate::view::View;
@@ -38,7 +38,7 @@ fn skirts(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
         // Seen from the front the loop is counter-clockwise, seen from above clockwise.
         let skirt = skirt(from.normal(), b.toward, a.toward)?;
         free.value += skirt.value;
-        free.error_bound += skirt.error_bound + Arc::between(*a, *b).swept(a.blur + b.blur);
+        free.error_bound += skirt.error_bound + swept(*a, *b);
     }
     let rounding = 4.0 * ROUNDING * free.value * f64::from(u32::try_from(sights.len()).unwrap_or(u32::MAX));
     Some(FormFactor { value: free.value.clamp(0.0, 1.0), error_bound: free.error_bound + rounding })

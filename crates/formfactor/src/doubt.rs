@@ -4,7 +4,7 @@
 //! exact for the vertices as given, the moved ones may decide otherwise. Everything here is 0 for triangles and for
 //! polygons whose vertices are exactly coplanar.
 use crate::horizon::Vertex;
-use crate::lambert::{Arc, Sight};
+use crate::lambert::{self, Sight};
 use crate::region::leaf;
 use crate::view::View;
 use crate::visible::boundary_sum;
@@ -37,8 +37,9 @@ pub(crate) fn of_touch(view: &View, a: DVec3, b: DVec3, occluder: &PlanarPolygon
         return 0.0;
     }
     let reached = occluder.points().iter().chain([&a, &b]).map(|p| p.distance(position));
-    let sight = |p: DVec3| Sight { toward: p - position, blur: 0.0 };
-    Arc::between(sight(a), sight(b)).swept(4.0 * slack / reached.fold(f64::INFINITY, f64::min))
+    let blur = 2.0 * slack / reached.fold(f64::INFINITY, f64::min);
+    let sight = |p: DVec3| Sight { toward: p - position, blur };
+    lambert::swept(sight(a), sight(b))
 }
 
 /// Of a polygon that touches the target's plane, or is coplanar with it but for rounding.
@@ -101,6 +102,5 @@ fn overlap(view: &View, polygon: &PlanarPolygon) -> f64 {
 /// What an edge sweeps whose ends move by `slack`.
 fn swept(position: DVec3, a: DVec3, b: DVec3, slack: f64) -> f64 {
     let sight = |p: DVec3| Sight { toward: p - position, blur: slack / p.distance(position) };
-    let (a, b) = (sight(a), sight(b));
-    Arc::between(a, b).swept(a.blur + b.blur)
+    lambert::swept(sight(a), sight(b))
 }

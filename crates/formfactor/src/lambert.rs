@@ -100,17 +100,30 @@ impl Arc {
         COMPENSATED * self.lengths / self.sine
     }
 
-    /// A bound on the change of a form factor when the ends move by angles whose sum is `blur`; 1 when they may move
-    /// too far for the bound to hold.
-    ///
-    /// Up to s = blur (tan(beta/2) + blur) = 1/4 the two triangles have less than 3/2 s of area.
-    pub(crate) fn swept(&self, blur: f64) -> f64 {
-        if blur == 0.0 {
-            return 0.0;
-        }
-        let half_tangent = self.sine / (self.lengths + self.cosine).max(0.0);
-        let swept = blur * (half_tangent + blur);
-        // Written so that NaN, an edge through dA, is not small.
-        if swept <= 0.25 { 1.5 / PI * swept } else { 1.0 }
+    /// A bound on the change of a form factor when the ends move by angles whose sum is `blur`.
+    fn swept(&self, blur: f64) -> f64 {
+        if blur == 0.0 { 0.0 } else { swept_within(blur, self.sine / (self.lengths + self.cosine).max(0.0)) }
     }
+}
+
+/// A bound on the change of a form factor when the ends of an arc move within their blur.
+pub(crate) fn swept(a: Sight, b: Sight) -> f64 {
+    let blur = a.blur + b.blur;
+    if blur == 0.0 {
+        return 0.0;
+    }
+    // Plain products err by a few roundings of the lengths.
+    let lengths = a.toward.length() * b.toward.length();
+    let error = 16.0 * ROUNDING * lengths;
+    let sine = a.toward.cross(b.toward).length() + error;
+    swept_within(blur, sine / (lengths + a.toward.dot(b.toward) - error).max(0.0))
+}
+
+/// The bound for an arc with this tangent of half its angle; 1 when the ends may move too far for it to hold.
+///
+/// Up to s = blur (tan(beta/2) + blur) = 1/4 the two triangles have less than 3/2 s of area.
+fn swept_within(blur: f64, half_tangent: f64) -> f64 {
+    let swept = blur * (half_tangent + blur);
+    // Written so that NaN, an edge through dA, is not small.
+    if swept <= 0.25 { 1.5 / PI * swept } else { 1.0 }
 }

@@ -1,7 +1,7 @@
 //! A target as a differential area sees it, before anything stands in between.
 use crate::cull::Pyramid;
 use crate::horizon::{Loops, Vertex, above, sight};
-use crate::lambert::{Arc, ContourSum, Sight};
+use crate::lambert::{self, Arc, ContourSum, Sight};
 use crate::polygon::ROUNDING;
 use crate::twofold::{Offset, Twofold};
 use crate::{DifferentialArea, PlanarPolygon, doubt};
@@ -112,5 +112,5 @@ impl Spot {
 pub(crate) fn swept(spots: &[Spot]) -> f64 {
     let Some(last) = spots.last() else { return 0.0 };
     let edges = std::iter::once(last).chain(spots).zip(spots);
-    edges.map(|(a, b)| Arc::between(a.sight, b.sight).swept(a.sight.blur + b.sight.blur)).sum()
+    edges.map(|(a, b)| lambert::swept(a.sight, b.sight)).sum()
 }
