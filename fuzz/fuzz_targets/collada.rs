@@ -1,7 +1,7 @@
 //! Any text as a COLLADA file: a scene or a typed error, and a scene whose numbers can be used.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use radiosity::io::Collada;
+use radiosity::io::collada::Collada;
 
 fuzz_target!(|text: &str| {
     let file = Collada::from_text("fuzz.dae", text);
