@@ -1,50 +1,43 @@
-//! The shoelace sum, compensated.
+//! The shoelace sum in double-double arithmetic.
 
+use crate::double::Double;
 use crate::predicates::Segment;
-
-/// A sum whose rounding errors are carried along (Neumaier, 1974).
-#[derive(Clone, Copy, Debug, Default)]
-struct Shoelace {
-    sum: f64,
-    carry: f64,
-}
+use glam::DVec2;
 
 /// The area that closed walks of directed edges enclose, counter-clockwise positive.
 ///
-/// Each walk is summed relative to its own first point and, where squares would leave the range, scaled by a power of
-/// two; an area beyond the range is infinite, never NaN.
+/// Each axis is scaled by a power of two that brings its largest coordinate near 1, so that no product leaves the
+/// range, and the sum carries 106 bits: its relative error is below 1e-29 times the terms' sum over the area. An area
+/// beyond the range is infinite, never NaN.
 pub(crate) fn enclosed_area<W>(walks: impl Iterator<Item = W> + Clone) -> f64
 where
     W: Iterator<Item = Segment> + Clone,
 {
-    let size = walks.clone().flatten().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    let scale = scale_for(size);
-    let mut sum = Shoelace::default();
+    let size = walks.clone().flatten().flatten().map(DVec2::abs).fold(DVec2::ZERO, DVec2::max);
+    let exponents = [exponent(size.x), exponent(size.y)];
+    let scale = DVec2::new(power(-exponents[0]), power(-exponents[1]));
+    let mut sum = Double::default();
     for walk in walks {
         let Some([origin, _]) = walk.clone().next() else { continue };
+        let origin = origin * scale;
+        let from_origin =
+            |p: DVec2| (Double::sum(p.x * scale.x, -origin.x), Double::sum(p.y * scale.y, -origin.y));
         for [a, b] in walk {
-            let (a, b) = (a * scale - origin * scale, b * scale - origin * scale);
-            sum.add(a.x * b.y);
-            sum.add(-a.y * b.x);
+            let ((ax, ay), (bx, by)) = (from_origin(a), from_origin(b));
+            sum = sum.plus(ax.times(by)).minus(ay.times(bx));
         }
     }
-    (sum.sum + sum.carry) * 0.5 / scale / scale
+    // In two steps, either of which may only leave the range if the result does.
+    let shift = exponents[0] + exponents[1] - 1;
+    (sum.hi + sum.lo) * power(shift / 2) * power(shift - shift / 2)
 }
 
-impl Shoelace {
-    fn add(&mut self, term: f64) {
-        let sum = self.sum + term;
-        let (large, small) = if self.sum.abs() >= term.abs() { (self.sum, term) } else { (term, self.sum) };
-        self.carry += (large - sum) + small;
-        self.sum = sum;
-    }
+/// The exponent of a number's leading bit, within -1022 … 1022.
+fn exponent(size: f64) -> i32 {
+    i32::from((size.to_bits() >> 52) as u16 & 0x7ff).clamp(1, 2045) - 1023
 }
 
-/// 1 for coordinates of moderate size, else a power of two that brings the largest near 1.
-fn scale_for(size: f64) -> f64 {
-    if (1e-120..1e120).contains(&size) || size == 0.0 {
-        return 1.0;
-    }
-    let exponent = ((size.to_bits() >> 52) & 0x7ff).clamp(1, 2044);
-    f64::from_bits((2046 - exponent) << 52)
+/// 2 to the power of -1022 … 1023.
+fn power(exponent: i32) -> f64 {
+    f64::from_bits(u64::from((exponent + 1023).unsigned_abs()) << 52)
 }

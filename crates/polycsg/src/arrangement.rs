@@ -24,18 +24,17 @@ const END: u32 = u32::MAX;
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Arrangement {
-    tail: Vec<u32>,
-    head: Vec<u32>,
+    /// Tail and head of each sub-edge.
+    ends: Vec<[u32; 2]>,
     edge: Vec<u32>,
     /// Per edge the first of its sub-edges; they follow one another along the edge.
     first: Vec<u32>,
     /// Per sub-edge the one that stands for it and the next that coincides; empty when nothing overlaps.
     stands: Vec<u32>,
     next: Vec<u32>,
-    /// Per vertex the span of its half-edges in `around`; per half-edge its place there.
+    /// Per vertex the span of its half-edges in `around`.
     starts: Vec<u32>,
     around: Vec<u32>,
-    place: Vec<u32>,
 }
 
 impl Arrangement {
@@ -49,26 +48,24 @@ impl Arrangement {
     }
 
     fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
-        self.tail.clear();
-        self.head.clear();
+        self.ends.clear();
         self.edge.clear();
         self.first.clear();
         for edge in 0..index(edges.len()) {
-            self.first.push(index(self.tail.len()));
-            if !edges.is_edge(edge) {
+            self.first.push(index(self.ends.len()));
+            if !edges.is_edge(edge) || edges.follows(edge) {
                 continue;
             }
             let mut tail = contacts.vertex(edge);
             for vertex in contacts.inside(edge).chain([contacts.vertex(edges.head(edge))]) {
                 if vertex != tail {
-                    self.tail.push(tail);
-                    self.head.push(vertex);
+                    self.ends.push([tail, vertex]);
                     self.edge.push(edge);
                     tail = vertex;
                 }
             }
         }
-        self.first.push(index(self.tail.len()));
+        self.first.push(index(self.ends.len()));
     }
 
     /// Finds the sub-edges with equal ends: only those of overlapping edges can be.
@@ -132,16 +129,11 @@ impl Arrangement {
                 span.sort_unstable_by(|&g, &h| by_angle(self.direction(edges, g), self.direction(edges, h)));
             }
         }
-        self.place.clear();
-        self.place.resize(2 * self.len(), END);
-        for (place, &half_edge) in around.iter().enumerate() {
-            self.place[half_edge as usize] = index(place);
-        }
         self.around = around;
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.tail.len()
+        self.ends.len()
     }
 
     /// The sub-edges of an edge, in order along it.
@@ -156,12 +148,12 @@ impl Arrangement {
 
     #[inline]
     pub(crate) fn tail(&self, sub: u32) -> u32 {
-        self.tail[sub as usize]
+        self.ends[sub as usize][0]
     }
 
     #[inline]
     pub(crate) fn head(&self, sub: u32) -> u32 {
-        self.head[sub as usize]
+        self.ends[sub as usize][1]
     }
 
     /// The edge that the sub-edge is a piece of.
@@ -185,7 +177,7 @@ impl Arrangement {
 
     #[inline]
     pub(crate) fn origin(&self, half_edge: u32) -> u32 {
-        if half_edge & 1 == 0 { self.tail(half_edge >> 1) } else { self.head(half_edge >> 1) }
+        self.ends[half_edge as usize >> 1][half_edge as usize & 1]
     }
 
     /// The places in [`around`](Arrangement::around) of the half-edges that leave a vertex.
@@ -199,11 +191,6 @@ impl Arrangement {
         self.around[place as usize]
     }
 
-    #[inline]
-    pub(crate) fn place(&self, half_edge: u32) -> u32 {
-        self.place[half_edge as usize]
-    }
-
     /// The edge along a half-edge, directed as it.
     #[inline]
     fn direction(&self, edges: &Edges, half_edge: u32) -> Segment {
@@ -211,13 +198,12 @@ impl Arrangement {
         if half_edge & 1 == 0 { [a, b] } else { [b, a] }
     }
 
-    /// The laws: twins are each other's, and angles strictly increase around each vertex.
+    /// The laws: half-edges leave their vertex, and angles strictly increase around each vertex.
     fn check(&self, edges: &Edges) -> bool {
         (0..index(self.starts.len() - 1)).all(|v| {
             let directions: Vec<Segment> =
                 self.span(v).map(|place| self.direction(edges, self.around(place))).collect();
-            self.span(v)
-                .all(|place| self.origin(self.around(place)) == v && self.place(self.around(place)) == place)
+            self.span(v).all(|place| self.origin(self.around(place)) == v)
                 && directions.windows(2).all(|pair| by_angle(pair[0], pair[1]) == Ordering::Less)
         })
     }

@@ -54,13 +54,16 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
-    /// Finds the contacts of all candidate pairs.
-    pub(crate) fn find(&mut self, edges: &Edges, strips: &Strips) {
+    /// Finds the contacts of all candidate pairs; the pairs in `same` are edges with the same ends.
+    pub(crate) fn find(&mut self, edges: &Edges, strips: &Strips, same: &[[u32; 2]]) {
         self.found.clear();
         self.crossings.clear();
         self.overlapping.clear();
         self.vertices.reset(edges.len());
         self.rings.reset(edges.rings().len());
+        for &[e, f] in same {
+            self.join_ends(edges, e, f);
+        }
         strips.pairs(|e, f| self.meet(edges, e.min(f), e.max(f)));
         self.bucket(edges.len());
         self.sort(edges);
@@ -98,6 +101,13 @@ impl Contacts {
 
     fn span(&self, edge: u32) -> Range<usize> {
         self.starts[edge as usize] as usize..self.starts[edge as usize + 1] as usize
+    }
+
+    fn join_ends(&mut self, edges: &Edges, e: u32, f: u32) {
+        let ends = if edges.is_along(e, f) { [f, edges.head(f)] } else { [edges.head(f), f] };
+        self.vertices.join(e, ends[0]);
+        self.vertices.join(edges.head(e), ends[1]);
+        self.rings.join(edges.ring_of(e), edges.ring_of(f));
     }
 
     fn meet(&mut self, edges: &Edges, e: u32, f: u32) {

@@ -34,6 +34,17 @@ pub(crate) enum Token<'a> {
     Operator(Operator, usize),
 }
 
+impl Token<'_> {
+    /// The rings of an operand.
+    pub(crate) fn rings(&self) -> Option<&Rings> {
+        match self {
+            Token::Region(region) => Some(region.rings_of()),
+            Token::Rings(rings, _) => Some(rings),
+            Token::Edge(_) | Token::Operator(..) => None,
+        }
+    }
+}
+
 /// An expression of Booleans: regions and raw rings, combined by `|`, `&`, `-`, `^` or by the n-ary constructors.
 ///
 /// All operands enter one arrangement and every vertex of the result is rounded once, so that a nested expression

@@ -26,24 +26,39 @@ struct Turn {
     left: u32,
 }
 
-/// A component whose outer sector is the face left of some half-edge; the next one there.
-#[derive(Clone, Copy, Debug)]
+/// A component, by its root vertex, whose outer sector is the face left of some half-edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Hung {
+    half_edge: u32,
     vertex: u32,
-    next: u32,
+}
+
+/// What is known of a sub-edge, in bits: the truth on its left and on its right, whether these are known, and whether
+/// any component hangs on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Label(u8);
+
+impl Label {
+    const LEFT: u8 = 1;
+    const RIGHT: u8 = 2;
+    const KNOWN: u8 = 4;
+    const HUNG: u8 = 8;
+
+    fn is(self, bit: u8) -> bool {
+        self.0 & bit != 0
+    }
 }
 
 /// The membership of every sub-edge that stands for itself.
 #[derive(Debug, Default)]
 pub(crate) struct Labels {
-    members: Vec<Option<Membership>>,
+    labels: Vec<Label>,
     seen: Vec<bool>,
     turns: Vec<Turn>,
     /// The lexicographically smallest vertex of each component, by ring.
     leftmost: Vec<u32>,
+    /// Sorted by half-edge.
     hung: Vec<Hung>,
-    /// Per half-edge the first component that hangs on it; empty when there is one component only.
-    hanging: Vec<u32>,
 }
 
 impl Labels {
@@ -56,8 +71,8 @@ impl Labels {
         arrangement: &Arrangement,
         truth: &mut Truth,
     ) {
-        self.members.clear();
-        self.members.resize(arrangement.len(), None);
+        self.labels.clear();
+        self.labels.resize(arrangement.len(), Label::default());
         self.seen.clear();
         self.seen.resize(contacts.vertex_count(), false);
         self.find_leftmost(edges, contacts);
@@ -71,7 +86,8 @@ impl Labels {
 
     /// The membership of a sub-edge that stands for itself, in that sub-edge's direction.
     pub(crate) fn of(&self, sub: u32) -> Membership {
-        self.members[sub as usize].unwrap_or(Membership::Out)
+        let label = self.labels[sub as usize];
+        Membership::from_sides(label.is(Label::LEFT), label.is(Label::RIGHT))
     }
 
     fn find_leftmost(&mut self, edges: &Edges, contacts: &Contacts) {
@@ -94,33 +110,33 @@ impl Labels {
         arrangement: &Arrangement,
     ) -> Vec<u32> {
         self.hung.clear();
-        self.hanging.clear();
         let roots: Vec<u32> =
             self.leftmost.iter().filter(|&&v| v != END).map(|&v| contacts.vertex(v)).collect();
         if roots.len() < 2 {
             return roots;
         }
-        self.hanging.resize(2 * arrangement.len(), END);
         let mut outermost = Vec::new();
         for vertex in roots {
             match nearest_below(edges, strips, contacts, arrangement, edges.point(vertex)) {
                 None => outermost.push(vertex),
                 Some(half_edge) => {
-                    let first = &mut self.hanging[half_edge as usize];
-                    self.hung.push(Hung { vertex, next: *first });
-                    *first = index(self.hung.len() - 1);
+                    self.labels[half_edge as usize >> 1].0 |= Label::HUNG;
+                    self.hung.push(Hung { half_edge, vertex });
                 }
             }
         }
+        self.hung.sort_unstable();
         outermost
     }
 
     /// Starts to go around a vertex, from the right of `half_edge` or, at a component's root, from its outer sector.
+    ///
+    /// Every vertex is entered once, so that the search for the half-edge takes linear time in all.
     fn enter(&mut self, arrangement: &Arrangement, vertex: u32, half_edge: Option<u32>) {
         self.seen[vertex as usize] = true;
         let span = arrangement.span(vertex);
-        let place = half_edge.map_or(span.start, |h| arrangement.place(h));
-        self.turns.push(Turn { vertex, place, left: span.end - span.start });
+        let from = half_edge.and_then(|h| span.clone().find(|&place| arrangement.around(place) == h));
+        self.turns.push(Turn { vertex, place: from.unwrap_or(span.start), left: span.end - span.start });
     }
 
     fn walk(&mut self, edges: &Edges, arrangement: &Arrangement, truth: &mut Truth) {
@@ -134,7 +150,9 @@ impl Labels {
             turn.left -= 1;
             turn.place = if turn.place + 1 == span.end { span.start } else { turn.place + 1 };
             self.cross(edges, arrangement, half_edge, truth);
-            self.enter_hung(arrangement, half_edge);
+            if self.labels[half_edge as usize >> 1].is(Label::HUNG) {
+                self.enter_hung(arrangement, half_edge);
+            }
             let twin = half_edge ^ 1;
             let other_end = arrangement.origin(twin);
             if !self.seen[other_end as usize] {
@@ -149,25 +167,23 @@ impl Labels {
         let sub = half_edge >> 1;
         let right = truth.holds();
         for other in arrangement.coincident(sub) {
-            if let Some(counter) = edges.ring(arrangement.edge(other)).counter {
-                let along = arrangement.tail(other) == arrangement.origin(half_edge);
-                truth.cross(counter, if along { 1 } else { -1 });
-            }
+            let along = arrangement.tail(other) == arrangement.origin(half_edge);
+            edges.cross(arrangement.edge(other), along, truth);
         }
         let left = truth.holds();
-        let sides = if half_edge & 1 == 0 { [left, right] } else { [right, left] };
-        let membership = Membership::from_sides(sides[0], sides[1]);
-        let label = &mut self.members[sub as usize];
-        debug_assert!(label.is_none_or(|known| known == membership));
-        *label = Some(membership);
+        let (l, r) = if half_edge & 1 == 0 { (left, right) } else { (right, left) };
+        let known = Label::KNOWN | (u8::from(l) * Label::LEFT) | (u8::from(r) * Label::RIGHT);
+        let label = &mut self.labels[sub as usize];
+        debug_assert!(!label.is(Label::KNOWN) || label.0 | Label::HUNG == known | Label::HUNG);
+        label.0 |= known;
     }
 
     fn enter_hung(&mut self, arrangement: &Arrangement, half_edge: u32) {
-        let mut next = self.hanging.get(half_edge as usize).copied().unwrap_or(END);
-        while next != END {
-            let hung = self.hung[next as usize];
-            self.enter(arrangement, hung.vertex, None);
-            next = hung.next;
+        let mut next = self.hung.partition_point(|hung| hung.half_edge < half_edge);
+        while let Some(hung) = self.hung.get(next).filter(|hung| hung.half_edge == half_edge) {
+            let vertex = hung.vertex;
+            self.enter(arrangement, vertex, None);
+            next += 1;
         }
     }
 }

@@ -64,6 +64,7 @@ mod boundary;
 mod classify;
 mod contacts;
 mod csg;
+mod double;
 mod edges;
 mod error;
 #[cfg(feature = "geo-types")]

@@ -9,7 +9,9 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
     truth.compile(csg);
     edges.collect(csg, truth);
     strips.build(edges.ids().map(|e| (e, edges.segment(e))));
-    contacts.find(edges, strips);
+    let same = strips.unite(|e, f| edges.compare(e, f));
+    edges.unite(&same);
+    contacts.find(edges, strips, &same);
     arrangement.split(edges, contacts);
     labels.classify(edges, strips, contacts, arrangement, truth);
 }

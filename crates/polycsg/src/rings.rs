@@ -46,9 +46,13 @@ impl Rings {
         self.ends.len()
     }
 
+    /// The number of points before a ring.
+    pub(crate) fn start(&self, ring: usize) -> usize {
+        if ring == 0 { 0 } else { self.ends[ring - 1] }
+    }
+
     fn span(&self, ring: usize) -> Range<usize> {
-        let start = if ring == 0 { 0 } else { self.ends[ring - 1] };
-        start..self.ends[ring]
+        self.start(ring)..self.ends[ring]
     }
 
     pub(crate) fn ring(&self, ring: usize) -> &[DVec2] {

@@ -12,6 +12,8 @@
 //! as integers: the index may report too much and never too little.
 
 use crate::predicates::Segment;
+use crate::truth::index;
+use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Entries of a strip that this many make worth sorting into one more strip.
@@ -152,6 +154,60 @@ impl Strips {
                 self.extents.push(extent);
                 self.highest.push(highest);
             }
+        }
+    }
+
+    /// Leaves one of each group of segments that `compare` finds equal: the one with the smallest id, which comes first
+    /// in the pairs returned.
+    pub(crate) fn unite(&mut self, compare: impl Fn(u32, u32) -> Ordering) -> Vec<[u32; 2]> {
+        let mut same = Vec::new();
+        let mut run = Vec::new();
+        let count = self.starts.len() - 1;
+        for strip in 0..count {
+            let extents = &self.extents[self.entries(strip)];
+            let mut start = self.entries(strip).start;
+            // Equal segments have one lower side, and start in one strip.
+            for equal in extents.chunk_by(|a, b| a.y0 == b.y0) {
+                if equal.len() > 1 {
+                    let ids = start..start + equal.len();
+                    run.clear();
+                    run.extend(
+                        ids.filter(|&i| Strips::strip(self.extents[i].x0, count) == strip)
+                            .map(|i| self.ids[i]),
+                    );
+                    run.sort_unstable_by(|&a, &b| compare(a, b).then(a.cmp(&b)));
+                    for group in run.chunk_by(|&a, &b| compare(a, b) == Ordering::Equal) {
+                        same.extend(group[1..].iter().map(|&follows| [group[0], follows]));
+                    }
+                }
+                start += equal.len();
+            }
+        }
+        if !same.is_empty() {
+            self.remove(&same);
+        }
+        same
+    }
+
+    /// Removes the second id of each pair.
+    fn remove(&mut self, same: &[[u32; 2]]) {
+        let last = self.ids.iter().max().map_or(0, |&id| id as usize + 1);
+        let mut follows = vec![false; last];
+        same.iter().for_each(|pair| follows[pair[1] as usize] = true);
+        let (ids, extents) = (std::mem::take(&mut self.ids), std::mem::take(&mut self.extents));
+        let starts = std::mem::replace(&mut self.starts, vec![0]);
+        self.highest.clear();
+        for strip in starts.windows(2) {
+            let mut highest = 0;
+            for i in strip[0] as usize..strip[1] as usize {
+                if !follows[ids[i] as usize] {
+                    highest = extents[i].y1.max(highest);
+                    self.ids.push(ids[i]);
+                    self.extents.push(extents[i]);
+                    self.highest.push(highest);
+                }
+            }
+            self.starts.push(index(self.ids.len()));
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::exact::{Ratio, scaled_integers};
 use super::{Segment, order::lexicographic};
+use crate::double::Double;
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -29,61 +30,8 @@ pub(crate) fn crossing_ratio(e: Segment, f: Segment) -> [Ratio; 2] {
     ]
 }
 
-/// An unevaluated sum of two doubles with |lo| at most half an ulp of hi.
-///
-/// The operations are Dekker's and Knuth's; each is right to a relative 2^-100 inside the window of
-/// [`in_window`], with room to spare (Joldes, Muller & Popescu, "Tight and rigorous error bounds", 2017).
-#[derive(Clone, Copy)]
-struct Double {
-    hi: f64,
-    lo: f64,
-}
-
 /// 2^-98: more than the relative error of any of the few operations in a row below.
 const RELATIVE: f64 = f64::from_bits((1023 - 98) << 52);
-
-impl Double {
-    fn sum(a: f64, b: f64) -> Double {
-        let hi = a + b;
-        let t = hi - a;
-        Double { hi, lo: (a - (hi - t)) + (b - t) }
-    }
-
-    fn product(a: f64, b: f64) -> Double {
-        let split = |x: f64| {
-            let t = 134_217_729.0 * x;
-            let high = t - (t - x);
-            (high, x - high)
-        };
-        let hi = a * b;
-        let ((ah, al), (bh, bl)) = (split(a), split(b));
-        Double { hi, lo: ((ah * bh - hi) + ah * bl + al * bh) + al * bl }
-    }
-
-    fn plus(self, other: Double) -> Double {
-        let (s, t) = (Double::sum(self.hi, other.hi), Double::sum(self.lo, other.lo));
-        let v = Double::sum(s.hi, s.lo + t.hi);
-        Double::sum(v.hi, t.lo + v.lo)
-    }
-
-    fn minus(self, other: Double) -> Double {
-        self.plus(Double { hi: -other.hi, lo: -other.lo })
-    }
-
-    fn times(self, other: Double) -> Double {
-        let p = Double::product(self.hi, other.hi);
-        Double::sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
-    }
-
-    fn over(self, other: Double) -> Double {
-        let q = self.hi / other.hi;
-        let r = self.minus(other.times(Double { hi: q, lo: 0.0 }));
-        let q2 = r.hi / other.hi;
-        let r2 = r.minus(other.times(Double { hi: q2, lo: 0.0 }));
-        let q12 = Double::sum(q, q2);
-        q12.plus(Double { hi: r2.hi / other.hi, lo: 0.0 })
-    }
-}
 
 /// Where no operation below overflows and no low part is lost: coordinates are 0 or in 2^-200 … 2^200.
 fn in_window(x: f64) -> bool {
@@ -119,5 +67,8 @@ fn crossing_in_double_double(e: Segment, f: Segment) -> Option<DVec2> {
         let stays = |lo: f64| at.hi + lo == at.hi;
         (stays(at.lo + 2.0 * error) && stays(at.lo - 2.0 * error)).then_some(at.hi)
     };
-    Some(DVec2::new(coordinate(e[0].x, e[1].x)?, coordinate(e[0].y, e[1].y)?))
+    // On an axis-parallel edge one coordinate needs no arithmetic.
+    let x = if f[0].x == f[1].x { f[0].x } else { coordinate(e[0].x, e[1].x)? };
+    let y = if f[0].y == f[1].y { f[0].y } else { coordinate(e[0].y, e[1].y)? };
+    Some(DVec2::new(x, y))
 }
