@@ -20,8 +20,11 @@ pub(crate) fn of_unseen(from: &DifferentialArea, to: &PlanarPolygon) -> f64 {
 /// Of the side on which `position` lies: everything when it lies in the polygon, else what the edges sweep.
 pub(crate) fn of_facing(position: DVec3, polygon: &PlanarPolygon) -> f64 {
     let doubt = 2.0 * polygon.deviation();
-    let distance = polygon.plane().side(position).value.hi.abs() / polygon.plane().normal.round().length();
-    if doubt == 0.0 || distance > doubt {
+    if doubt == 0.0 {
+        return 0.0;
+    }
+    let height = polygon.plane().side(position).value.hi.abs();
+    if height > doubt * polygon.plane().normal.round().length() {
         return 0.0;
     }
     let low = polygon.points().iter().fold(polygon.points()[0], |low, p| low.min(*p)) - doubt;

@@ -2,7 +2,7 @@
 use crate::DifferentialArea;
 use crate::lambert::Sight;
 use crate::polygon::{PlanarPolygon, ROUNDING, SMALLEST};
-use crate::predicates::{Height, over_horizon};
+use crate::predicates::{over_horizon, place};
 use crate::twofold::{Offset, Twofold};
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -33,18 +33,18 @@ pub(crate) fn seen(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
 
 /// The part of `polygon` that is not below dA's horizon, and whether anything was cut off.
 pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops, bool) {
-    let normal = from.given_normal();
-    let heights: Vec<Height> =
-        polygon.points().iter().map(|p| over_horizon(normal, from.position(), *p)).collect();
+    let (normal, position) = (from.given_normal(), from.position());
+    let places: Vec<Ordering> = polygon.points().iter().map(|p| place(normal, position, *p)).collect();
     let loops = seen(from, polygon);
-    if heights.iter().all(|h| h.sign != Ordering::Less) {
+    if !places.contains(&Ordering::Less) {
         return (loops, false);
     }
-    if heights.iter().all(|h| h.sign != Ordering::Greater) {
+    if !places.contains(&Ordering::Greater) {
         return (Vec::new(), true);
     }
     // Every vertex is a given one here.
-    (clip(&loops, |v| v.given.map_or(Twofold::ZERO, |i| heights[i].value)), true)
+    let height = |i: usize| over_horizon(normal, position, polygon.points()[i]).value;
+    (clip(&loops, |v| v.given.map_or(Twofold::ZERO, height)), true)
 }
 
 /// The part of loops where `height`, linear along edges, is not negative (Sutherland and Hodgman).

@@ -75,6 +75,16 @@ impl Plane {
     }
 }
 
+/// On which side of the horizon through `position` across `normal` a point lies: `Greater` above it.
+pub(crate) fn place(normal: DVec3, position: DVec3, point: DVec3) -> Ordering {
+    let offset = point - position;
+    let value = normal.dot(offset);
+    if value.abs() > QUICK * normal.abs().dot(offset.abs()) + QUICK_UNDERFLOW {
+        return value.total_cmp(&0.0);
+    }
+    over_horizon(normal, position, point).sign
+}
+
 /// The height of `point` over the horizon through `position` across `normal`, a vector taken exactly as given.
 pub(crate) fn over_horizon(normal: DVec3, position: DVec3, point: DVec3) -> Height {
     let offset = Offset::between(position, point);
@@ -211,6 +221,7 @@ mod tests {
             }
             prop_assert_eq!(turn(from, corners[0], corners[1], to), exact_height(&[from, corners[0], corners[1]], from, to));
             prop_assert_eq!(over_horizon(corners[0], from, to).sign, exact_dot(corners[0], from, to));
+            prop_assert_eq!(place(corners[0], from, to), exact_dot(corners[0], from, to));
         }
 
         #[test]

@@ -28,10 +28,10 @@ pub(crate) struct View<'a> {
 impl<'a> View<'a> {
     /// `None` when the target turns its back or lies below the horizon: it is not seen, exactly.
     pub(crate) fn new(from: &'a DifferentialArea, to: &'a PlanarPolygon) -> Option<Self> {
-        let height = to.plane().side(from.position());
-        if height.sign != Ordering::Greater {
+        if to.plane().side_of(from.position()) != Ordering::Greater {
             return None;
         }
+        let height = to.plane().side(from.position());
         let (loops, cut) = above(from, to);
         if loops.is_empty() {
             return None;
