@@ -8,8 +8,9 @@ use crate::lambert::{self, Sight};
 use crate::region::leaf;
 use crate::view::View;
 use crate::visible::boundary_sum;
-use crate::{DifferentialArea, PlanarPolygon, Scratch};
+use crate::{DifferentialArea, PlanarPolygon};
 use glam::{DVec2, DVec3};
+use polycsg::Scratch;
 
 /// Of a target that turns its back or lies below the horizon.
 pub(crate) fn of_unseen(from: &DifferentialArea, to: &PlanarPolygon) -> f64 {

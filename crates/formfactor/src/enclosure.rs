@@ -1,16 +1,20 @@
 //! Many polygons that see and hide each other.
 use crate::cull::Pyramid;
 use crate::exact::form_factor_past;
+use crate::pool::Pool;
 use crate::tree::Tree;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon, Scratch};
+use crate::{DifferentialArea, FormFactor, PlanarPolygon};
 
 /// A set of polygons, each of which is a target and hides the others.
+///
+/// Many threads may ask one enclosure: it lends them buffers, and what each gets depends on its question alone.
 #[derive(Clone, Debug, Default)]
 pub struct Enclosure {
     polygons: Vec<PlanarPolygon>,
     tree: Tree,
     /// The largest deviation of a vertex from where it stands.
     deviation: f64,
+    pool: Pool,
 }
 
 impl Enclosure {
@@ -18,7 +22,7 @@ impl Enclosure {
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
-        Self { tree: Tree::over(&polygons), polygons, deviation }
+        Self { tree: Tree::over(&polygons), polygons, deviation, pool: Pool::default() }
     }
 
     /// The polygons, by id.
@@ -44,18 +48,6 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
-        self.form_factor_to_part_in(from, id, part, &mut Scratch::default())
-    }
-
-    /// [`Self::form_factor_to_part`] with buffers that are used again: for many calls from one thread.
-    #[must_use]
-    pub fn form_factor_to_part_in(
-        &self,
-        from: &DifferentialArea,
-        id: usize,
-        part: &PlanarPolygon,
-        scratch: &mut Scratch,
-    ) -> FormFactor {
         if from.owner() == Some(id) {
             return FormFactor::default();
         }
@@ -64,14 +56,12 @@ impl Enclosure {
             let found = self.tree.find(|extent| pyramid.misses_box(extent, slack)).into_iter();
             found.filter(|i| *i != id && Some(*i) != from.owner()).map(|i| &self.polygons[i])
         };
-        form_factor_past(from, part, others, scratch)
+        self.pool.lend(|scratch| form_factor_past(from, part, others, scratch))
     }
 
     /// The form factors to every polygon, by id.
     #[must_use]
     pub fn row(&self, from: &DifferentialArea) -> Vec<FormFactor> {
-        let mut scratch = Scratch::default();
-        let each = self.polygons.iter().enumerate();
-        each.map(|(id, polygon)| self.form_factor_to_part_in(from, id, polygon, &mut scratch)).collect()
+        (0..self.polygons.len()).map(|id| self.form_factor(from, id)).collect()
     }
 }

@@ -3,7 +3,8 @@ use crate::cull::{Hidden, Pyramid, hidden};
 use crate::project::Shadow;
 use crate::view::View;
 use crate::visible::visible_sum;
-use crate::{DifferentialArea, PlanarPolygon, Scratch, doubt};
+use crate::{DifferentialArea, PlanarPolygon, doubt};
+use polycsg::Scratch;
 
 /// A form factor and how far it may be from the exact one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

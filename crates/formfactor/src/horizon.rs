@@ -15,6 +15,8 @@ pub(crate) struct Vertex {
     pub(crate) given: Option<usize>,
     /// How far it may lie from where it stands: from the polygon moved onto its plane.
     pub(crate) slack: f64,
+    /// For an occluder's vertex, its depth toward the target's plane in the measure of the view's height.
+    pub(crate) depth: Twofold,
 }
 
 /// Loops of vertices as seen from dA.
@@ -27,6 +29,7 @@ pub(crate) fn seen(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
         offset: Offset::between(from.position(), *p),
         given: index.next(),
         slack: polygon.deviation(),
+        depth: Twofold::ZERO,
     };
     polygon.loops().map(|l| l.iter().map(&mut vertex).collect()).collect()
 }
@@ -76,10 +79,15 @@ fn clip_loop(vertices: &[Vertex], height: impl Fn(&Vertex) -> Twofold) -> Vec<Ve
 
 /// The point of an edge where its height is zero.
 fn cut(a: Vertex, height_a: Twofold, b: Vertex, height_b: Twofold) -> Vertex {
-    let (inner, outer, height, depth) =
+    let (inner, outer, height, below) =
         if height_a.hi > 0.0 { (a, b, height_a, height_b) } else { (b, a, height_b, height_a) };
-    let share = height / (height - depth);
-    Vertex { offset: inner.offset.toward(outer.offset, share), given: None, slack: a.slack.max(b.slack) }
+    let share = height / (height - below);
+    Vertex {
+        offset: inner.offset.toward(outer.offset, share),
+        given: None,
+        slack: a.slack.max(b.slack),
+        depth: inner.depth + share * (outer.depth - inner.depth),
+    }
 }
 
 /// The direction to a vertex, rounded to doubles, of a length that can be squared.

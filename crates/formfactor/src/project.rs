@@ -36,6 +36,7 @@ pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) 
 /// The part of an occluder on dA's side of the target's plane: 0 < t <= 1 on every ray that meets it.
 fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> Loops {
     let mut loops = seen(view.from, occluder);
+    loops.iter_mut().flatten().for_each(|v| v.depth = depth(view, v.offset));
     if sides.contains(&Ordering::Less) {
         // Every vertex is a given one here.
         let height = |i: usize| view.to.plane().side(occluder.points()[i]).value;
@@ -53,7 +54,7 @@ fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
     }
     let out = Twofold::difference(wall.bound, view.from.position()[wall.axis]);
     clip(&loops, |v| {
-        let height = v.offset.0[wall.axis] * view.height - out * depth(view, v.offset);
+        let height = v.offset.0[wall.axis] * view.height - out * v.depth;
         if wall.is_upper { -height } else { height }
     })
 }
@@ -61,7 +62,7 @@ fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
 /// Where the ray from dA through a vertex meets the target's plane.
 fn project(view: &View, occluder: &PlanarPolygon, vertex: &Vertex, sides: &[Ordering]) -> Spot {
     let on_plane = vertex.given.filter(|i| sides[*i] == Ordering::Equal);
-    let flat = on_plane.map_or_else(|| flat(view, vertex.offset), |i| view.to.flat(occluder.points()[i]));
+    let flat = on_plane.map_or_else(|| flat(view, *vertex), |i| view.to.flat(occluder.points()[i]));
     // Clip lines lie well outside of the target: so does whatever the bounds move.
     let [low, high] = view.pyramid.bounds;
     let kept = DVec2::new(flat.x.max(low.x).min(high.x), flat.y.max(low.y).min(high.y));
@@ -69,8 +70,8 @@ fn project(view: &View, occluder: &PlanarPolygon, vertex: &Vertex, sides: &[Orde
 }
 
 /// u = O_u + W_u H / depth(W), rounded once.
-fn flat(view: &View, offset: Offset) -> DVec2 {
-    let scale = view.height / depth(view, offset);
+fn flat(view: &View, Vertex { offset, depth, .. }: Vertex) -> DVec2 {
+    let scale = view.height / depth;
     let [u, v, _] = view.to.axes();
     let coordinate =
         |axis: usize| (Twofold::from(view.from.position()[axis]) + offset.0[axis] * scale).round();

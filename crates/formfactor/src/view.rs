@@ -62,9 +62,14 @@ impl<'a> View<'a> {
         let given = self.to.find(flat);
         if let Some(index) = given {
             let offset = Offset::between(self.from.position(), self.to.points()[index]);
-            return sight(&Vertex { offset, given, slack });
+            return sight(&Vertex { offset, given, slack, depth: Twofold::ZERO });
         }
-        let seen = sight(&Vertex { offset: self.to.lift(self.from.position(), flat), given, slack });
+        let seen = sight(&Vertex {
+            offset: self.to.lift(self.from.position(), flat),
+            given,
+            slack,
+            depth: Twofold::ZERO,
+        });
         let anchor = self.to.flat(self.to.plane().corners[0]);
         // The dropped axis is the steepest: a step in a kept coordinate is at most sqrt 2 times as long in the plane.
         let step = 1.5 * ROUNDING * (flat.x.abs() + flat.y.abs());

@@ -4,9 +4,9 @@ use crate::lambert::ContourSum;
 use crate::project::Shadow;
 use crate::region::leaf;
 use crate::view::View;
-use crate::{DifferentialArea, PlanarPolygon, Scratch};
+use crate::{DifferentialArea, PlanarPolygon};
 use glam::DVec3;
-use polycsg::{Csg, Region};
+use polycsg::{Csg, Region, Scratch};
 
 /// What a differential area sees of a target: a region of the target's plane, and where it lies in space.
 #[derive(Clone, Debug)]
