@@ -46,46 +46,57 @@ pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops,
         return (Vec::new(), true);
     }
     // Every vertex is a given one here.
+    let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| places[i]);
     let height = |i: usize| over_horizon(normal, position, polygon.points()[i]).value;
-    (clip(&loops, |v| v.given.map_or(Twofold::ZERO, height)), true)
+    (clip(&loops, place, |v| v.given.map_or(Twofold::ZERO, height)), true)
 }
 
-/// The part of loops where `height`, linear along edges, is not negative (Sutherland and Hodgman).
+/// The part of loops that is not on the lower side of a plane (Sutherland and Hodgman). `place` says where a vertex lies,
+/// `height` how far from the plane in some measure, with the same sign.
 ///
 /// A cut edge's new end is a function of its inner and its outer vertex, so that it does not depend on the direction of
 /// the edge: edges that were shared stay shared. Loops that are not convex keep pieces along the cut that run there and
 /// back, which an even-odd rule and a contour sum do not see.
-pub(crate) fn clip(loops: &Loops, height: impl Fn(&Vertex) -> Twofold) -> Loops {
-    let kept = loops.iter().map(|l| clip_loop(l, &height));
+pub(crate) fn clip(
+    loops: &Loops,
+    place: impl Fn(&Vertex) -> Ordering,
+    height: impl Fn(&Vertex) -> Twofold,
+) -> Loops {
+    let kept = loops.iter().map(|l| clip_loop(l, &place, &height));
     kept.filter(|l| l.len() > 2).collect()
 }
 
-fn clip_loop(vertices: &[Vertex], height: impl Fn(&Vertex) -> Twofold) -> Vec<Vertex> {
+fn clip_loop(
+    vertices: &[Vertex],
+    place: impl Fn(&Vertex) -> Ordering,
+    height: impl Fn(&Vertex) -> Twofold,
+) -> Vec<Vertex> {
     let mut kept = Vec::with_capacity(vertices.len() + 2);
     let Some(last) = vertices.last() else { return kept };
-    let (mut before, mut below) = (*last, height(last));
+    let (mut before, mut there) = (last, place(last));
     for vertex in vertices {
-        let here = height(vertex);
-        if (below.hi > 0.0 && here.hi < 0.0) || (below.hi < 0.0 && here.hi > 0.0) {
-            kept.push(cut(before, below, *vertex, here));
+        let here = place(vertex);
+        match (there, here) {
+            (Ordering::Less, Ordering::Greater) => kept.push(cut(vertex, before, &height)),
+            (Ordering::Greater, Ordering::Less) => kept.push(cut(before, vertex, &height)),
+            _ => (),
         }
-        if here.hi >= 0.0 {
+        if here != Ordering::Less {
             kept.push(*vertex);
         }
-        (before, below) = (*vertex, here);
+        (before, there) = (vertex, here);
     }
     kept
 }
 
 /// The point of an edge where its height is zero.
-fn cut(a: Vertex, height_a: Twofold, b: Vertex, height_b: Twofold) -> Vertex {
-    let (inner, outer, height, below) =
-        if height_a.hi > 0.0 { (a, b, height_a, height_b) } else { (b, a, height_b, height_a) };
-    let share = height / (height - below);
+fn cut(inner: &Vertex, outer: &Vertex, height: impl Fn(&Vertex) -> Twofold) -> Vertex {
+    let (above, below) = (height(inner), height(outer));
+    let share = above / (above - below);
     Vertex {
         offset: inner.offset.toward(outer.offset, share),
         given: None,
-        slack: a.slack.max(b.slack),
+        slack: inner.slack.max(outer.slack),
         depth: inner.depth + share * (outer.depth - inner.depth),
     }
 }

@@ -39,8 +39,9 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> L
     loops.iter_mut().flatten().for_each(|v| v.depth = depth(view, v.offset));
     if sides.contains(&Ordering::Less) {
         // Every vertex is a given one here.
+        let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| sides[i]);
         let height = |i: usize| view.to.plane().side(occluder.points()[i]).value;
-        loops = clip(&loops, |v| v.given.map_or(Twofold::ZERO, height));
+        loops = clip(&loops, place, |v| v.given.map_or(Twofold::ZERO, height));
     }
     doubt::loosen(view, occluder, &mut loops);
     loops
@@ -49,14 +50,17 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> L
 /// The part of loops on the inner side of a wall. The wall stands well outside of the target: its place does not matter,
 /// only that clip points lie on their edges.
 fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
-    if loops.iter().flatten().all(|v| wall.side.of_offset(v.offset.round(), 0.0) == Ordering::Greater) {
+    let rounded = |v: &Vertex| wall.side.of_offset(v.offset.round(), 0.0);
+    if loops.iter().flatten().all(|v| rounded(v) == Ordering::Greater) {
         return loops;
     }
     let out = Twofold::difference(wall.bound, view.from.position()[wall.axis]);
-    clip(&loops, |v| {
+    let height = |v: &Vertex| {
         let height = v.offset.0[wall.axis] * view.height - out * v.depth;
         if wall.is_upper { -height } else { height }
-    })
+    };
+    let place = |v: &Vertex| rounded(v).then_with(|| height(v).hi.total_cmp(&0.0));
+    clip(&loops, place, height)
 }
 
 /// Where the ray from dA through a vertex meets the target's plane.
