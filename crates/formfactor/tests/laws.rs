@@ -1,6 +1,6 @@
 //! Laws that form factors obey, on random input.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-use formfactor::glam;
+use formfactor::glam::{self, Vec3Swizzles};
 use formfactor::{
     DVec3, DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded,
 };
@@ -206,6 +206,46 @@ proptest! {
             form_factor(&here, &moved(&to, DVec3::ZERO), &all(DVec3::ZERO)),
             form_factor(&there, &moved(&to, by), &all(by)),
         )?;
+    }
+
+    #[test]
+    fn an_occluder_pulled_toward_the_point_hides_the_same(
+        from in area(), to in target(lattice(3)), occluders in triangles(lattice(3), 8), halvings in 1i32..60,
+    ) {
+        let plane = to.loops().next().expect("a loop")[0];
+        let before = |p: &PlanarPolygon| p.loops().flatten().all(|v| (*v - plane).dot(to.normal()) > 0.1);
+        let pull = |p: &PlanarPolygon, by: f64| {
+            PlanarPolygon::new(p.loops().map(|l| l.iter().map(|v| *v * by).collect::<Vec<_>>())).expect("as good")
+        };
+        let here: Vec<PlanarPolygon> = occluders.iter().filter(|p| before(p)).cloned().collect();
+        // Each by another power of two: all exact.
+        let there = here.iter().zip(0i32..).map(|(p, i)| pull(p, 0.5f64.powi(halvings * (i % 3)))).collect::<Vec<_>>();
+        agree(form_factor(&from, &to, &here), form_factor(&from, &to, &there))?;
+    }
+
+    #[test]
+    fn no_axis_is_special(from in area(), to in target(anywhere()), occluders in triangles(anywhere(), 8)) {
+        let turned = |p: &PlanarPolygon| {
+            PlanarPolygon::new(p.loops().map(|l| l.iter().map(|v| v.yzx()).collect::<Vec<_>>())).expect("as good")
+        };
+        let there = DifferentialArea::new(DVec3::ZERO, from.normal().yzx()).expect("as good");
+        let others: Vec<PlanarPolygon> = occluders.iter().map(turned).collect();
+        agree(form_factor(&from, &to, &occluders), form_factor(&there, &turned(&to), &others))?;
+    }
+
+    #[test]
+    fn what_is_close_to_a_plane_is_seen_as_exactly(
+        normal in lattice(2), to in prop::array::uniform3(lattice(3)), occluders in triangles(lattice(3), 8),
+        at in lattice(3), lift in 20i32..60,
+    ) {
+        // dA in the lattice, lifted off it by a tiny step that keeps every coordinate exact after another shift.
+        let step = DVec3::new(1.0, 1.0, 1.0) * 0.5f64.powi(lift);
+        let Ok(from) = DifferentialArea::new(at / 2.0 + step, normal) else { return Ok(()) };
+        let Some(to) = triangle(to) else { return Ok(()) };
+        let (seen, other) = (form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders));
+        prop_assert!((seen.value - other.value).abs() <= seen.error_bound + other.error_bound);
+        let free = unoccluded(&from, &to);
+        prop_assert!(seen.value <= free.value + free.error_bound + seen.error_bound);
     }
 
     #[test]
