@@ -42,6 +42,8 @@ struct Nest<'a> {
     /// Per ring that is outer: the polygon around it.
     around: Vec<u32>,
     shells: Vec<Shell>,
+    /// Per cycle the leftmost point of all its rings.
+    leftmost: Vec<u32>,
 }
 
 /// Builds the region; the outline's edges meet in shared points only.
@@ -61,6 +63,7 @@ pub(crate) fn nest(outline: &Outline, cycles: &Cycles, strips: &mut Strips) -> R
         polygon: vec![NONE; rings.len()],
         around: vec![NONE; rings.len()],
         shells: Vec::new(),
+        leftmost: leftmost_of_cycle(cycles),
     };
     let outer_of_cycle = outer_of_cycle(rings)?;
     for &ring in &order {
@@ -88,7 +91,7 @@ fn by_leftmost(outline: &Outline, cycles: &Cycles) -> Vec<u32> {
 
 /// The outer ring of each cycle, if it has one.
 fn outer_of_cycle(rings: &[Ring]) -> Result<Vec<u32>, Misnested> {
-    let count = rings.iter().map(|r| r.cycle as usize + 1).max().unwrap_or(0);
+    let count = rings.last().map_or(0, |ring| ring.cycle as usize + 1);
     let mut outer = vec![NONE; count];
     for (i, ring) in rings.iter().enumerate().filter(|(_, r)| r.counter_clockwise) {
         let place = &mut outer[ring.cycle as usize];
@@ -98,6 +101,16 @@ fn outer_of_cycle(rings: &[Ring]) -> Result<Vec<u32>, Misnested> {
         *place = index(i);
     }
     Ok(outer)
+}
+
+fn leftmost_of_cycle(cycles: &Cycles) -> Vec<u32> {
+    let count = cycles.rings().last().map_or(0, |ring| ring.cycle as usize + 1);
+    let mut leftmost = vec![NONE; count];
+    for &ring in cycles.rings() {
+        let place = &mut leftmost[ring.cycle as usize];
+        *place = cycles.ids(ring)[0].min(*place);
+    }
+    leftmost
 }
 
 impl Nest<'_> {
@@ -132,17 +145,8 @@ impl Nest<'_> {
 
     /// The ring that runs right below the leftmost point of a cycle of holes; its interior lies above.
     fn ring_below_hole(&self, ring: u32) -> Result<u32, Misnested> {
-        let edge = self.edge_below(self.cycle_start(ring)).ok_or(Misnested)?;
+        let edge = self.edge_below(self.leftmost[self.ring(ring).cycle as usize]).ok_or(Misnested)?;
         if self.is_rightward(edge) { Ok(self.cycles.ring_of_edge(edge)) } else { Err(Misnested) }
-    }
-
-    /// The leftmost point of all rings of a cycle.
-    fn cycle_start(&self, ring: u32) -> u32 {
-        // Rings of one cycle stand next to each other.
-        let (rings, cycle) = (self.cycles.rings(), self.ring(ring).cycle);
-        let first = rings.partition_point(|r| r.cycle < cycle);
-        let own = rings[first..].iter().take_while(|r| r.cycle == cycle);
-        own.map(|&r| self.cycles.ids(r)[0]).min().unwrap_or(0)
     }
 
     /// The ring that bounds the outside of an outer ring, right below its leftmost point.

@@ -139,6 +139,9 @@ impl Repair<'_> {
 
     /// The vertices at whose abscissae a piece is cut, in order along it, equal abscissae once.
     fn ordered(&self, piece: Piece, cuts: &[CutAt]) -> Vec<u32> {
+        if cuts.is_empty() {
+            return Vec::new();
+        }
         let mut vertices: Vec<u32> = cuts.iter().map(|cut| cut.1).collect();
         vertices.sort_by(|&a, &b| self.compare_abscissae(a, b));
         vertices.dedup_by(|a, b| self.compare_abscissae(*a, *b) == Ordering::Equal);
