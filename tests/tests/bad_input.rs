@@ -81,7 +81,7 @@ fn negative_zero_reads_as_zero() {
 
 #[test]
 fn many_copies_of_one_ring_wind_many_times() {
-    let copies = 1_000;
+    let copies = 100_000;
     for (count, is_even_odd_empty) in [(copies, true), (copies + 1, false)] {
         let rings = vec![square(); count];
         let expected = Region::from_rings([square()], FillRule::NonZero).expect("a square");

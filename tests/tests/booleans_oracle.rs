@@ -4,7 +4,7 @@ use glam::DVec2;
 use polycsg::Scratch;
 use tests::against::{self, Verdict, check_boundary, check_classify, csg, leaf};
 use tests::exact::ratio;
-use tests::generators::lattice;
+use tests::generators::{Pair, lattice};
 use tests::oracle::{Arrangement, Class, Operand, Operation, Outline};
 use tests::random::Random;
 
@@ -28,42 +28,38 @@ fn for_seeds(seeds: std::ops::Range<u64>, check: impl Fn(u64) -> Result<(), Stri
 }
 
 #[test]
-fn regions_are_the_oracles_bit_for_bit() {
-    for_seeds(0..INPUTS, |seed| {
-        let pair = lattice(seed);
-        let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
-        for operation in Operation::ALL {
-            match against::check(&pair, operation, &arrangement) {
-                Ok(Verdict::Exact) => {}
-                Ok(Verdict::Repaired) => {
-                    return Err(format!("{} {operation:?}: a lattice needs no repair", pair.name));
-                }
-                Err(e) => {
-                    return Err(format!("{} {operation:?}: {e}\n{:?}\n{:?}", pair.name, pair.a, pair.b));
-                }
-            }
-        }
-        Ok(())
-    });
-}
-
-#[test]
-fn boundaries_are_the_oracles_pieces() {
+fn regions_and_boundaries_are_the_oracles_bit_for_bit() {
     for_seeds(0..INPUTS, |seed| {
         let pair = lattice(seed);
         let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
         let mut scratch = Scratch::default();
         for operation in Operation::ALL {
-            let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
-            let boundary = expression.boundary(&mut scratch);
             let outline = arrangement.operation(operation);
-            check_boundary(boundary.edges(), &outline)
-                .map_err(|e| format!("{} {operation:?}: {e}", pair.name))?;
-            check_area_of(boundary.area(), &outline)
-                .map_err(|e| format!("{} {operation:?}: {e}", pair.name))?;
+            let checked = check_region(&pair, operation, &arrangement)
+                .and_then(|()| check_pieces(&pair, operation, &outline, &mut scratch));
+            checked.map_err(|e| format!("{} {operation:?}: {e}\n{:?}\n{:?}", pair.name, pair.a, pair.b))?;
         }
         Ok(())
     });
+}
+
+fn check_region(pair: &Pair, operation: Operation, arrangement: &Arrangement) -> Result<(), String> {
+    match against::check(pair, operation, arrangement)? {
+        Verdict::Exact => Ok(()),
+        Verdict::Repaired => Err("a lattice needs no repair".into()),
+    }
+}
+
+fn check_pieces(
+    pair: &Pair,
+    operation: Operation,
+    outline: &Outline<'_>,
+    scratch: &mut Scratch,
+) -> Result<(), String> {
+    let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
+    let boundary = expression.boundary(scratch);
+    check_boundary(boundary.edges(), outline)?;
+    check_area_of(boundary.area(), outline)
 }
 
 /// A boundary's area is summed in doubles from vertices rounded once.

@@ -1,0 +1,66 @@
+//! Runs polycsg and its peers side by side on the same inputs and writes a table. See the README.
+
+mod bench;
+mod child;
+mod scaling;
+mod table;
+mod worker;
+mod workloads;
+
+use clap::Parser;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// polycsg and its peers side by side: CPU seconds per call, minimum over interleaved rounds.
+#[derive(Parser)]
+struct Arguments {
+    /// Smaller inputs and fewer rounds: done within three minutes.
+    #[arg(long)]
+    quick: bool,
+    /// Print one JSON object per row on stdout.
+    #[arg(long)]
+    json: bool,
+    /// Only the workloads whose name contains this.
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+    /// Where peers.md and peers.jsonl go.
+    #[arg(short, long, value_name = "DIR", default_value = "target-data")]
+    output: PathBuf,
+    /// Serve one engine on one input over stdin and stdout (how the bench starts its own children).
+    #[arg(long, hide = true, num_args = 3, value_names = ["ENGINE", "FAMILY", "SIZE"])]
+    worker: Option<Vec<String>>,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match &arguments.worker {
+        Some(job) => worker::serve(job),
+        None => run(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), String> {
+    let maps = peers::shapes::fetch();
+    if let Err(message) = &maps {
+        eprintln!("no map rows: {message}");
+    }
+    let effort = if arguments.quick { bench::QUICK } else { bench::FULL };
+    let chosen = workloads::workloads(arguments.quick, maps.is_ok()).into_iter().filter(|workload| {
+        arguments.only.as_ref().is_none_or(|text| workload.name().contains(text.as_str()))
+    });
+    let mut bench = bench::Bench::new(effort);
+    let mut rows = Vec::new();
+    for workload in chosen {
+        let row = bench.row(&workload)?;
+        table::show(&row, arguments.json);
+        rows.push(row);
+    }
+    table::write(&rows, &arguments.output)
+}
