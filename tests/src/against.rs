@@ -1,9 +1,8 @@
 //! A result of `polycsg` beside the oracle's, bit for bit where nothing had to be repaired.
-use crate::Ring;
 use crate::exact::{edges, twice_signed_area};
 use crate::generators::Pair;
 use crate::oracle::{Arrangement, Class, Operand, Operation, Outline, Place, Rule, locate, sort};
-use crate::validity::{self, Shape, first_contact};
+use crate::validity::{self, Shape, is_bounding};
 use glam::DVec2;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -106,39 +105,12 @@ pub fn check(pair: &Pair, operation: Operation, arrangement: &Arrangement) -> Re
 pub fn check_region(region: &Region, outline: &Outline<'_>) -> Result<Verdict, String> {
     validity::check(&shapes(region)).map_err(|e| format!("invalid: {e}"))?;
     let merged = outline.merged();
-    if survives_rounding(&merged) {
+    if is_bounding(&merged) {
         let found = sorted_edges(region);
         return if found == merged { Ok(Verdict::Exact) } else { Err(difference(&found, &merged)) };
     }
     check_area(region, outline)?;
     Ok(Verdict::Repaired)
-}
-
-/// True when rounded boundary edges still bound a set to their left: they meet nowhere but in shared ends, and none of
-/// them was turned over.
-pub fn survives_rounding(merged: &[[DVec2; 2]]) -> bool {
-    if first_contact(merged).is_some() {
-        return false;
-    }
-    let walks = Operand { rings: walks(merged), rule: Rule::Positive };
-    let arrangement = Arrangement::of(&[walks]);
-    arrangement.sub_edges.iter().all(|s| s.classes == [Class::OnPlus])
-}
-
-/// Closed walks that run through every edge once; where several go on, any may.
-fn walks(segments: &[[DVec2; 2]]) -> Vec<Ring> {
-    let mut left = segments.to_vec();
-    let mut walks = Vec::new();
-    while let Some([start, mut at]) = left.pop() {
-        let mut walk = vec![start];
-        while at != start {
-            walk.push(at);
-            let next = left.iter().position(|s| s[0] == at).expect("a boundary is closed");
-            at = left.swap_remove(next)[1];
-        }
-        walks.push(walk);
-    }
-    walks
 }
 
 fn check_area(region: &Region, outline: &Outline<'_>) -> Result<(), String> {

@@ -110,7 +110,7 @@ fn segments_are_classified_as_the_oracle_does() {
         let pair = lattice(seed);
         let region = against::region(&pair.a);
         let mut random = Random::new(seed);
-        for _ in 0..4 {
+        for _ in 0..2 {
             let mut point = || DVec2::new(f64::from(random.between(-1, 8)), f64::from(random.between(-1, 8)));
             let segment = [point(), point()];
             if segment[0] != segment[1] {

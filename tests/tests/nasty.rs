@@ -64,7 +64,7 @@ fn vertices_are_input_bits_or_rounded_crossings() {
     for pair in all() {
         let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
         let outline = arrangement.operation(Operation::SymmetricDifference);
-        if !against::survives_rounding(&outline.merged()) {
+        if !tests::validity::is_bounding(&outline.merged()) {
             continue;
         }
         let result = (leaf(&pair.a) ^ leaf(&pair.b)).evaluate();

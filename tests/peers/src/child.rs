@@ -41,7 +41,7 @@ impl Child {
         std::thread::spawn(move || {
             let lines = BufReader::new(answers).lines().map_while(Result::ok);
             let replies = lines.filter_map(|line| serde_json::from_str(&line).ok());
-            replies.take_while(|reply| sender.send(reply).is_ok()).for_each(drop);
+            let _ = replies.map(|reply| sender.send(reply)).find(Result::is_err);
         });
         Ok(Child { process, questions, replies })
     }

@@ -13,8 +13,6 @@ pub(crate) struct Workload {
     pub(crate) limit: Option<f64>,
     /// The peers that the ratio is taken to; all when empty.
     pub(crate) rivals: &'static [&'static str],
-    /// Seconds per call aimed at, where no ratio is.
-    pub(crate) seconds: Option<f64>,
 }
 
 impl Workload {
@@ -80,7 +78,6 @@ fn rows(plan: &Plan, quick: bool) -> Vec<Workload> {
         boundary,
         limit: Some(limit).filter(|limit: &f64| limit.is_finite()),
         rivals: plan.rivals,
-        seconds: (plan.family == "combs" && size >= 400_000).then_some(10.0),
     };
     let both = |&size: &usize| {
         let boundary = (plan.family == "square-rectangles").then(|| row(size, true, 0.3));

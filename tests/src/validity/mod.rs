@@ -1,8 +1,12 @@
 //! Exact check that polygons with holes are a valid region: no floating-point decision, no code of `polycsg`.
+mod segments;
+
+pub use segments::{first_contact, is_bounding};
+
 use crate::Ring;
 use crate::exact::{Exact, Grid, edges};
 use glam::DVec2;
-use num_bigint::BigInt;
+use segments::{SMALL_BITS, contact_on, turn};
 use std::collections::HashMap;
 
 /// A polygon as a result states it.
@@ -16,9 +20,6 @@ pub struct Shape {
     pub depth: usize,
 }
 
-/// Bits up to which an orientation of doubled coordinates fits an `i128`.
-const SMALL_BITS: i64 = 60;
-
 /// Checks every law of a valid region; the error names the first that is broken.
 ///
 /// Rings have three or more distinct points and no two edges meet but in a shared vertex; outer rings turn left, holes
@@ -30,16 +31,6 @@ pub fn check(shapes: &[Shape]) -> Result<(), String> {
         check_on(shapes, |p| [grid.small_steps(p.x), grid.small_steps(p.y)])
     } else {
         check_on(shapes, |p| [grid.steps(p.x), grid.steps(p.y)])
-    }
-}
-
-/// The first two segments that touch anywhere but in a shared end, or that overlap, or one that has no length.
-pub fn first_contact(segments: &[[DVec2; 2]]) -> Option<(usize, usize)> {
-    let grid = Grid::of(segments.iter().flatten());
-    if grid.bits <= SMALL_BITS {
-        contact_on(segments, |p| [grid.small_steps(p.x), grid.small_steps(p.y)])
-    } else {
-        contact_on::<BigInt>(segments, |p| [grid.steps(p.x), grid.steps(p.y)])
     }
 }
 
@@ -201,67 +192,6 @@ fn twice_area<T: Exact>(ring: &Loop<T>) -> T {
     (1..ring.len().saturating_sub(1)).fold(T::zero(), |sum, i| sum + turn(&ring[0], &ring[i], &ring[i + 1]))
 }
 
-fn turn<T: Exact>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> T {
-    let minus = |p: &T, q: &T| p.clone() - q.clone();
-    minus(&b[0], &a[0]) * minus(&c[1], &a[1]) - minus(&b[1], &a[1]) * minus(&c[0], &a[0])
-}
-
-fn contact_on<T: Exact>(segments: &[[DVec2; 2]], steps: impl Fn(&DVec2) -> [T; 2]) -> Option<(usize, usize)> {
-    let low = |i: usize| segments[i][0].min(segments[i][1]);
-    let high = |i: usize| segments[i][0].max(segments[i][1]);
-    let mut order: Vec<usize> = (0..segments.len()).collect();
-    order.sort_by(|&i, &j| low(i).x.total_cmp(&low(j).x));
-    for (place, &i) in order.iter().enumerate() {
-        if segments[i][0] == segments[i][1] {
-            return Some((i, i));
-        }
-        let near = order[place + 1..].iter().take_while(|&&j| low(j).x <= high(i).x);
-        for &j in near.filter(|&&j| low(j).y <= high(i).y && low(i).y <= high(j).y) {
-            if touch(&segments[i].map(|p| steps(&p)), &segments[j].map(|p| steps(&p))) {
-                return Some((i, j));
-            }
-        }
-    }
-    None
-}
-
-/// True when two segments share any point but one end of each.
-fn touch<T: Exact>(s: &[[T; 2]; 2], t: &[[T; 2]; 2]) -> bool {
-    let shared = s.iter().flat_map(|p| t.iter().map(move |q| p == q)).filter(|&is_same| is_same).count();
-    match shared {
-        0 => cross_or_touch(s, t),
-        1 => fold_back(s, t),
-        _ => true,
-    }
-}
-
-fn cross_or_touch<T: Exact>(s: &[[T; 2]; 2], t: &[[T; 2]; 2]) -> bool {
-    let sides = |l: &[[T; 2]; 2], m: &[[T; 2]; 2]| [0, 1].map(|i| turn(&l[0], &l[1], &m[i]).signum());
-    let (of_t, of_s) = (sides(s, t), sides(t, s));
-    let is_apart = |signs: &[T; 2]| !signs[0].is_zero() && signs[0] == signs[1];
-    if of_t.iter().all(T::is_zero) { overlap_on_a_line(s, t) } else { !is_apart(&of_t) && !is_apart(&of_s) }
-}
-
-fn overlap_on_a_line<T: Exact>(s: &[[T; 2]; 2], t: &[[T; 2]; 2]) -> bool {
-    (0..2).all(|axis| {
-        let range = |l: &[[T; 2]; 2]| {
-            let (a, b) = (l[0][axis].clone(), l[1][axis].clone());
-            if a <= b { (a, b) } else { (b, a) }
-        };
-        let ((low, high), (other_low, other_high)) = (range(s), range(t));
-        low <= other_high && other_low <= high
-    })
-}
-
-/// With one end shared: true when the segments leave it in the same direction.
-fn fold_back<T: Exact>(s: &[[T; 2]; 2], t: &[[T; 2]; 2]) -> bool {
-    let (p, q) = (usize::from(s[0] != t[0] && s[0] != t[1]), usize::from(t[0] != s[0] && t[0] != s[1]));
-    let (hub, a, b) = (&s[p], &s[1 - p], &t[1 - q]);
-    let along = (0..2)
-        .fold(T::zero(), |sum, k| sum + (a[k].clone() - hub[k].clone()) * (b[k].clone() - hub[k].clone()));
-    turn(hub, a, b).is_zero() && along.is_positive()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -334,6 +264,21 @@ mod tests {
         for (name, shapes) in defects {
             assert!(check(&shapes).is_err(), "{name} was accepted");
         }
+    }
+
+    #[test]
+    fn segments_bound_what_lies_left_of_them() {
+        let segments =
+            |rings: &[Ring]| rings.iter().flat_map(|r| edges(r)).map(|(a, b)| [a, b]).collect::<Vec<_>>();
+        let (outer, inner) = (square(0.0, 0.0, 9.0), square(1.0, 1.0, 7.0));
+        let hole = reversed(inner.clone());
+        let diamond = ring(&[[2.0, 0.0], [4.0, 2.0], [2.0, 4.0], [0.0, 2.0]]);
+        assert!(is_bounding(&segments(&[outer.clone(), hole.clone()])));
+        assert!(is_bounding(&segments(&[diamond.clone(), square(4.0, 2.0, 1.0)])));
+        assert!(!is_bounding(&segments(&[outer.clone(), inner])), "the inner square is wound twice");
+        assert!(!is_bounding(&segments(&[hole])), "nothing is to the left of a hole alone");
+        assert!(!is_bounding(&segments(&[reversed(diamond)])));
+        assert!(!is_bounding(&segments(&[outer.clone(), square(8.0, 8.0, 4.0)])), "they cross");
     }
 
     #[test]
