@@ -16,6 +16,9 @@ use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
 
+/// No edge, no place, no ring.
+const NONE: u32 = u32::MAX;
+
 /// A simple ring: a span of point ids, the smallest first, and the cycle that it was cut from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ring {
@@ -34,6 +37,9 @@ pub(crate) struct Cycles {
     ring_of_edge: Vec<u32>,
     /// Whether around each point edges arrive and leave in turn, as those of a boundary do.
     pub(crate) alternate: bool,
+    next: Vec<u32>,
+    walked: Vec<bool>,
+    cut: Cut,
 }
 
 impl Cycles {
@@ -44,6 +50,11 @@ impl Cycles {
     /// The point ids of a ring.
     pub(crate) fn ids(&self, ring: Ring) -> &[u32] {
         &self.ids[ring.start as usize..ring.end as usize]
+    }
+
+    /// The number of points of all rings.
+    pub(crate) fn point_count(&self) -> usize {
+        self.ids.len()
     }
 
     pub(crate) fn ring_of_edge(&self, edge: u32) -> u32 {
@@ -60,41 +71,54 @@ impl Cycles {
     }
 }
 
-/// Walks all edges and cuts the walks into rings.
-pub(crate) fn link(outline: &Outline) -> Cycles {
-    let (next, alternate) = successors(outline);
-    let mut cycles =
-        Cycles { ring_of_edge: vec![u32::MAX; outline.edges().len()], alternate, ..Cycles::default() };
-    let mut walked = vec![false; outline.edges().len()];
-    let mut cut = Cut { depth: vec![u32::MAX; outline.point_count()], chain: Vec::new() };
-    let mut cycle = 0;
-    for first in 0..index(outline.edges().len()) {
-        if walked[first as usize] {
-            continue;
+impl Cycles {
+    /// Walks all edges and cuts the walks into rings.
+    pub(crate) fn link(&mut self, outline: &Outline) {
+        self.reset(outline);
+        self.alternate = find_successors(outline, &mut self.next);
+        let mut cycle = 0;
+        for first in 0..index(outline.edges().len()) {
+            if self.walked[first as usize] {
+                continue;
+            }
+            let mut edge = first;
+            while !self.walked[edge as usize] {
+                self.walked[edge as usize] = true;
+                if let Some(start) = self.cut.visit(outline, edge) {
+                    self.close_ring(outline, start, cycle);
+                }
+                edge = self.next[edge as usize];
+            }
+            cycle += 1;
         }
-        let mut edge = first;
-        while !walked[edge as usize] {
-            walked[edge as usize] = true;
-            cut.visit(outline, edge, cycle, &mut cycles);
-            edge = next[edge as usize];
-        }
-        cycle += 1;
     }
-    cycles
+
+    fn reset(&mut self, outline: &Outline) {
+        self.ids.clear();
+        self.rings.clear();
+        self.ring_of_edge.clear();
+        self.ring_of_edge.resize(outline.edges().len(), NONE);
+        self.next.clear();
+        self.next.resize(outline.edges().len(), NONE);
+        self.walked.clear();
+        self.walked.resize(outline.edges().len(), false);
+        self.cut.chain.clear();
+        self.cut.depth.clear();
+        self.cut.depth.resize(outline.point_count(), NONE);
+    }
 }
 
-/// The edge that follows each edge by the turn rule, and whether around each point edges arrive and leave in turn.
-fn successors(outline: &Outline) -> (Vec<u32>, bool) {
-    let mut next = vec![u32::MAX; outline.edges().len()];
+/// Finds the edge that follows each edge by the turn rule; tells whether around each point edges arrive and leave in turn.
+fn find_successors(outline: &Outline, next: &mut [u32]) -> bool {
     let mut alternate = true;
     for point in 0..index(outline.point_count()) {
         let (leaving, arriving) = (outline.leaving(point), outline.arriving(point));
-        if leaving.len() < 2 || !pair_by_angle(outline, point, &mut next) {
+        if leaving.len() < 2 || !pair_by_angle(outline, point, next) {
             alternate &= leaving.len() < 2;
             arriving.iter().zip(leaving).for_each(|(&a, l)| next[a as usize] = l);
         }
     }
-    (next, alternate)
+    alternate
 }
 
 /// Follows each arriving edge by the first leaving one clockwise; false where two in a row arrive or leave.
@@ -125,6 +149,7 @@ pub(crate) fn by_angle(pivot: DVec2, a: DVec2, b: DVec2) -> Ordering {
 }
 
 /// The walk so far, as a chain of edges without a repeated point.
+#[derive(Debug, Default)]
 struct Cut {
     /// Per point its place in the chain, or none.
     depth: Vec<u32>,
@@ -133,29 +158,25 @@ struct Cut {
 }
 
 impl Cut {
-    /// Appends an edge; where it comes back to a point of the chain, what lies between is a ring.
-    fn visit(&mut self, outline: &Outline, edge: u32, cycle: u32, cycles: &mut Cycles) {
+    /// Appends an edge; where it comes back to a point of the chain, what lies from that place on is a ring.
+    fn visit(&mut self, outline: &Outline, edge: u32) -> Option<usize> {
         let [from, to] = outline.edges()[edge as usize];
         self.depth[from as usize] = index(self.chain.len());
         self.chain.push(edge);
         let depth = self.depth[to as usize];
-        if depth == u32::MAX {
-            return;
-        }
-        let ring: Vec<u32> = self.chain.drain(depth as usize..).collect();
-        for &e in &ring {
-            self.depth[outline.edges()[e as usize][0] as usize] = u32::MAX;
-        }
-        cycles.add(outline, &ring, cycle);
+        (depth != NONE).then_some(depth as usize)
     }
 }
 
 impl Cycles {
-    fn add(&mut self, outline: &Outline, edges: &[u32], cycle: u32) {
+    /// Moves the chain's edges from `depth` on to a ring of their own.
+    fn close_ring(&mut self, outline: &Outline, depth: usize, cycle: u32) {
         let start = index(self.ids.len());
-        for &e in edges {
-            self.ring_of_edge[e as usize] = index(self.rings.len());
-            self.ids.push(outline.edges()[e as usize][0]);
+        for edge in self.cut.chain.drain(depth..) {
+            let [from, _] = outline.edges()[edge as usize];
+            self.cut.depth[from as usize] = NONE;
+            self.ring_of_edge[edge as usize] = index(self.rings.len());
+            self.ids.push(from);
         }
         let ids = &mut self.ids[start as usize..];
         let smallest = (0..ids.len()).min_by_key(|&i| ids[i]).unwrap_or(0);

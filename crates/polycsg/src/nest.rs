@@ -26,91 +26,101 @@ pub(crate) struct Misnested;
 /// No polygon.
 const NONE: u32 = u32::MAX;
 
-/// An outer ring, the polygon around it, and its number of surrounding polygons.
-#[derive(Clone, Copy, Debug)]
-struct Shell {
-    ring: u32,
-    depth: u32,
+/// The buffers of the stage.
+#[derive(Debug, Default)]
+pub(crate) struct Nesting {
+    /// The rings by leftmost point; of those that start in one point the lower first.
+    order: Vec<u32>,
+    /// Per cycle its outer ring, if it has one, and the leftmost point of all its rings.
+    outer: Vec<u32>,
+    leftmost: Vec<u32>,
+    /// Per ring the polygon that it bounds from outside or inside.
+    polygon: Vec<u32>,
+    /// Per ring that is outer: the polygon around it.
+    around: Vec<u32>,
+    /// Per polygon the number of polygons around it.
+    depth: Vec<u32>,
 }
 
 struct Nest<'a> {
     outline: &'a Outline,
     cycles: &'a Cycles,
     strips: &'a Strips,
-    /// Per ring the polygon that it bounds from outside or inside.
-    polygon: Vec<u32>,
-    /// Per ring that is outer: the polygon around it.
-    around: Vec<u32>,
-    shells: Vec<Shell>,
-    /// Per cycle the leftmost point of all its rings.
-    leftmost: Vec<u32>,
+    nesting: &'a mut Nesting,
 }
 
 /// Builds the region; the outline's edges meet in shared points only.
-pub(crate) fn nest(outline: &Outline, cycles: &Cycles, strips: &mut Strips) -> Result<Region, Misnested> {
+pub(crate) fn nest(
+    outline: &Outline,
+    cycles: &Cycles,
+    strips: &mut Strips,
+    nesting: &mut Nesting,
+) -> Result<Region, Misnested> {
     if !cycles.alternate {
         return Err(Misnested);
     }
-    let rings = cycles.rings();
-    let order = by_leftmost(outline, cycles);
-    if rings.len() > 1 {
+    if cycles.rings().len() > 1 {
         strips.build((0..index(outline.edges().len())).map(|e| (e, outline.segment(e))));
     }
-    let mut nest = Nest {
-        outline,
-        cycles,
-        strips,
-        polygon: vec![NONE; rings.len()],
-        around: vec![NONE; rings.len()],
-        shells: Vec::new(),
-        leftmost: leftmost_of_cycle(cycles),
-    };
-    let outer_of_cycle = outer_of_cycle(rings)?;
-    for &ring in &order {
-        nest.place(ring, &outer_of_cycle)?;
+    nesting.start(outline, cycles)?;
+    let mut nest = Nest { outline, cycles, strips, nesting };
+    for i in 0..nest.nesting.order.len() {
+        nest.place(nest.nesting.order[i])?;
     }
-    Ok(nest.build(&order))
+    Ok(nest.build())
 }
 
-/// The rings by leftmost point; of those that start in one point the lower first.
-fn by_leftmost(outline: &Outline, cycles: &Cycles) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..index(cycles.rings().len())).collect();
-    // The leftmost point, and the neighbour on the lower of the two edges there.
-    let corner = |ring: u32| {
-        let ring = cycles.rings()[ring as usize];
-        let ids = cycles.ids(ring);
-        (ids[0], if ring.counter_clockwise { ids[1] } else { ids[ids.len() - 1] })
-    };
-    let point = |id: u32| outline.point(id);
-    order.sort_unstable_by(|&a, &b| {
-        let (a, b) = (corner(a), corner(b));
-        a.0.cmp(&b.0).then_with(|| by_angle(point(a.0), point(a.1), point(b.1)))
-    });
-    order
-}
+impl Nesting {
+    fn start(&mut self, outline: &Outline, cycles: &Cycles) -> Result<(), Misnested> {
+        let rings = cycles.rings();
+        self.polygon.clear();
+        self.polygon.resize(rings.len(), NONE);
+        self.around.clear();
+        self.around.resize(rings.len(), NONE);
+        self.depth.clear();
+        self.sort_rings(outline, cycles);
+        self.find_outer(rings)?;
+        self.find_leftmost(cycles);
+        Ok(())
+    }
 
-/// The outer ring of each cycle, if it has one.
-fn outer_of_cycle(rings: &[Ring]) -> Result<Vec<u32>, Misnested> {
-    let count = rings.last().map_or(0, |ring| ring.cycle as usize + 1);
-    let mut outer = vec![NONE; count];
-    for (i, ring) in rings.iter().enumerate().filter(|(_, r)| r.counter_clockwise) {
-        let place = &mut outer[ring.cycle as usize];
-        if *place != NONE {
-            return Err(Misnested);
+    fn sort_rings(&mut self, outline: &Outline, cycles: &Cycles) {
+        self.order.clear();
+        self.order.extend(0..index(cycles.rings().len()));
+        // The leftmost point, and the neighbour on the lower of the two edges there.
+        let corner = |ring: u32| {
+            let ring = cycles.rings()[ring as usize];
+            let ids = cycles.ids(ring);
+            (ids[0], if ring.counter_clockwise { ids[1] } else { ids[ids.len() - 1] })
+        };
+        let point = |id: u32| outline.point(id);
+        self.order.sort_unstable_by(|&a, &b| {
+            let (a, b) = (corner(a), corner(b));
+            a.0.cmp(&b.0).then_with(|| by_angle(point(a.0), point(a.1), point(b.1)))
+        });
+    }
+
+    fn find_outer(&mut self, rings: &[Ring]) -> Result<(), Misnested> {
+        self.outer.clear();
+        self.outer.resize(rings.last().map_or(0, |ring| ring.cycle as usize + 1), NONE);
+        for (i, ring) in rings.iter().enumerate().filter(|(_, r)| r.counter_clockwise) {
+            let place = &mut self.outer[ring.cycle as usize];
+            if *place != NONE {
+                return Err(Misnested);
+            }
+            *place = index(i);
         }
-        *place = index(i);
+        Ok(())
     }
-    Ok(outer)
-}
 
-fn leftmost_of_cycle(cycles: &Cycles) -> Vec<u32> {
-    let count = cycles.rings().last().map_or(0, |ring| ring.cycle as usize + 1);
-    let mut leftmost = vec![NONE; count];
-    for &ring in cycles.rings() {
-        let place = &mut leftmost[ring.cycle as usize];
-        *place = cycles.ids(ring)[0].min(*place);
+    fn find_leftmost(&mut self, cycles: &Cycles) {
+        self.leftmost.clear();
+        self.leftmost.resize(self.outer.len(), NONE);
+        for &ring in cycles.rings() {
+            let place = &mut self.leftmost[ring.cycle as usize];
+            *place = cycles.ids(ring)[0].min(*place);
+        }
     }
-    leftmost
 }
 
 impl Nest<'_> {
@@ -118,34 +128,34 @@ impl Nest<'_> {
         self.cycles.rings()[ring as usize]
     }
 
-    fn place(&mut self, ring: u32, outer_of_cycle: &[u32]) -> Result<(), Misnested> {
+    fn place(&mut self, ring: u32) -> Result<(), Misnested> {
         if self.ring(ring).counter_clockwise {
             return self.place_outer(ring);
         }
-        let outer = outer_of_cycle[self.ring(ring).cycle as usize];
+        let outer = self.nesting.outer[self.ring(ring).cycle as usize];
         // The outer ring of a hole's own cycle starts further left, so it is placed already.
         let owner = if outer == NONE { self.ring_below_hole(ring)? } else { outer };
-        self.polygon[ring as usize] = self.polygon[owner as usize];
-        if self.polygon[ring as usize] == NONE { Err(Misnested) } else { Ok(()) }
+        self.nesting.polygon[ring as usize] = self.nesting.polygon[owner as usize];
+        if self.nesting.polygon[ring as usize] == NONE { Err(Misnested) } else { Ok(()) }
     }
 
     fn place_outer(&mut self, ring: u32) -> Result<(), Misnested> {
         let around = match self.ring_beside_outer(ring)? {
             None => NONE,
-            Some(other) if self.polygon[other as usize] == NONE => return Err(Misnested),
-            Some(other) if self.ring(other).counter_clockwise => self.around[other as usize],
-            Some(hole) => self.polygon[hole as usize],
+            Some(other) if self.nesting.polygon[other as usize] == NONE => return Err(Misnested),
+            Some(other) if self.ring(other).counter_clockwise => self.nesting.around[other as usize],
+            Some(hole) => self.nesting.polygon[hole as usize],
         };
-        let depth = if around == NONE { 0 } else { self.shells[around as usize].depth + 1 };
-        self.polygon[ring as usize] = index(self.shells.len());
-        self.around[ring as usize] = around;
-        self.shells.push(Shell { ring, depth });
+        let depth = if around == NONE { 0 } else { self.nesting.depth[around as usize] + 1 };
+        self.nesting.polygon[ring as usize] = index(self.nesting.depth.len());
+        self.nesting.around[ring as usize] = around;
+        self.nesting.depth.push(depth);
         Ok(())
     }
 
     /// The ring that runs right below the leftmost point of a cycle of holes; its interior lies above.
     fn ring_below_hole(&self, ring: u32) -> Result<u32, Misnested> {
-        let edge = self.edge_below(self.leftmost[self.ring(ring).cycle as usize]).ok_or(Misnested)?;
+        let edge = self.edge_below(self.nesting.leftmost[self.ring(ring).cycle as usize]).ok_or(Misnested)?;
         if self.is_rightward(edge) { Ok(self.cycles.ring_of_edge(edge)) } else { Err(Misnested) }
     }
 
@@ -193,21 +203,22 @@ impl Nest<'_> {
         from < to
     }
 
-    /// The polygons, outermost first, then by leftmost point; `order` is that of the rings by leftmost point.
-    fn build(&self, order: &[u32]) -> Region {
-        let mut holes: Vec<Vec<u32>> = vec![Vec::new(); self.shells.len()];
-        for &ring in order.iter().filter(|&&ring| !self.ring(ring).counter_clockwise) {
-            holes[self.polygon[ring as usize] as usize].push(ring);
-        }
-        let mut polygons: Vec<u32> = (0..index(self.shells.len())).collect();
-        polygons.sort_by_key(|&polygon| self.shells[polygon as usize].depth);
-        let mut builder = RegionBuilder::default();
-        for &polygon in &polygons {
-            let shell = self.shells[polygon as usize];
-            builder.polygon(shell.depth);
-            for &ring in std::iter::once(&shell.ring).chain(&holes[polygon as usize]) {
-                builder.ring(self.cycles.ids(self.ring(ring)).iter().map(|&id| self.outline.point(id)));
+    /// The polygons, outermost first, then by leftmost point.
+    fn build(&mut self) -> Region {
+        let Nesting { order, polygon, depth, .. } = &mut *self.nesting;
+        let rings = self.cycles.rings();
+        let is_hole = |ring: u32| !rings[ring as usize].counter_clockwise;
+        // Polygons are numbered by leftmost point, and `order` is too: what remains equal keeps its order.
+        order.sort_by_key(|&ring| {
+            let polygon = polygon[ring as usize];
+            (depth[polygon as usize], polygon, is_hole(ring))
+        });
+        let mut builder = RegionBuilder::with_capacity(self.cycles.point_count(), rings.len());
+        for &ring in order.iter() {
+            if !is_hole(ring) {
+                builder.polygon(depth[polygon[ring as usize] as usize]);
             }
+            builder.ring(self.cycles.ids(rings[ring as usize]).iter().map(|&id| self.outline.point(id)));
         }
         builder.build()
     }

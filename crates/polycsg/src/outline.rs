@@ -1,61 +1,76 @@
 //! The rounded boundary: distinct points in lexicographic order and directed edges between them.
 
-use crate::predicates::lexicographic;
+use crate::predicates::{Segment, lexicographic};
 use crate::truth::index;
 use glam::DVec2;
+use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Points and directed edges by point ids, each edge once; the smaller id is the lexicographically smaller point.
 #[derive(Debug, Default)]
 pub(crate) struct Outline {
     points: Vec<DVec2>,
+    /// Sorted by start, then by end.
     edges: Vec<[u32; 2]>,
-    /// Per point its first leaving edge; edges are sorted by start.
+    /// Per point its first leaving edge.
     leaving: Vec<u32>,
     /// Per point the place of its first arriving edge in `by_end`.
     arriving: Vec<u32>,
     by_end: Vec<u32>,
+    /// Of every start of a segment its point and its place in the input.
+    starts: Vec<(DVec2, u32)>,
+    unsorted: Vec<[u32; 2]>,
 }
 
 impl Outline {
-    /// Numbers the points; cancels opposite edges, drops empty ones.
-    pub(crate) fn of(segments: &[[DVec2; 2]]) -> Outline {
-        let mut ends: Vec<(DVec2, usize)> =
-            segments.iter().flatten().copied().enumerate().map(|(i, p)| (p, i)).collect();
-        ends.sort_unstable_by(|a, b| lexicographic(a.0, b.0));
-        let mut outline = Outline::default();
-        let mut ids = vec![0; ends.len()];
-        for (point, end) in ends {
-            if outline.points.last() != Some(&point) {
-                outline.points.push(point);
+    /// Numbers the points of closed walks, drops empty edges and, if any may coincide, cancels opposite ones.
+    pub(crate) fn build(&mut self, segments: impl Iterator<Item = Segment> + Clone, may_coincide: bool) {
+        self.starts.clear();
+        self.starts.extend(segments.clone().zip(0..).map(|([start, _], i)| (start, i)));
+        self.starts.sort_unstable_by(|a, b| lexicographic(a.0, b.0));
+        self.points.clear();
+        self.unsorted.clear();
+        self.unsorted.resize(self.starts.len(), [0; 2]);
+        for &(point, segment) in &self.starts {
+            if self.points.last() != Some(&point) {
+                self.points.push(point);
             }
-            ids[end] = index(outline.points.len() - 1);
+            self.unsorted[segment as usize][0] = index(self.points.len() - 1);
         }
-        outline
-            .edges
-            .extend(ids.chunks_exact(2).filter(|pair| pair[0] != pair[1]).map(|pair| [pair[0], pair[1]]));
-        outline.cancel();
-        outline.index_by_point();
-        outline
+        // Each point where a walk arrives is also left: the ends are found among the starts.
+        for (edge, [_, end]) in self.unsorted.iter_mut().zip(segments) {
+            edge[1] = index(self.points.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
+        }
+        self.unsorted.retain(|edge| edge[0] != edge[1]);
+        if may_coincide {
+            self.cancel();
+        }
+        self.sort();
     }
 
-    fn index_by_point(&mut self) {
-        self.leaving = self.starts(0);
-        self.arriving = self.starts(1);
-        self.by_end.extend(0..index(self.edges.len()));
-        self.by_end.sort_unstable_by_key(|&e| self.edges[e as usize][1]);
+    /// Removes pairs of opposite edges.
+    fn cancel(&mut self) {
+        let ends = |e: &[u32; 2]| (e[0].min(e[1]), e[0].max(e[1]));
+        self.unsorted.sort_unstable_by_key(|e| (ends(e), e[0]));
+        let mut kept: Vec<[u32; 2]> = Vec::with_capacity(self.unsorted.len());
+        for group in self.unsorted.chunk_by(|a, b| ends(a) == ends(b)) {
+            let forward = group.iter().filter(|e| e[0] < e[1]).count();
+            let cancelled = forward.min(group.len() - forward);
+            kept.extend(&group[cancelled..group.len() - cancelled]);
+        }
+        self.unsorted = kept;
     }
 
-    /// Per point the number of edges whose given end has a smaller id.
-    fn starts(&self, end: usize) -> Vec<u32> {
-        let mut starts = vec![0; self.points.len() + 1];
-        for edge in &self.edges {
-            starts[edge[end] as usize + 1] += 1;
-        }
-        for p in 1..starts.len() {
-            starts[p] += starts[p - 1];
-        }
-        starts
+    /// Sorts the edges by start and end, and indexes them by either.
+    fn sort(&mut self) {
+        sort_by_end(&self.unsorted, 1, self.points.len(), &mut self.arriving, &mut self.by_end);
+        self.edges.clear();
+        self.edges.extend(self.by_end.iter().map(|&e| self.unsorted[e as usize]));
+        std::mem::swap(&mut self.edges, &mut self.unsorted);
+        sort_by_end(&self.unsorted, 0, self.points.len(), &mut self.leaving, &mut self.by_end);
+        self.edges.clear();
+        self.edges.extend(self.by_end.iter().map(|&e| self.unsorted[e as usize]));
+        sort_by_end(&self.edges, 1, self.points.len(), &mut self.arriving, &mut self.by_end);
     }
 
     /// The edges that leave a point.
@@ -66,20 +81,6 @@ impl Outline {
     /// The edges that arrive at a point.
     pub(crate) fn arriving(&self, point: u32) -> &[u32] {
         &self.by_end[self.arriving[point as usize] as usize..self.arriving[point as usize + 1] as usize]
-    }
-
-    /// Sorts the edges by their ends and removes pairs of opposite ones.
-    fn cancel(&mut self) {
-        let ends = |e: &[u32; 2]| (e[0].min(e[1]), e[0].max(e[1]));
-        self.edges.sort_unstable_by_key(|e| (ends(e), e[0]));
-        let mut kept: Vec<[u32; 2]> = Vec::with_capacity(self.edges.len());
-        for group in self.edges.chunk_by(|a, b| ends(a) == ends(b)) {
-            let forward = group.iter().filter(|e| e[0] < e[1]).count();
-            let cancelled = forward.min(group.len() - forward);
-            kept.extend(&group[cancelled..group.len() - cancelled]);
-        }
-        kept.sort_unstable();
-        self.edges = kept;
     }
 
     #[inline]
@@ -97,7 +98,27 @@ impl Outline {
     }
 
     #[inline]
-    pub(crate) fn segment(&self, edge: u32) -> [DVec2; 2] {
+    pub(crate) fn segment(&self, edge: u32) -> Segment {
         self.edges[edge as usize].map(|id| self.point(id))
     }
+}
+
+/// A stable counting sort of the edges by one of their ends: per point where its edges begin in `order`.
+fn sort_by_end(edges: &[[u32; 2]], end: usize, points: usize, starts: &mut Vec<u32>, order: &mut Vec<u32>) {
+    starts.clear();
+    starts.resize(points + 2, 0);
+    for edge in edges {
+        starts[edge[end] as usize + 2] += 1;
+    }
+    for p in 2..points + 2 {
+        starts[p] += starts[p - 1];
+    }
+    order.clear();
+    order.resize(edges.len(), 0);
+    for (i, edge) in edges.iter().enumerate() {
+        let at = &mut starts[edge[end] as usize + 1];
+        order[*at as usize] = index(i);
+        *at += 1;
+    }
+    starts.pop();
 }

@@ -1,7 +1,7 @@
 //! The stages in a row.
 
 use crate::csg::Csg;
-use crate::{Boundary, Region, Scratch, link, nest, repair};
+use crate::{Boundary, Region, Scratch, nest, repair};
 
 /// Edges, contacts, arrangement, memberships.
 pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
@@ -30,11 +30,14 @@ pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
 pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
     boundary(csg, scratch);
-    let Scratch { edges, contacts, strips, selection, .. } = scratch;
-    let outline = repair::mend(edges, contacts, selection, strips);
-    let cycles = link::link(&outline);
-    match nest::nest(&outline, &cycles, strips) {
+    let Scratch { edges, contacts, strips, selection, mending, outline, cycles, nesting, .. } = scratch;
+    repair::mend(edges, contacts, selection, strips, mending, outline);
+    cycles.link(outline);
+    match nest::nest(outline, cycles, strips, nesting) {
         Ok(region) => region,
-        Err(nest::Misnested) => region(&Csg::positive(cycles.to_rings(&outline)), scratch),
+        Err(nest::Misnested) => {
+            let rings = cycles.to_rings(outline);
+            region(&Csg::positive(rings), scratch)
+        }
     }
 }

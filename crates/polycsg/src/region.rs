@@ -227,12 +227,16 @@ fn look_down(edge: Segment, p: DVec2) -> Look {
 }
 
 /// Builds a region from rings that are valid and in order.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct RegionBuilder {
     region: Region,
 }
 
 impl RegionBuilder {
+    pub(crate) fn with_capacity(points: usize, rings: usize) -> RegionBuilder {
+        RegionBuilder { region: Region { rings: Rings::with_capacity(points, rings), polygons: Vec::new() } }
+    }
+
     /// Starts a polygon; its rings follow, the outer one first.
     pub(crate) fn polygon(&mut self, depth: u32) {
         self.region.polygons.push(Span { first: self.region.rings.len(), depth: depth as usize });

@@ -48,75 +48,97 @@ struct Fragment {
 /// A cut of a piece at a vertex's abscissa.
 type CutAt = (u32, u32);
 
-struct Repair<'a> {
-    edges: &'a Edges,
-    contacts: &'a Contacts,
-    selection: &'a Selection,
+/// The buffers of the stage.
+#[derive(Debug, Default)]
+pub(crate) struct Mending {
+    fragments: Vec<Fragment>,
+    conflicts: Vec<[u32; 2]>,
     /// The cuts, sorted by piece.
     cuts: Vec<CutAt>,
 }
 
-/// The pieces as an outline: no two edges meet but in their ends.
+struct Repair<'a> {
+    edges: &'a Edges,
+    contacts: &'a Contacts,
+    selection: &'a Selection,
+}
+
+/// Puts the pieces into an outline: no two of its edges meet but in their ends.
 pub(crate) fn mend(
     edges: &Edges,
     contacts: &Contacts,
     selection: &Selection,
     strips: &mut Strips,
-) -> Outline {
-    let mut repair = Repair { edges, contacts, selection, cuts: Vec::new() };
+    mending: &mut Mending,
+    outline: &mut Outline,
+) {
+    let repair = Repair { edges, contacts, selection };
+    mending.cuts.clear();
     loop {
-        let fragments = repair.fragments();
-        let conflicts = find_conflicts(&fragments, strips);
-        if conflicts.is_empty() {
-            return Outline::of(&fragments.iter().map(|f| f.segment).collect::<Vec<_>>());
+        repair.cut_up(&mending.cuts, &mut mending.fragments);
+        let may_coincide = find_conflicts(&mending.fragments, strips, &mut mending.conflicts);
+        if mending.conflicts.is_empty() {
+            return outline.build(mending.fragments.iter().map(|f| f.segment), may_coincide);
         }
-        if !repair.add_cuts(&fragments, &conflicts) {
-            return Outline::of(&cut_verticals(&fragments));
+        if !repair.add_cuts(mending) {
+            return outline.build(cut_verticals(&mending.fragments).iter().copied(), true);
         }
     }
 }
 
-/// The pairs of fragments, one at least with a rounded end, that meet otherwise than in common ends.
-fn find_conflicts(fragments: &[Fragment], strips: &mut Strips) -> Vec<[u32; 2]> {
-    let mut conflicts = Vec::new();
+/// Finds the pairs of fragments, one at least with a rounded end, that meet otherwise than in common ends; returns
+/// whether any have both ends in common.
+fn find_conflicts(fragments: &[Fragment], strips: &mut Strips, conflicts: &mut Vec<[u32; 2]>) -> bool {
+    conflicts.clear();
+    let mut coincide = false;
     if fragments.iter().any(|f| f.moved) {
         strips.build(fragments.iter().enumerate().map(|(i, f)| (index(i), f.segment)));
         strips.pairs(|i, j| {
             let (f, g) = (&fragments[i as usize], &fragments[j as usize]);
-            if (f.moved || g.moved) && f.piece != g.piece && conflict(f.segment, g.segment) {
-                conflicts.push([i, j]);
+            if (f.moved || g.moved) && f.piece != g.piece {
+                match meeting(f.segment, g.segment) {
+                    Meeting::Apart => {}
+                    Meeting::Coincide => coincide = true,
+                    Meeting::Conflict => conflicts.push([i, j]),
+                }
             }
         });
     }
-    conflicts
+    coincide
 }
 
-/// Whether two segments have a point in common that is not an end of both, unless they coincide.
-fn conflict(s: Segment, t: Segment) -> bool {
-    let on_inside = |s: Segment, p: DVec2| is_inside(s, p) && side(s[0], s[1], p) == Side::On;
-    let coincide = (s[0] == t[0] && s[1] == t[1]) || (s[0] == t[1] && s[1] == t[0]);
-    if coincide {
-        return false;
+/// What two fragments have in common: single ends or nothing, both ends, or anything else.
+enum Meeting {
+    Apart,
+    Coincide,
+    Conflict,
+}
+
+fn meeting(s: Segment, t: Segment) -> Meeting {
+    if (s[0] == t[0] && s[1] == t[1]) || (s[0] == t[1] && s[1] == t[0]) {
+        return Meeting::Coincide;
     }
-    let touch = on_inside(s, t[0]) || on_inside(s, t[1]) || on_inside(t, s[0]) || on_inside(t, s[1]);
-    touch || {
-        let (p, q) = (side(s[0], s[1], t[0]), side(s[0], s[1], t[1]));
-        let (r, o) = (side(t[0], t[1], s[0]), side(t[0], t[1], s[1]));
-        p == q.reversed() && p != Side::On && r == o.reversed() && r != Side::On
+    let (p, q) = (side(s[0], s[1], t[0]), side(s[0], s[1], t[1]));
+    if p == q && p != Side::On {
+        return Meeting::Apart;
     }
+    let (r, o) = (side(t[0], t[1], s[0]), side(t[0], t[1], s[1]));
+    let touches = |side: Side, segment: Segment, point: DVec2| side == Side::On && is_inside(segment, point);
+    let touch = touches(p, s, t[0]) || touches(q, s, t[1]) || touches(r, t, s[0]) || touches(o, t, s[1]);
+    let cross = p == q.reversed() && p != Side::On && r == o.reversed() && r != Side::On;
+    if touch || cross { Meeting::Conflict } else { Meeting::Apart }
 }
 
 impl Repair<'_> {
-    fn fragments(&self) -> Vec<Fragment> {
-        let mut fragments = Vec::with_capacity(self.selection.pieces().len() + self.cuts.len());
-        let mut cuts = self.cuts.as_slice();
+    /// All fragments of all pieces.
+    fn cut_up(&self, mut cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+        fragments.clear();
         for (i, &piece) in self.selection.pieces().iter().enumerate() {
             let id = index(i);
             let own = cuts.iter().take_while(|cut| cut.0 == id).count();
-            self.fragment(id, piece, &cuts[..own], &mut fragments);
+            self.fragment(id, piece, &cuts[..own], fragments);
             cuts = &cuts[own..];
         }
-        fragments
     }
 
     fn fragment(&self, id: u32, piece: Piece, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
@@ -184,19 +206,19 @@ impl Repair<'_> {
     }
 
     /// Cuts the pieces of conflicting fragments at each other's ends; whether that added any cut.
-    fn add_cuts(&mut self, fragments: &[Fragment], conflicts: &[[u32; 2]]) -> bool {
+    fn add_cuts(&self, mending: &mut Mending) -> bool {
         let mut added: Vec<CutAt> = Vec::new();
-        for &[i, j] in conflicts {
-            let (f, g) = (&fragments[i as usize], &fragments[j as usize]);
+        for &[i, j] in &mending.conflicts {
+            let (f, g) = (&mending.fragments[i as usize], &mending.fragments[j as usize]);
             for (fragment, vertex) in [(f, g.ends[0]), (f, g.ends[1]), (g, f.ends[0]), (g, f.ends[1])] {
                 if self.is_strictly_between(fragment.ends, vertex) {
                     added.push((fragment.piece, vertex));
                 }
             }
         }
-        self.cuts.extend_from_slice(&added);
-        self.cuts.sort_unstable();
-        self.cuts.dedup();
+        mending.cuts.extend_from_slice(&added);
+        mending.cuts.sort_unstable();
+        mending.cuts.dedup();
         !added.is_empty()
     }
 

@@ -33,6 +33,10 @@ impl Rings {
         Ok(read)
     }
 
+    pub(crate) fn with_capacity(points: usize, rings: usize) -> Rings {
+        Rings { points: Vec::with_capacity(points), ends: Vec::with_capacity(rings) }
+    }
+
     pub(crate) fn push(&mut self, point: DVec2) {
         self.points.push(point);
     }

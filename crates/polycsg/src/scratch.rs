@@ -4,6 +4,10 @@ use crate::arrangement::Arrangement;
 use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::labels::Labels;
+use crate::link::Cycles;
+use crate::nest::Nesting;
+use crate::outline::Outline;
+use crate::repair::Mending;
 use crate::select::Selection;
 use crate::strips::Strips;
 use crate::truth::Truth;
@@ -29,4 +33,8 @@ pub struct Scratch {
     pub(crate) arrangement: Arrangement,
     pub(crate) labels: Labels,
     pub(crate) selection: Selection,
+    pub(crate) mending: Mending,
+    pub(crate) outline: Outline,
+    pub(crate) cycles: Cycles,
+    pub(crate) nesting: Nesting,
 }
