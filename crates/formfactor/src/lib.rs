@@ -61,10 +61,16 @@
 //! Where exact arithmetic decides that nothing is seen, the value is exactly 0: a target that turns its back or lies
 //! below the horizon, one that a single convex occluder covers, covers whose projections are doubles.
 //!
+//! # What it is compared with
+//!
+//! [`approx`] has the methods that sample, from disks to hemicubes and rays, behind one trait.
+//!
 //! Sources: Barreto, *Cálculo do Fator-de-Forma exato entre Áreas Diferencial e Finita Usando CSG* (2008), for the method;
 //! Lambert (1760) for the contour formula.
 pub use glam;
 pub use glam::DVec3;
+
+pub mod approx;
 
 mod complement;
 mod cull;
