@@ -115,7 +115,7 @@ impl Bench {
             return Ok(Contestant { figures: failed(Failure::Slow), child: None });
         }
         let mut child = Child::start(engine.name, workload.family, workload.size, false)?;
-        let answer = child.wait(LOADING).and_then(|_| child.ask("outcome", self.effort.call * 2));
+        let answer = child.wait(LOADING).and_then(|_| child.ask("outcome", self.effort.call * 3 / 2));
         Ok(match answer {
             Ok(Reply::Outcome(outcome)) => {
                 let seconds = Ok(f64::INFINITY);

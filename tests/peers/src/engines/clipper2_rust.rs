@@ -16,7 +16,7 @@ pub(super) fn load(job: &Job) -> Result<Box<dyn Task>, String> {
     };
     let call = move |()| Ok(boolean_op_64(op, FillRule::NonZero, &subject, &clip));
     let measure = move |paths: &Paths64| {
-        let doubled: f64 = paths.iter().map(|path| area(path)).sum();
+        let doubled: f64 = paths.iter().map(area).sum();
         Outcome::of(doubled / (scale * scale), paths.len())
     };
     Ok(task((), call, measure))

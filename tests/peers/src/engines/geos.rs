@@ -33,8 +33,7 @@ fn overlay(op: Op, subject: &Geometry, clip: &Geometry, disjoint: bool) -> GResu
 
 fn multi_polygon(polygons: &[Polygon]) -> GResult<Geometry> {
     let polygon = |polygon: &Polygon| -> GResult<Geometry> {
-        let mut rings =
-            polygon.iter().map(|ring| linear_ring(ring)).collect::<GResult<Vec<_>>>()?.into_iter();
+        let mut rings = polygon.iter().map(linear_ring).collect::<GResult<Vec<_>>>()?.into_iter();
         match rings.next() {
             Some(outer) => Geometry::create_polygon(outer, rings.collect()),
             None => Geometry::create_empty_polygon(),

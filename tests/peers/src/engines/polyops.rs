@@ -26,7 +26,8 @@ fn geometry(polygons: MultiPolygon) -> Geometry {
 
 /// The operand in parts that have to be united: one where the polygons are disjoint already.
 fn parts(polygons: &[Polygon], job: &Job) -> Vec<MultiPolygon> {
-    let closed: MultiPolygon = polygons.iter().map(|polygon| polygon.iter().map(closed).collect()).collect();
+    let closed: MultiPolygon =
+        polygons.iter().map(|polygon| polygon.iter().map(|ring| closed(ring)).collect()).collect();
     if job.disjoint && job.op != Op::UnionOfAll {
         vec![closed]
     } else {
@@ -34,7 +35,7 @@ fn parts(polygons: &[Polygon], job: &Job) -> Vec<MultiPolygon> {
     }
 }
 
-fn closed(ring: &Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+fn closed(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
     ring.iter().chain(ring.first()).copied().collect()
 }
 
