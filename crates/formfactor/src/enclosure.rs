@@ -1,9 +1,10 @@
 //! Many polygons that see and hide each other.
 use crate::cull::Pyramid;
-use crate::exact::form_factor_past;
+use crate::exact::{form_factor_past, unseen};
 use crate::pool::Pool;
 use crate::tree::Tree;
 use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use std::cmp::Ordering;
 
 /// A set of polygons, each of which is a target and hides the others.
 ///
@@ -33,6 +34,9 @@ impl Enclosure {
 
     /// The form factor to polygon `id`; all others, but the one that owns `from`, hide it. Exactly 0 to the owner.
     ///
+    /// A polygon in the owner's plane, such as the other side of a thin wall, is seen edge-on even where rounding put
+    /// `from` a last bit off that plane: exactly 0 to it, and it hides nothing.
+    ///
     /// # Panics
     /// When there is no polygon `id`.
     #[must_use]
@@ -48,15 +52,26 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
-        if from.owner() == Some(id) {
+        if self.is_edge_on(from, id) {
             return FormFactor::default();
+        }
+        // Rounding may have put the part a last bit off the polygon's plane, which decides.
+        let whole = &self.polygons[id];
+        if whole.plane().side_of(from.position()) != Ordering::Greater {
+            return unseen(from, whole);
         }
         let slack = self.deviation + part.deviation();
         let others = |pyramid: &Pyramid| {
             let found = self.tree.find(|extent| pyramid.misses_box(extent, slack)).into_iter();
-            found.filter(|i| *i != id && Some(*i) != from.owner()).map(|i| &self.polygons[i])
+            found.filter(|i| *i != id && !self.is_edge_on(from, *i)).map(|i| &self.polygons[i])
         };
         self.pool.lend(|scratch| form_factor_past(from, part, others, scratch))
+    }
+
+    /// Whether polygon `id` owns `from` or lies in the plane of the one that does.
+    fn is_edge_on(&self, from: &DifferentialArea, id: usize) -> bool {
+        from.owner()
+            .is_some_and(|owner| id == owner || self.polygons[id].lies_in_plane_of(&self.polygons[owner]))
     }
 
     /// The form factors to every polygon, by id.

@@ -97,6 +97,13 @@ impl PlanarPolygon {
         &self.plane
     }
 
+    /// Whether the points that span this polygon's plane lie in that of another one, or are vertices of it.
+    pub(crate) fn lies_in_plane_of(&self, other: &Self) -> bool {
+        let on =
+            |corner: DVec3| other.plane.side_of(corner) == Ordering::Equal || other.points.contains(&corner);
+        self.plane.corners.iter().all(|&corner| on(corner))
+    }
+
     pub(crate) fn deviation(&self) -> f64 {
         self.deviation
     }

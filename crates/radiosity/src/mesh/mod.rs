@@ -2,17 +2,23 @@
 //!
 //! ```text
 //! frame        a patch in two dimensions, its longest edge along x
-//! divide       its edges at a spacing, and the lattice points of that spacing inside
+//! contacts     lines on which other patches touch it: light jumps there
+//! divide       its edges and contacts at a spacing, and the points of a lattice of that spacing inside
 //! triangulate  constrained Delaunay triangles of the points, those outside dropped
-//! tree         the triangles in the order of a binary tree of lattice cells
+//! sever        vertices that are not shared across contacts, and the zones between contacts
+//! tree         the triangles in the order of a binary tree of zones and lattice cells
 //! outline      the polygon around any node of the tree: what a shooter looks like
 //! ```
 use crate::{Error, Scene};
+use formfactor::PlanarPolygon;
 use glam::DVec3;
 
+mod contacts;
 mod divide;
 mod frame;
+mod lattice;
 mod outline;
+mod sever;
 mod tree;
 mod triangulate;
 
@@ -21,7 +27,8 @@ pub(crate) use tree::Node;
 
 /// Triangles over all patches of a scene.
 ///
-/// Vertices are never shared between patches: light is discontinuous where surfaces meet.
+/// Vertices are shared neither between patches nor across a line on which another patch touches theirs: light is
+/// discontinuous there.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Positions, in the scene's coordinates.
@@ -80,7 +87,10 @@ impl Subdivision {
         let mut subdivision =
             Subdivision { nodes: vec![Node::default(); scene.patches.len()], ..Default::default() };
         for (index, patch) in scene.patches.iter().enumerate() {
-            subdivision.add(index, &patch.polygon, spacing).map_err(|source| source.of(&patch.name))?;
+            let contacts = contacts::contacts(scene, index, spacing);
+            subdivision
+                .add(index, &patch.polygon, &contacts, spacing)
+                .map_err(|source| source.of(&patch.name))?;
         }
         Ok(subdivision)
     }
@@ -89,21 +99,20 @@ impl Subdivision {
     fn add(
         &mut self,
         patch: usize,
-        polygon: &formfactor::PlanarPolygon,
+        polygon: &PlanarPolygon,
+        contacts: &[[DVec3; 2]],
         spacing: f64,
     ) -> Result<(), Refusal> {
         let frame = frame::Frame::new(polygon);
-        let points = divide::divide(polygon, &frame, spacing)?;
+        let points = divide::divide(polygon, contacts, &frame, spacing)?;
         let triangles = triangulate::triangulate(&points)?;
-        let triangles = tree::grow(patch, triangles, &points, self.mesh.elements.len(), &mut self.nodes);
+        let severed = sever::sever(&triangles, &points);
+        let triangles = tree::grow(patch, &severed, &points, self.mesh.elements.len(), &mut self.nodes);
         let base = self.mesh.vertices.len();
-        self.flat.append(base, &points);
-        self.mesh.vertices.extend(&points.places);
-        self.mesh.elements.extend(
-            triangles
-                .into_iter()
-                .map(|corners| Element { patch, corners: corners.map(|corner| base + corner) }),
-        );
+        self.flat.append(base, &severed.points, &points);
+        self.mesh.vertices.extend(severed.points.iter().map(|&point| points.places[point]));
+        let element = |corners: [usize; 3]| Element { patch, corners: corners.map(|corner| base + corner) };
+        self.mesh.elements.extend(triangles.into_iter().map(element));
         Ok(())
     }
 }

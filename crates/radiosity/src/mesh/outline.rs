@@ -8,15 +8,22 @@ use std::collections::BTreeMap;
 #[derive(Debug, Default)]
 pub(crate) struct Flat {
     points: Vec<DVec2>,
+    /// The first vertex at the same point of the same patch.
+    welded: Vec<usize>,
     /// Which edge of its patch a piece of the boundary belongs to, by the piece's two ends.
     edges: BTreeMap<[usize; 2], usize>,
 }
 
 impl Flat {
-    /// Appends a patch whose first vertex has index `base`.
-    pub(super) fn append(&mut self, base: usize, points: &Points) {
-        self.points.extend(&points.flat);
-        self.edges.extend(points.boundary.iter().map(|piece| (piece.ends.map(|end| base + end), piece.edge)));
+    /// Appends a patch whose first vertex has index `base`, and whose vertices are at the points `vertices`.
+    pub(super) fn append(&mut self, base: usize, vertices: &[usize], points: &Points) {
+        let mut first = vec![usize::MAX; points.flat.len()];
+        for (vertex, &point) in vertices.iter().enumerate() {
+            first[point] = first[point].min(base + vertex);
+        }
+        self.points.extend(vertices.iter().map(|&point| points.flat[point]));
+        self.welded.extend(vertices.iter().map(|&point| first[point]));
+        self.edges.extend(points.boundary.iter().map(|piece| (piece.ends.map(|end| first[end]), piece.edge)));
     }
 
     /// The polygon that the given elements of one patch cover; vertices in the middle of a straight side are left out.
@@ -25,12 +32,23 @@ impl Flat {
         mesh: &Mesh,
         elements: &[Element],
     ) -> Result<PlanarPolygon, formfactor::Error> {
-        let mut loops: Vec<_> = link(&rim(elements)).iter().map(|walk| self.straighten(walk)).collect();
+        let mut loops: Vec<_> = link(&self.rim(elements)).iter().map(|walk| self.straighten(walk)).collect();
         let outer = (0..loops.len()).max_by(|&a, &b| self.area(&loops[a]).total_cmp(&self.area(&loops[b])));
         loops.swap(0, outer.unwrap_or(0));
         let lift =
             |walk: &Vec<usize>| walk.iter().map(|&vertex| mesh.vertices[vertex]).collect::<Vec<DVec3>>();
         PlanarPolygon::new(loops.iter().map(lift))
+    }
+
+    /// The directed sides that only one of the elements has, sorted.
+    fn rim(&self, elements: &[Element]) -> Vec<[usize; 2]> {
+        let sides = elements.iter().flat_map(|element| {
+            let [a, b, c] = element.corners.map(|corner| self.welded[corner]);
+            [[a, b], [b, c], [c, a]]
+        });
+        let mut sides: Vec<_> = sides.collect();
+        sides.sort_unstable();
+        sides.iter().filter(|[a, b]| sides.binary_search(&[*b, *a]).is_err()).copied().collect()
     }
 
     /// Drops the vertices that lie on a straight line with their neighbours by construction: inside an edge of the
@@ -56,17 +74,6 @@ impl Flat {
         let next = walk.iter().cycle().skip(1);
         walk.iter().zip(next).map(|(&a, &b)| self.points[a].perp_dot(self.points[b])).sum::<f64>() / 2.0
     }
-}
-
-/// The directed sides that only one of the elements has, sorted.
-fn rim(elements: &[Element]) -> Vec<[usize; 2]> {
-    let sides = elements.iter().flat_map(|element| {
-        let [a, b, c] = element.corners;
-        [[a, b], [b, c], [c, a]]
-    });
-    let mut sides: Vec<_> = sides.collect();
-    sides.sort_unstable();
-    sides.iter().filter(|[a, b]| sides.binary_search(&[*b, *a]).is_err()).copied().collect()
 }
 
 /// Closed walks over sides sorted by their start; each side is used once.

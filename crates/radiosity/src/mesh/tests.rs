@@ -121,3 +121,57 @@ fn patches_that_share_an_edge_share_its_points() {
     assert!(on_edge(0).len() > 5);
     assert_eq!(on_edge(0), on_edge(1));
 }
+
+/// A floor of 4 × 4 and what stands on it: walls of height 1 on the given lines.
+fn floor_under(lines: &[[[f64; 2]; 2]]) -> Scene {
+    let mut all = scene(&[vec![[0., 0., 0.], [4., 0., 0.], [4., 4., 0.], [0., 4., 0.]]]);
+    for [[ax, ay], [bx, by]] in lines {
+        let wall = vec![[*ax, *ay, 0.], [*bx, *by, 0.], [*bx, *by, 1.], [*ax, *ay, 1.]];
+        all.patches.extend(scene(&[wall]).patches);
+    }
+    all
+}
+
+#[test]
+fn no_element_lies_on_both_sides_of_a_block_s_foot() {
+    let feet = [[1.13, 1.02], [2.71, 1.33], [2.6, 2.9], [1.3, 2.4]];
+    let lines: Vec<_> = (0..4).map(|k| [feet[k], feet[(k + 1) % 4]]).collect();
+    let Subdivision { mesh, nodes, flat } = Subdivision::new(&floor_under(&lines), 800).unwrap();
+    let beyond =
+        |p: DVec3, [[ax, ay], [bx, by]]: [[f64; 2]; 2]| (bx - ax) * (p.y - ay) - (by - ay) * (p.x - ax);
+    let depth = |p: DVec3| lines.iter().map(|&line| beyond(p, line)).fold(f64::INFINITY, f64::min);
+    let mut shadow = 0.0;
+    let mut sides = vec![None; mesh.vertices.len()];
+    for (index, element) in mesh.elements.iter().enumerate().filter(|(_, element)| element.patch == 0) {
+        let inside = depth(mesh.centroid(index)) > 0.0;
+        shadow += if inside { mesh.area(index) } else { 0.0 };
+        for corner in element.corners {
+            let side = depth(mesh.vertices[corner]);
+            assert!(if inside { side > -1e-12 } else { side < 1e-12 });
+            assert_eq!(*sides[corner].get_or_insert(inside), inside, "a vertex is shared across the foot");
+        }
+    }
+    let foot =
+        (0..4).map(|k| feet[k][0] * feet[(k + 1) % 4][1] - feet[k][1] * feet[(k + 1) % 4][0]).sum::<f64>()
+            / 2.0;
+    assert!((shadow - foot).abs() < 1e-12, "{shadow} {foot}");
+    let whole = flat.outline(&mesh, &mesh.elements[nodes[0].elements.clone()]).unwrap();
+    assert_eq!(whole.loops().map(<[DVec3]>::len).collect::<Vec<_>>(), [4], "an outline has no slits");
+}
+
+#[test]
+fn a_thin_wall_parts_the_vertices_along_its_foot_but_not_at_its_end() {
+    let mesh = Subdivision::new(&floor_under(&[[[0., 2.], [2.1, 2.]]]), 200).unwrap().mesh;
+    let floor: Vec<_> =
+        mesh.elements.iter().filter(|element| element.patch == 0).flat_map(|e| e.corners).collect();
+    let at = |x: f64| {
+        let here = |corner: &usize| mesh.vertices[*corner].distance(DVec3::new(x, 2., 0.)) < 1e-9;
+        let mut vertices: Vec<_> = floor.iter().copied().filter(here).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices.len()
+    };
+    assert_eq!(at(2.1), 1);
+    let inner: Vec<_> = (1..5).map(|k| at(2.1 * f64::from(k) / 5.0)).collect();
+    assert_eq!(inner, [2, 2, 2, 2]);
+}

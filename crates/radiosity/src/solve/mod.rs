@@ -86,6 +86,23 @@ pub struct Solution {
     pub seconds: f64,
 }
 
+impl Solution {
+    /// Area-weighted means of element values over every patch of the scene, `patches` × bands.
+    #[must_use]
+    pub fn patch_means(&self, values: &[f64], patches: usize) -> Vec<Vec<f64>> {
+        let mut sums = vec![vec![0.0; self.bands]; patches];
+        let mut areas = vec![0.0; patches];
+        for (index, element) in self.mesh.elements.iter().enumerate() {
+            let area = self.mesh.area(index);
+            areas[element.patch] += area;
+            for (sum, value) in sums[element.patch].iter_mut().zip(&values[index * self.bands..]) {
+                *sum += area * value;
+            }
+        }
+        sums.iter().zip(&areas).map(|(sums, area)| sums.iter().map(|sum| sum / area).collect()).collect()
+    }
+}
+
 /// Solves the scene by progressive refinement; `watch` is called before every shot and may end it early.
 ///
 /// A scene without emission is solved at once: it is dark. The result does not depend on the number of threads.

@@ -54,13 +54,15 @@ impl<'s> Shooters<'s> {
         (0..self.front.len()).reduce(brighter).unwrap_or(0)
     }
 
-    /// Splits a piece whose power deviates from a uniform piece's by more than `spread` of all emitted power;
-    /// tells whether it did. The halves inherit what the piece has shot.
+    /// Splits a piece whose power deviates from a uniform piece's by more than `spread` of all emitted power, or at
+    /// all when something stands on it: light must not pass to the other side. Tells whether it did. The halves
+    /// inherit what the piece has shot.
     pub(super) fn split(&mut self, index: usize, light: &Light, spread: f64) -> bool {
         let shooter = &self.front[index];
-        let Some(halves) = self.nodes[shooter.node].halves else { return false };
-        let limit = spread * self.emitted.iter().sum::<f64>();
-        if shooter.deviation(&self.nodes[shooter.node], light) <= limit {
+        let node = &self.nodes[shooter.node];
+        let Some(halves) = node.halves else { return false };
+        let limit = if node.parted { 0.0 } else { spread * self.emitted.iter().sum::<f64>() };
+        if shooter.deviation(node, light) <= limit {
             return false;
         }
         let [first, second] = halves.map(|half| Shooter::new(half, self.nodes, &shooter.shot, light));

@@ -104,10 +104,15 @@ fn light_does_not_pass_a_wall() {
     back.reverse();
     scene.patches.extend([patch("west", &middle, 0.5, 0.0), patch("east", &back, 0.5, 0.0)]);
     let solution = quick(&scene, options(300, 1e-6));
-    for (element, h) in solution.irradiance.iter().enumerate() {
-        let dark = solution.mesh.centroid(element).x > 1.5
-            || scene.patches[solution.mesh.elements[element].patch].name == east(&scene);
-        assert!(!dark || *h == 0.0, "element {element} receives {h}");
+    let lit = solution.irradiance.iter().copied().fold(0.0, f64::max);
+    for (element, &h) in solution.irradiance.iter().enumerate() {
+        let patch = &scene.patches[solution.mesh.elements[element].patch];
+        let dark = solution.mesh.centroid(element).x > 1.5 || patch.name == east(&scene);
+        assert!(!dark || h < 1e-12 * lit, "element {element} of {} receives {h} of {lit}", patch.name);
+    }
+    let vertices = solution.vertex_radiosity();
+    for (vertex, &b) in solution.mesh.vertices.iter().zip(&vertices) {
+        assert!(vertex.x <= 1.5 + 1e-12 || b < 1e-12 * lit, "the vertex at {vertex} shows {b} of {lit}");
     }
 }
 

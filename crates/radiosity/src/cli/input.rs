@@ -1,0 +1,14 @@
+//! Scenes from files.
+use super::Failure;
+use radiosity::{Scene, io::collada::Collada};
+use std::path::Path;
+
+/// Reads a scene and its file; prints what the reader had to say on stderr.
+pub(super) fn read(path: &Path) -> Result<(Scene, Collada), Failure> {
+    let source = Collada::open(path)?;
+    let scene = source.scene()?;
+    for warning in &scene.warnings {
+        eprintln!("warning: {warning}");
+    }
+    Ok((scene, source))
+}

@@ -1,0 +1,102 @@
+//! What `--json` prints.
+use formfactor::FormFactor;
+use radiosity::{Scene, Solution};
+use serde::Serialize;
+
+/// The figures of a solution.
+#[derive(Debug, Serialize)]
+pub(super) struct Figures<'s> {
+    scene: &'s str,
+    elements: usize,
+    shots: usize,
+    seconds: f64,
+    bound: &'s [f64],
+    closure: Option<f64>,
+    energy: Energy<'s>,
+    patches: Vec<PatchFigures<'s>>,
+}
+
+/// The ledger.
+#[derive(Debug, Serialize)]
+struct Energy<'s> {
+    emitted: &'s [f64],
+    absorbed: &'s [f64],
+    escaped: &'s [f64],
+    unshot: &'s [f64],
+    defect: &'s [f64],
+}
+
+/// A patch and its means.
+#[derive(Debug, Serialize)]
+struct PatchFigures<'s> {
+    name: &'s str,
+    area: f64,
+    irradiance: Vec<f64>,
+    radiosity: Vec<f64>,
+}
+
+impl<'s> Figures<'s> {
+    /// The figures of `solution`, the solution of `scene`, read from the file `name`.
+    pub(super) fn new(name: &'s str, scene: &'s Scene, solution: &'s Solution) -> Figures<'s> {
+        let ledger = &solution.ledger;
+        let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
+        let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
+        let patches = scene.patches.iter().zip(irradiance).zip(radiosity);
+        Figures {
+            scene: name,
+            elements: solution.mesh.elements.len(),
+            shots: solution.shots,
+            seconds: solution.seconds,
+            bound: &solution.bound,
+            closure: solution.closure,
+            energy: Energy {
+                emitted: &ledger.emitted,
+                absorbed: &ledger.absorbed,
+                escaped: &ledger.escaped,
+                unshot: &ledger.unshot,
+                defect: &ledger.defect,
+            },
+            patches: patches
+                .map(|((patch, irradiance), radiosity)| PatchFigures {
+                    name: &patch.name,
+                    area: patch.polygon.area(),
+                    irradiance,
+                    radiosity,
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Form factors from one point.
+#[derive(Debug, Serialize)]
+pub(super) struct Rows<'s> {
+    pub(super) rows: Vec<Row<'s>>,
+    pub(super) sum: f64,
+}
+
+/// The form factor to one patch.
+#[derive(Debug, Serialize)]
+pub(super) struct Row<'s> {
+    pub(super) name: &'s str,
+    pub(super) form_factor: f64,
+    pub(super) error_bound: f64,
+}
+
+impl<'s> Rows<'s> {
+    /// Names the form factors to the patches of `scene`, given in their order.
+    pub(super) fn new(scene: &'s Scene, factors: &[FormFactor]) -> Rows<'s> {
+        let row = |(patch, factor): (&'s radiosity::Patch, &FormFactor)| Row {
+            name: &patch.name,
+            form_factor: factor.value,
+            error_bound: factor.error_bound,
+        };
+        let rows = scene.patches.iter().zip(factors).map(row).collect();
+        Rows { rows, sum: factors.iter().map(|factor| factor.value).sum() }
+    }
+}
+
+/// One line of JSON, ended by a newline.
+pub(super) fn line(value: &impl Serialize) -> String {
+    serde_json::to_string(value).expect("plain numbers and names can be written") + "\n"
+}

@@ -1,0 +1,56 @@
+//! `radiosity solve`
+use super::{Failure, Solve, input, json, output, progress};
+use output::{Findings, Output};
+use radiosity::{Options, Scene};
+use std::{ops::ControlFlow, process::ExitCode};
+
+/// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
+pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
+    let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let (scene, source) = input::read(&arguments.scene)?;
+    warn_of_darkness(&scene);
+    let bar = progress::Bar::new(arguments.tolerance);
+    let solution = radiosity::solve(&scene, &options(arguments), |progress| {
+        bar.show(progress);
+        ControlFlow::Continue(())
+    });
+    bar.clear();
+    let solution = solution?;
+    let name = arguments.scene.display().to_string();
+    let figures = json::line(&json::Figures::new(&name, &scene, &solution));
+    let findings =
+        Findings { arguments, source: &source, scene: &scene, solution: &solution, figures: &figures };
+    for output in outputs {
+        output.write(&findings)?;
+    }
+    if arguments.json {
+        output::print(&figures)?;
+    }
+    Ok(if solution.converged { ExitCode::SUCCESS } else { stopped(solution.shots) })
+}
+
+/// How the solver is asked.
+fn options(arguments: &Solve) -> Options {
+    Options {
+        elements: arguments.elements,
+        tolerance: arguments.tolerance,
+        spread: arguments.spread,
+        max_shots: arguments.max_shots,
+        max_seconds: arguments.time,
+    }
+}
+
+/// A scene without light is solved: it is dark. Most likely it was not meant.
+fn warn_of_darkness(scene: &Scene) {
+    if scene.patches.iter().all(|patch| patch.emission.iter().all(|&radiance| radiance == 0.0)) {
+        eprintln!("warning: no patch emits light, so all is dark; give a material an <emission> above 0");
+    }
+}
+
+/// The result is written, but not within the tolerance.
+fn stopped(shots: usize) -> ExitCode {
+    eprintln!(
+        "warning: stopped after {shots} shots, before the tolerance was reached; raise the limit or the tolerance"
+    );
+    ExitCode::from(4)
+}
