@@ -20,12 +20,12 @@ struct Arguments {
     /// Print one JSON object per row on stdout.
     #[arg(long)]
     json: bool,
-    /// Only the workloads whose name contains this.
+    /// Only the workloads whose name contains this; may be given several times.
     #[arg(long, value_name = "TEXT")]
-    only: Option<String>,
-    /// Where peers.md and peers.jsonl go.
-    #[arg(short, long, value_name = "DIR", default_value = "target-data")]
-    output: PathBuf,
+    only: Vec<String>,
+    /// Where peers.md and peers.jsonl go; by default into target-data beside this program's sources.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Serve one engine on one input over stdin and stdout (how the bench starts its own children).
     #[arg(long, hide = true, num_args = 3, value_names = ["ENGINE", "FAMILY", "SIZE"])]
     worker: Option<Vec<String>>,
@@ -52,15 +52,19 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         eprintln!("no map rows: {message}");
     }
     let effort = if arguments.quick { bench::QUICK } else { bench::FULL };
-    let chosen = workloads::workloads(arguments.quick, maps.is_ok()).into_iter().filter(|workload| {
-        arguments.only.as_ref().is_none_or(|text| workload.name().contains(text.as_str()))
-    });
+    let is_asked_for =
+        |name: &str| arguments.only.is_empty() || arguments.only.iter().any(|text| name.contains(text));
+    let workloads = workloads::workloads(arguments.quick, maps.is_ok());
+    let chosen = workloads.into_iter().filter(|workload| is_asked_for(&workload.name()));
+    let output = arguments.output.clone().unwrap_or_else(peers::shapes::folder);
     let mut bench = bench::Bench::new(effort);
     let mut rows = Vec::new();
     for workload in chosen {
         let row = bench.row(&workload)?;
         table::show(&row, arguments.json);
         rows.push(row);
+        // After every row, so that a run which is stopped leaves what it has.
+        table::write(&rows, &output)?;
     }
-    table::write(&rows, &arguments.output)
+    Ok(())
 }

@@ -7,7 +7,8 @@ use std::process::Command;
 
 const PACKAGES: [&str; 2] = ["world-atlas@2.0.2", "us-atlas@3.0.1"];
 
-fn folder() -> PathBuf {
+/// Where the maps are kept, and tables written unless told otherwise; not part of the repository.
+pub fn folder() -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "target-data"].iter().collect()
 }
 

@@ -7,7 +7,7 @@ mod scattered;
 mod spikes;
 mod topojson;
 
-pub use maps::{fetch, is_fetched};
+pub use maps::{fetch, folder, is_fetched};
 
 use crate::job::{Job, Polygon, Ring};
 
