@@ -39,7 +39,6 @@ enum Command {
 
 /// `radiosity solve`
 #[derive(Args, Debug)]
-#[group(id = "result", required = true, multiple = true, args = ["output", "json"])]
 struct Solve {
     /// The scene: a COLLADA file
     scene: PathBuf,

@@ -1,11 +1,14 @@
 //! `radiosity solve`
 use super::{Failure, Solve, input, json, output, progress};
 use output::{Findings, Output};
-use radiosity::{Options, Scene};
+use radiosity::{Options, Scene, Solution};
 use std::{ops::ControlFlow, process::ExitCode};
 
 /// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
 pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
+    if arguments.output.is_empty() && !arguments.json {
+        return Err(Failure::usage("no result is asked for; give -o FILE, or --json"));
+    }
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
     warn_of_darkness(&scene);
@@ -26,7 +29,14 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json {
         output::print(&figures)?;
     }
+    report(&solution);
     Ok(if solution.converged { ExitCode::SUCCESS } else { stopped(solution.shots) })
+}
+
+/// One line for people.
+fn report(solution: &Solution) {
+    let (elements, shots, seconds) = (solution.mesh.elements.len(), solution.shots, solution.seconds);
+    eprintln!("{elements} elements, {shots} shots, {seconds:.1} s");
 }
 
 /// How the solver is asked.

@@ -1,0 +1,45 @@
+//! Conversions from and to geo-types.
+#![cfg(feature = "geo-types")]
+
+use geo_types::{MultiPolygon, Polygon, polygon};
+use polycsg::{Error, FillRule, Region};
+
+fn frame_with_island() -> Region {
+    let square = |low: f64, high: f64| [[low, low], [high, low], [high, high], [low, high]];
+    Region::from_rings([square(0.0, 9.0), square(2.0, 7.0), square(3.0, 5.0)], FillRule::EvenOdd)
+        .expect("finite")
+}
+
+#[test]
+fn a_region_survives_the_round_trip() {
+    let region = frame_with_island();
+    let polygons = MultiPolygon::from(&region);
+    assert_eq!(polygons.0.len(), 2);
+    assert_eq!(polygons.0[0].interiors().len(), 1);
+    assert_eq!(
+        polygons.0[0].exterior().0.first(),
+        polygons.0[0].exterior().0.last(),
+        "closed, as geo-types is"
+    );
+    assert_eq!(Region::try_from(&polygons), Ok(region));
+}
+
+#[test]
+fn a_hole_cuts_whatever_its_direction_and_polygons_may_overlap() {
+    let holed = polygon!(
+        exterior: [(x: 0.0, y: 0.0), (x: 0.0, y: 4.0), (x: 4.0, y: 4.0), (x: 4.0, y: 0.0)],
+        interiors: [[(x: 1.0, y: 1.0), (x: 1.0, y: 3.0), (x: 3.0, y: 3.0), (x: 3.0, y: 1.0)]],
+    );
+    assert_eq!(Region::try_from(&holed).expect("finite").area(), 12.0);
+    let lid: Polygon<f64> = polygon![(x: 1.0, y: 1.0), (x: 3.0, y: 1.0), (x: 3.0, y: 5.0), (x: 1.0, y: 5.0)];
+    assert_eq!(Region::try_from(&MultiPolygon(vec![holed, lid])).expect("finite").area(), 18.0);
+}
+
+#[test]
+fn a_bad_coordinate_is_named() {
+    let bad: Polygon<f64> = polygon![(x: 0.0, y: 0.0), (x: f64::NAN, y: 0.0), (x: 1.0, y: 1.0)];
+    assert_eq!(Region::try_from(&bad), Err(Error::NonFinite { ring: 0, vertex: 1 }));
+    let good: Polygon<f64> = polygon![(x: 0.0, y: 0.0), (x: 1.0, y: 0.0), (x: 1.0, y: 1.0)];
+    let error = Region::try_from(&MultiPolygon(vec![good, bad]));
+    assert_eq!(error, Err(Error::NonFinite { ring: 1, vertex: 1 }));
+}
