@@ -285,3 +285,28 @@ fn targets_with_holes_and_notches_are_divided() {
         assert!((found - exact).abs() < 0.02, "{}: {found} is not {exact}", method.name());
     }
 }
+
+#[test]
+fn parameters_without_sense_give_numbers() {
+    let room = room();
+    let targets: Vec<usize> = (0..room.polygons().len()).collect();
+    let strange = [f64::NAN, f64::INFINITY, 0.0, -1.0];
+    let mut methods: Vec<Box<dyn Method>> = vec![
+        Box::new(Hemicube::new(0).rotated(Rotation::Angle(1e300))),
+        Box::new(Paraboloid::new(0)),
+        Box::new(MonteCarlo { rays: 0, sampling: Sampling::Random, seed: u64::MAX }),
+        Box::new(MonteCarlo { rays: 0, sampling: Sampling::Stratified, seed: 0 }),
+        Box::new(VisibilityIndex { near: f64::NAN, samples: 0, depth: 0 }),
+        Box::new(Baum { hemicube: Hemicube::new(1), near: f64::NAN, divisions: 0 }),
+        Box::new(Pietrek { division: Division::Uniform(0), near: f64::NEG_INFINITY }),
+    ];
+    for value in strange {
+        methods.push(Box::new(SinglePlane { half_width: value, smallest: 1e-3 }));
+        methods.push(Box::new(SinglePlane { half_width: 2.0, smallest: value.min(1e-6) }));
+        methods.push(Box::new(Wallace { division: Division::Adaptive { size: value, depth: 3 } }));
+    }
+    for method in methods {
+        let row = method.row(&room, &floor_points()[3], &targets);
+        assert!(row.iter().all(|factor| (0.0..=1.5).contains(factor)), "{}: {row:?}", method.name());
+    }
+}

@@ -15,7 +15,7 @@ pub(super) struct Item<'a> {
     pub(super) loops: Vec<Vec<DVec3>>,
     /// Distance of its plane from dA along its normal: not zero.
     height: f64,
-    /// The lowest id of those in its plane: they do not hide each other.
+    /// The id of one of those in its plane: they do not hide each other.
     pub(super) plane: usize,
     cone: Cone,
 }
@@ -117,15 +117,25 @@ impl Cone {
 pub(super) fn items<'a>(enclosure: &'a Enclosure, from: &DifferentialArea) -> Vec<Item<'a>> {
     let polygons = enclosure.polygons().iter().enumerate();
     let mut items: Vec<Item> = polygons.filter_map(|(id, polygon)| Item::of(from, id, polygon)).collect();
+    share_planes(&mut items);
+    items
+}
+
+/// Gives those in one plane the id of one of them. Takes O(n log n) where few planes are at one distance from dA.
+fn share_planes(items: &mut [Item]) {
+    let mut order: Vec<usize> = (0..items.len()).collect();
+    order.sort_by(|a, b| items[*a].height.abs().total_cmp(&items[*b].height.abs()));
+    let reach = items.iter().map(|item| item.loops[0][0].length()).fold(0.0, f64::max);
+    // Coplanar polygons' distances differ by roundings of the coordinates; 1e-9 is far more.
+    let is_level = |a: &Item, b: &Item| b.height.abs() - a.height.abs() <= 1e-9 * reach;
     let mut firsts: Vec<usize> = Vec::new();
-    for place in 0..items.len() {
-        let item = &items[place];
-        match firsts.iter().find(|first| is_coplanar(&items[**first], item)) {
-            Some(first) => items[place].plane = items[*first].id,
+    for place in order {
+        let level = firsts.iter().rev().take_while(|first| is_level(&items[**first], &items[place]));
+        match level.copied().find(|first| is_coplanar(&items[*first], &items[place])) {
+            Some(first) => items[place].plane = items[first].plane,
             None => firsts.push(place),
         }
     }
-    items
 }
 
 /// The polygons seen along a direction: the nearest, with those coplanar to it that overlap there.
@@ -175,17 +185,10 @@ fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
 
 /// Whether two polygons lie in one plane, as nearly as their vertices are known.
 fn is_coplanar(a: &Item, b: &Item) -> bool {
-    // What is far from it is not decided exactly.
-    if a.polygon.normal().dot(b.polygon.normal()).abs() < 0.999 || !is_as_high(a, b) {
+    if a.polygon.normal().dot(b.polygon.normal()).abs() < 0.999 {
         return false;
     }
     let plane = a.polygon.plane();
     let doubt = 2.0 * (a.polygon.deviation() + b.polygon.deviation()) * plane.normal.round().length();
     b.polygon.points().iter().all(|p| plane.side(*p).value.hi.abs() <= doubt)
-}
-
-/// Whether two planes may be at one distance.
-fn is_as_high(a: &Item, b: &Item) -> bool {
-    let reach = a.loops[0][0].length() + b.loops[0][0].length();
-    (a.height.abs() - b.height.abs()).abs() <= 1e-6 * reach
 }

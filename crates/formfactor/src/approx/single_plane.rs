@@ -15,7 +15,7 @@ use std::ops::Range;
 /// square is not seen: at most 1 / (1 + half_width^2) in all, a floor that only a wider square lowers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SinglePlane {
-    /// Half the square's side, its height being 1.
+    /// Half the square's side, its height being 1; taken as at most 1e6.
     pub half_width: f64,
     /// A cell is not quartered whose delta factor is no larger than this, or than 1e-9.
     pub smallest: f64,
@@ -30,7 +30,7 @@ impl Method for SinglePlane {
         let items = items(enclosure, from);
         let axes = frame(from, Rotation::Angle(0.0));
         let mut factors = vec![0.0; enclosure.polygons().len()];
-        let half = self.half_width.abs();
+        let half = self.half_width.abs().min(WIDEST);
         let whole = Cell { x: -half..half, y: -half..half, items: items.iter().collect() };
         let mut open = vec![whole];
         while let Some(cell) = open.pop() {
@@ -47,6 +47,9 @@ impl Method for SinglePlane {
         targets.iter().map(|id| factors[*id]).collect()
     }
 }
+
+/// Beyond, all is below the rounding of the sum.
+const WIDEST: f64 = 1e6;
 
 /// Keeps the number of cells along an edge within some 10^5.
 const LEAST: f64 = 1e-9;
