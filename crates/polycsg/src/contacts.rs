@@ -14,13 +14,12 @@
 
 use crate::edges::Edges;
 use crate::predicates::{
-    Area, Segment, Side, crossing_order, doubled_area, is_inside, lexicographic, point_crossing_order, side,
+    Parameter, Side, crossing_order, doubled_area, is_inside, lexicographic, point_crossing_order, side,
     side_of,
 };
 use crate::strips::Strips;
 use crate::truth::index;
 use crate::union_find::UnionFind;
-use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -30,9 +29,7 @@ const NONE: u32 = u32::MAX;
 /// A vertex strictly inside an edge.
 #[derive(Clone, Copy, Debug)]
 struct Contact {
-    /// The parameter along the edge, from 0 to 1, and a bound on its error.
-    t: f64,
-    error: f32,
+    at: Parameter,
     edge: u32,
     /// The edge that crosses here, or none.
     other: u32,
@@ -130,15 +127,15 @@ impl Contacts {
         if [p0, p1, q0, q1].contains(&Side::On) {
             self.touch(edges, e, f, [p0, p1, q0, q1]);
         } else {
-            self.cross(edges, (e, parameter(s0, s1)), (f, parameter(t0, t1)));
+            self.cross(edges, (e, Parameter::of_crossing(s0, s1)), (f, Parameter::of_crossing(t0, t1)));
         }
     }
 
-    fn cross(&mut self, edges: &Edges, (e, at_e): (u32, (f64, f32)), (f, at_f): (u32, (f64, f32))) {
+    fn cross(&mut self, edges: &Edges, (e, at_e): (u32, Parameter), (f, at_f): (u32, Parameter)) {
         let vertex = self.vertices.push();
         self.crossings.push([e, f]);
-        self.found.push(Contact { t: at_e.0, error: at_e.1, edge: e, other: f, vertex });
-        self.found.push(Contact { t: at_f.0, error: at_f.1, edge: f, other: e, vertex });
+        self.found.push(Contact { at: at_e, edge: e, other: f, vertex });
+        self.found.push(Contact { at: at_f, edge: f, other: e, vertex });
         self.rings.join(edges.ring_of(e), edges.ring_of(f));
     }
 
@@ -178,8 +175,8 @@ impl Contacts {
         }
         let inside = is_inside(segment, point);
         if inside {
-            let (t, error) = explicit_parameter(segment, point);
-            self.found.push(Contact { t, error, edge, other: NONE, vertex });
+            let at = Parameter::of_point(segment, point);
+            self.found.push(Contact { at, edge, other: NONE, vertex });
         }
         inside
     }
@@ -195,8 +192,10 @@ impl Contacts {
             self.starts[e] += self.starts[e - 1];
         }
         self.sorted.clear();
-        self.sorted
-            .resize(self.found.len(), Contact { t: 0.0, error: 0.0, edge: NONE, other: NONE, vertex: NONE });
+        self.sorted.resize(
+            self.found.len(),
+            Contact { at: Parameter::default(), edge: NONE, other: NONE, vertex: NONE },
+        );
         for &contact in &self.found {
             let at = &mut self.starts[contact.edge as usize + 1];
             self.sorted[*at as usize] = contact;
@@ -229,14 +228,7 @@ impl Contacts {
 /// The order of two contacts along their common edge: by the parameters where their bounds allow, else exactly.
 #[inline]
 fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
-    let (da, db) = (f64::from(a.error), f64::from(b.error));
-    if a.t + da < b.t - db {
-        Ordering::Less
-    } else if a.t - da > b.t + db {
-        Ordering::Greater
-    } else {
-        order_exactly(edges, a, b)
-    }
+    a.at.certain_order(b.at).unwrap_or_else(|| order_exactly(edges, a, b))
 }
 
 #[cold]
@@ -251,29 +243,4 @@ fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
         (g, NONE) => point_crossing_order(e, edges.point(b.vertex), edges.segment(g)).reverse(),
         (f, g) => crossing_order(e, edges.segment(f), edges.segment(g)),
     }
-}
-
-/// The parameter of a proper crossing along an edge from the doubled areas of its ends against the other edge.
-///
-/// T = N / (N - M) with N, M of opposite signs; errors of E in both move it by at most 2 E / |N - M| when the computed
-/// |n - m| is at least 2 E, and the two roundings by 2u more.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "the factor 1.000001 rounds the bound up")]
-fn parameter(n: Area, m: Area) -> (f64, f32) {
-    let (p, q) = (n.value.abs(), m.value.abs());
-    let (length, error) = (p + q, n.error + m.error);
-    let bound = if 2.0 * error <= length && length < f64::INFINITY {
-        2.0 * error / length + 4.0 * f64::EPSILON
-    } else {
-        f64::INFINITY
-    };
-    (p / length, (bound * 1.000_001) as f32)
-}
-
-/// The parameter of a point inside an edge, by the longer axis.
-#[expect(clippy::cast_possible_truncation, reason = "4 epsilon is a power of two")]
-fn explicit_parameter(segment: Segment, point: DVec2) -> (f64, f32) {
-    let (run, at) = (segment[1] - segment[0], point - segment[0]);
-    let t = if run.x.abs() > run.y.abs() { at.x / run.x } else { at.y / run.y };
-    (t, (4.0 * f64::EPSILON) as f32)
 }
