@@ -81,10 +81,11 @@ fn maps_cover_what_they_show() {
     if !is_fetched() {
         return;
     }
-    // Land covers 29.2 % of the Earth; the United States and their waters 9.8 of 510 million square kilometres.
-    for (name, scale, share) in [("land", 50, 0.292), ("countries", 50, 0.292), ("counties", 10, 0.0192)] {
+    // Land covers 29.2 % of the Earth; the United States with their inland waters, without the Great Lakes,
+    // 9.37 of 510 million square kilometres.
+    for (name, scale, share) in [("land", 50, 0.292), ("countries", 50, 0.292), ("counties", 10, 0.0184)] {
         let job = (family(name).unwrap().make)(scale).unwrap();
         let found = share_of_the_globe(&job.subject);
-        assert!((found / share - 1.0).abs() < 0.05, "{name}: {found}");
+        assert!((found / share - 1.0).abs() < 0.03, "{name}: {found}");
     }
 }

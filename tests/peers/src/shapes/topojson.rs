@@ -25,7 +25,7 @@ enum Shape {
     MultiPolygon(Vec<Vec<Vec<i64>>>),
 }
 
-/// The polygons of one object of a topology; outer rings are turned counter-clockwise, holes clockwise.
+/// The polygons of one object of a topology, each an outer ring and its holes, turned either way.
 pub(super) fn polygons(text: &str, object: &str) -> Result<Vec<Polygon>, String> {
     let topology: Topology = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let arcs: Vec<Ring> = topology.arcs.iter().map(|arc| absolute(arc, &topology.transform)).collect();
@@ -54,14 +54,7 @@ fn absolute(steps: &[[f64; 2]], transform: &Transform) -> Ring {
 }
 
 fn polygon(rings: &[Vec<i64>], arcs: &[Ring]) -> Polygon {
-    let turned = |(i, indices): (usize, &Vec<i64>)| {
-        let mut ring = ring(indices, arcs);
-        if (signed_area(&ring) > 0.0) != (i == 0) {
-            ring.reverse();
-        }
-        ring
-    };
-    rings.iter().enumerate().map(turned).filter(|ring| ring.len() > 2).collect()
+    rings.iter().map(|indices| ring(indices, arcs)).filter(|ring| ring.len() > 2).collect()
 }
 
 /// Arcs in a row, each without its last point, with which the next begins; !i is arc i backwards.
@@ -80,9 +73,4 @@ fn ring(indices: &[i64], arcs: &[Ring]) -> Ring {
     }
     ring.dedup();
     ring
-}
-
-fn signed_area(ring: &[[f64; 2]]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(a, b)| (b[0] - a[0]) * (a[1] + b[1]) / -2.0).sum()
 }
