@@ -19,5 +19,5 @@ mod solve;
 
 pub use error::Error;
 pub use mesh::{Element, Mesh};
-pub use scene::{Camera, Origin, Patch, Scene};
+pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
 pub use solve::{Ledger, Options, Progress, Solution, solve};

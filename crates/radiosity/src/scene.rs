@@ -1,4 +1,8 @@
 //! What is lit: patches, what they reflect and emit, and who looks at them.
+mod texture;
+
+pub use texture::{Image, Texture};
+
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 
@@ -15,6 +19,24 @@ pub struct Scene {
     pub bands: usize,
     /// What was odd about the file and how it was taken, one sentence each.
     pub warnings: Vec<String>,
+    /// What the coordinates mean.
+    pub asset: Asset,
+}
+
+/// What the coordinates of a scene mean; they stay as the file has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asset {
+    /// The axis that points up; y where the file says nothing.
+    pub up: DVec3,
+    /// Length of the file's unit in metres; 1 where the file says nothing.
+    pub unit: f64,
+}
+
+impl Default for Asset {
+    /// y up, in metres.
+    fn default() -> Asset {
+        Asset { up: DVec3::Y, unit: 1.0 }
+    }
 }
 
 /// A planar surface that reflects diffusely and may emit, on its front side.
@@ -28,8 +50,54 @@ pub struct Patch {
     pub reflectance: Vec<f64>,
     /// Emitted radiance L per band, W/m²/sr; the emitted radiosity is E = πL.
     pub emission: Vec<f64>,
+    /// A picture on it, which replaces `reflectance` point by point; `reflectance` is then the mean.
+    pub texture: Option<Texture>,
+    /// Patches of one object with the same number are facets of one curved surface; none for a facet that is meant
+    /// flat.
+    pub smoothing: Option<usize>,
     /// Where in the file it stands.
     pub origin: Origin,
+}
+
+impl Patch {
+    /// A plain patch, without texture, that stands in no file.
+    ///
+    /// ```
+    /// use radiosity::{Patch, formfactor::PlanarPolygon};
+    ///
+    /// let square = PlanarPolygon::new([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]])?;
+    /// let lamp = Patch::new("lamp", square, vec![0.5], vec![10.0]); // one band; radiance 10, so 10 pi W/m² are emitted
+    /// assert_eq!(lamp.polygon.normal().z, 1.0);
+    /// # Ok::<(), radiosity::formfactor::Error>(())
+    /// ```
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        polygon: PlanarPolygon,
+        reflectance: Vec<f64>,
+        emission: Vec<f64>,
+    ) -> Patch {
+        let (name, texture, smoothing, origin) = (name.into(), None, None, Origin::default());
+        Patch { name, polygon, reflectance, emission, texture, smoothing, origin }
+    }
+
+    /// The reflectance per band of a triangle on the patch: its own, or the mean of its texture there.
+    #[must_use]
+    pub fn reflectance_over(&self, corners: [DVec3; 3]) -> Vec<f64> {
+        match &self.texture {
+            None => self.reflectance.clone(),
+            Some(texture) => {
+                let mean = texture.mean(corners);
+                (0..self.reflectance.len()).map(|band| mean[band.min(2)]).collect()
+            }
+        }
+    }
+
+    /// Whether it gives light of its own in some band.
+    #[must_use]
+    pub fn emits(&self) -> bool {
+        self.emission.iter().any(|&radiance| radiance > 0.0)
+    }
 }
 
 /// Where a patch stands in its file, so that a writer can put the result back in its place.

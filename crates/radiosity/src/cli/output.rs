@@ -71,8 +71,7 @@ impl Output {
 impl Findings<'_> {
     /// PNG of the scene from its first camera, or from a stated view when it has none.
     fn picture(&self) -> Result<Vec<u8>, Failure> {
-        let up = self.source.asset()?.up;
-        let camera = self.scene.cameras.first().cloned().unwrap_or_else(|| picture::framing(self.scene, up));
+        let camera = self.scene.cameras.first().cloned().unwrap_or_else(|| picture::framing(self.scene));
         let width = self.arguments.width;
         Ok(picture::draw(&self.solution.mesh, &self.colours(), &camera, self.exposure(), width))
     }
@@ -84,8 +83,7 @@ impl Findings<'_> {
 
     /// glTF binary.
     fn glb(&self) -> Result<Vec<u8>, Failure> {
-        let asset = self.source.asset()?;
-        Ok(glb::glb(self.scene, &asset, &self.solution.mesh, &self.colours(), self.exposure())?)
+        Ok(glb::glb(self.scene, &self.solution.mesh, &self.colours(), self.exposure())?)
     }
 
     /// Red, green and blue radiosity at the vertices.

@@ -1,8 +1,7 @@
 //! glTF 2.0 binary: the lit mesh for any viewer.
 use super::Error;
-use super::collada::Asset;
 use crate::expose::Exposure;
-use crate::{Camera, Mesh, Scene};
+use crate::{Asset, Camera, Mesh, Scene};
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
 
@@ -22,13 +21,7 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 ///
 /// # Panics
 /// When `radiosity` is shorter than the mesh's vertices.
-pub fn glb(
-    scene: &Scene,
-    asset: &Asset,
-    mesh: &Mesh,
-    radiosity: &[[f64; 3]],
-    exposure: Exposure,
-) -> Result<Vec<u8>, Error> {
+pub fn glb(scene: &Scene, mesh: &Mesh, radiosity: &[[f64; 3]], exposure: Exposure) -> Result<Vec<u8>, Error> {
     let (middle, radius) = ball(mesh);
     let mut buffer = Buffer::default();
     let mut document = json!({
@@ -36,7 +29,7 @@ pub fn glb(
         "scene": 0,
         "scenes": [{"nodes": [0]}],
     });
-    let mut nodes = vec![json!({"name": "scene", "matrix": upright(asset).to_cols_array()})];
+    let mut nodes = vec![json!({"name": "scene", "matrix": upright(&scene.asset).to_cols_array()})];
     if !mesh.elements.is_empty() {
         document["meshes"] = json!([lit_mesh(&mut buffer, mesh, middle, radiosity, exposure)]);
         document["materials"] = json!([{"name": "radiosity", "extensions": {"KHR_materials_unlit": {}}}]);
@@ -47,7 +40,7 @@ pub fn glb(
         nodes.push(json!({"name": "light", "mesh": 0, "translation": middle.to_array()}));
     }
     let lenses: Vec<Value> =
-        scene.cameras.iter().map(|camera| lens(camera, 1e-3 * radius * asset.unit)).collect();
+        scene.cameras.iter().map(|camera| lens(camera, 1e-3 * radius * scene.asset.unit)).collect();
     if !lenses.is_empty() {
         document["cameras"] = lenses.into();
         nodes.extend(scene.cameras.iter().enumerate().map(|(index, camera)| camera_node(index, camera)));

@@ -8,13 +8,7 @@ use glam::DVec3;
 fn scene(loops: &[Vec<[f64; 3]>]) -> Scene {
     let loops: Vec<Vec<DVec3>> =
         loops.iter().map(|points| points.iter().map(|&p| p.into()).collect()).collect();
-    let patch = Patch {
-        name: "patch".to_owned(),
-        polygon: PlanarPolygon::new(&loops).unwrap(),
-        reflectance: vec![0.5],
-        emission: vec![0.0],
-        origin: Default::default(),
-    };
+    let patch = Patch::new("patch", PlanarPolygon::new(&loops).unwrap(), vec![0.5], vec![0.0]);
     Scene { patches: vec![patch], bands: 1, ..Scene::default() }
 }
 

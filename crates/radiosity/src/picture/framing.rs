@@ -4,10 +4,11 @@ use glam::DVec3;
 
 /// A camera that sees the whole scene, from the front, somewhat from the right and from above.
 ///
-/// `up` is the axis that points up. The front is −y where z is up, else +z. The field of view is 40 degrees, the picture
+/// The front is −y where z is up, else +z. The field of view is 40 degrees, the picture
 /// 4:3.
 #[must_use]
-pub fn framing(scene: &Scene, up: DVec3) -> Camera {
+pub fn framing(scene: &Scene) -> Camera {
+    let up = scene.asset.up;
     let (low, high) = bounds(scene);
     let (centre, radius) = (low.midpoint(high), (high - low).length() / 2.0);
     let front = if up.z > 0.0 { DVec3::NEG_Y } else { DVec3::Z };

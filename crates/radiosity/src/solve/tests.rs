@@ -8,13 +8,7 @@ use std::ops::ControlFlow;
 /// A patch of one band.
 fn patch(name: &str, corners: &[[f64; 3]], reflectance: f64, emission: f64) -> Patch {
     let corners: Vec<DVec3> = corners.iter().map(|&corner| corner.into()).collect();
-    Patch {
-        name: name.to_owned(),
-        polygon: PlanarPolygon::new([corners]).unwrap(),
-        reflectance: vec![reflectance],
-        emission: vec![emission],
-        origin: Default::default(),
-    }
+    Patch::new(name, PlanarPolygon::new([corners]).unwrap(), vec![reflectance], vec![emission])
 }
 
 /// A closed room of 3 × 2 × 1, its faces seen from inside.

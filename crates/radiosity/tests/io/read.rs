@@ -1,7 +1,6 @@
 //! What the reader makes of good files.
 use crate::samples::{file, geometry, instance, names, node, outline, polylist, primitive, scene};
 use radiosity::glam::DVec3;
-use radiosity::io::collada::Collada;
 
 const CUBE: &str = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1";
 const CUBE_FACES: &str = "0 3 2 1  4 5 6 7  0 1 5 4  1 2 6 5  2 3 7 6  3 0 4 7";
@@ -266,9 +265,9 @@ fn cameras_look_along_their_minus_z() {
 #[test]
 fn the_asset_tells_unit_and_up() {
     let text = file("", "");
-    let asset = Collada::from_text("test.dae", text.as_str()).asset().unwrap();
+    let asset = scene(&text).asset;
     assert_eq!((asset.up, asset.unit), (DVec3::Z, 0.0254));
     let plain = text.replace("<up_axis>Z_UP</up_axis>", "").replace("meter=\"0.0254\"", "");
-    let asset = Collada::from_text("test.dae", plain).asset().unwrap();
+    let asset = scene(&plain).asset;
     assert_eq!((asset.up, asset.unit), (DVec3::Y, 1.0));
 }

@@ -19,7 +19,7 @@ mod walk;
 mod write;
 
 use super::Error;
-use crate::{Mesh, Scene};
+use crate::{Asset, Mesh, Scene};
 use file::{File, child};
 use glam::DVec3;
 pub(crate) use mesh_text::{decimal, list};
@@ -30,15 +30,6 @@ use std::path::Path;
 pub struct Collada {
     name: String,
     text: String,
-}
-
-/// What `<asset>` says about the coordinates, which stay as they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asset {
-    /// The axis that points up; y where the file says nothing.
-    pub up: DVec3,
-    /// Length of the file's unit in metres; 1 where the file says nothing.
-    pub unit: f64,
 }
 
 impl Collada {
@@ -70,16 +61,8 @@ impl Collada {
             let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
             let patches = patches::patches(file, &instances, &mut warnings)?;
             let cameras = camera::cameras(file, &sights, &mut warnings)?;
-            Ok(Scene { patches, cameras, bands: 3, warnings })
+            Ok(Scene { patches, cameras, bands: 3, warnings, asset: asset(file)? })
         })
-    }
-
-    /// The unit and the up axis.
-    ///
-    /// # Errors
-    /// [`Error::Xml`] and [`Error::Scene`], with the line.
-    pub fn asset(&self) -> Result<Asset, Error> {
-        self.with_file(asset)
     }
 
     /// The file's text with each lit geometry replaced by the mesh's triangles, `colours` (three per vertex of the

@@ -192,6 +192,8 @@ fn named(drafts: Vec<Draft>, counts: &BTreeMap<String, usize>) -> Vec<Patch> {
         polygon: draft.polygon,
         reflectance: draft.finish.reflectance.into(),
         emission: draft.finish.emission.into(),
+        texture: None,
+        smoothing: None,
         origin: draft.origin,
     };
     drafts.into_iter().map(patch).collect()
