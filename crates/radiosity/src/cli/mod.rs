@@ -30,45 +30,11 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Solve a scene's light and write it as a picture, a scene, or numbers
-    Solve(Solve),
+    Solve(solve::Solve),
     /// Form factors from a point to every patch of a scene
     Factors(Factors),
     /// Write one of the built-in scenes
     Scene(Scene),
-}
-
-/// `radiosity solve`
-#[derive(Args, Debug)]
-struct Solve {
-    /// The scene: a COLLADA file
-    scene: PathBuf,
-    /// Where to write the result, by extension: .png, .dae, .glb or .json; may be given several times
-    #[arg(short, long, value_name = "FILE")]
-    output: Vec<PathBuf>,
-    /// Print the result's figures on stdout as JSON
-    #[arg(long)]
-    json: bool,
-    /// About how many elements to cut the scene into
-    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().elements, value_parser = count)]
-    elements: usize,
-    /// Stop when the unshot power is at most this share of the emitted power
-    #[arg(long, value_name = "SHARE", default_value_t = radiosity::Options::default().tolerance, value_parser = positive)]
-    tolerance: f64,
-    /// Split a shooter while it deviates from a uniform one by more than this share of the emitted power
-    #[arg(long, value_name = "SHARE", default_value_t = radiosity::Options::default().spread, value_parser = positive)]
-    spread: f64,
-    /// Stop after so many shots
-    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
-    max_shots: usize,
-    /// Stop after so many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    time: Option<f64>,
-    /// The picture's brightness: intensity is 1 - exp(-K B) [default: chosen from the scene]
-    #[arg(short = 'K', long, value_name = "K", value_parser = positive)]
-    exposure: Option<f64>,
-    /// The picture's width in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=16384))]
-    width: u32,
 }
 
 /// `radiosity factors`

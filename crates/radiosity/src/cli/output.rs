@@ -1,5 +1,5 @@
 //! Results to files, by extension, and data to stdout.
-use super::{Failure, Solve};
+use super::{Failure, solve::Solve};
 use radiosity::{
     Scene, Solution,
     expose::{self, Exposure},

@@ -1,8 +1,43 @@
 //! `radiosity solve`
-use super::{Failure, Solve, input, json, output, progress};
+use super::{Failure, input, json, output, progress};
+use clap::Args;
 use output::{Findings, Output};
 use radiosity::{Options, Scene, Solution};
-use std::{ops::ControlFlow, process::ExitCode};
+use std::{ops::ControlFlow, path::PathBuf, process::ExitCode};
+
+/// `radiosity solve`
+#[derive(Args, Debug)]
+pub(super) struct Solve {
+    /// The scene: a COLLADA file
+    pub(super) scene: PathBuf,
+    /// Where to write the result, by extension: .png, .dae, .glb or .json; may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Print the result's figures on stdout as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    /// About how many elements to cut the scene into
+    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().elements, value_parser = super::count)]
+    pub(super) elements: usize,
+    /// Stop when the unshot power is at most this share of the emitted power
+    #[arg(long, value_name = "SHARE", default_value_t = radiosity::Options::default().tolerance, value_parser = super::positive)]
+    pub(super) tolerance: f64,
+    /// Split a shooter while it deviates from a uniform one by more than this share of the emitted power
+    #[arg(long, value_name = "SHARE", default_value_t = radiosity::Options::default().spread, value_parser = super::positive)]
+    pub(super) spread: f64,
+    /// Stop after so many shots
+    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
+    pub(super) max_shots: usize,
+    /// Stop after so many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = super::positive)]
+    pub(super) time: Option<f64>,
+    /// The picture's brightness: intensity is 1 - exp(-K B) [default: chosen from the scene]
+    #[arg(short = 'K', long, value_name = "K", value_parser = super::positive)]
+    pub(super) exposure: Option<f64>,
+    /// The picture's width in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    pub(super) width: u32,
+}
 
 /// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
 pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
