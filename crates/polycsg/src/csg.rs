@@ -7,6 +7,7 @@ use std::ops::{BitAnd, BitOr, BitXor, Sub};
 
 /// What raw rings mean: which winding numbers are inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FillRule {
     /// Odd winding numbers are inside; the direction of a ring does not matter.
     EvenOdd,

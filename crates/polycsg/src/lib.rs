@@ -51,6 +51,7 @@
 //! # Features
 //!
 //! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`.
+//! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!
 //! Points are [`glam::DVec2`], re-exported here: glam's version is part of this crate's.
@@ -82,6 +83,8 @@ mod repair;
 mod rings;
 mod scratch;
 mod select;
+#[cfg(feature = "serde")]
+mod serde;
 mod strips;
 #[cfg(feature = "triangulate")]
 mod triangulate;

@@ -24,6 +24,7 @@ use std::ops::Not;
 /// assert_eq!(OnPlus.complement(), OnMinus);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Membership {
     /// Both sides inside.
     In,

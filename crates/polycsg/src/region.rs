@@ -70,6 +70,7 @@ impl<'r> Polygon<'r> {
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Location {
     /// In the interior.
     Inside,
@@ -167,6 +168,21 @@ impl Region {
     fn rings_of_polygon(&self, polygon: usize) -> Range<usize> {
         let end = self.polygons.get(polygon + 1).map_or(self.rings.len(), |next| next.first);
         self.polygons[polygon].first..end
+    }
+
+    /// Rings as somebody states them to be a region's, polygon by polygon; nothing is checked, depths are not known.
+    #[cfg(feature = "serde")]
+    pub(crate) fn as_given(rings: Rings, counts: impl Iterator<Item = usize>) -> Region {
+        let first = counts.scan(0, |end, count| Some(std::mem::replace(end, *end + count)));
+        let polygons = first.map(|first| Span { first, depth: 0 }).collect();
+        Region { rings, polygons }
+    }
+
+    /// Whether two regions agree in everything but the depths of their polygons.
+    #[cfg(feature = "serde")]
+    pub(crate) fn has_rings_of(&self, other: &Region) -> bool {
+        let firsts = |region: &Region| region.polygons.iter().map(|span| span.first).collect::<Vec<_>>();
+        self.rings == other.rings && firsts(self) == firsts(other)
     }
 
     /// The region that these rings bound by their direction, evaluated anew.

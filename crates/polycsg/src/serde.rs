@@ -1,0 +1,54 @@
+//! Regions to and from any format of serde.
+//!
+//! A region is a sequence of polygons, a polygon a sequence of rings, the outer one first, a ring a sequence of `[x, y]`
+//! without repeating the first: GeoJSON's coordinates of a MultiPolygon, but for the closing points. The depth of a polygon
+//! follows from the rest.
+
+use crate::rings::Rings;
+use crate::{Invalid, Polygon, Region};
+use glam::DVec2;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+struct Ring<'r>(&'r [DVec2]);
+
+impl Serialize for Ring<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(DVec2::to_array))
+    }
+}
+
+/// The outer ring, then the holes.
+impl Serialize for Polygon<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rings: Vec<Ring<'_>> = std::iter::once(self.outer()).chain(self.holes()).map(Ring).collect();
+        rings.serialize(serializer)
+    }
+}
+
+/// A sequence of polygons, outermost first: `[[[[x, y], …], hole, …], …]`.
+impl Serialize for Region {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let polygons: Vec<Polygon<'_>> = self.polygons().collect();
+        polygons.serialize(serializer)
+    }
+}
+
+/// Takes what [`Serialize`] writes and nothing else: an error names the coordinate that is not finite, the edges that
+/// meet, or says that the rings are not in their canonical direction, nesting or order. Rings that are not known to be
+/// a valid region are for [`Region::from_rings`].
+///
+/// JSON keeps every bit when `serde_json` is built with its feature `float_roundtrip`.
+impl<'de> Deserialize<'de> for Region {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Region, D::Error> {
+        let polygons = Vec::<Vec<Vec<[f64; 2]>>>::deserialize(deserializer)?;
+        let rings = Rings::read(polygons.iter().flatten()).map_err(de::Error::custom)?;
+        let given = Region::as_given(rings, polygons.iter().map(Vec::len));
+        // The rings of a region bound it by their direction: read so, they yield it, or they are none.
+        let region = given.evaluated_again();
+        if region.has_rings_of(&given) {
+            return Ok(region);
+        }
+        let invalid = given.validate().err().unwrap_or(Invalid::Structure);
+        Err(de::Error::custom(format_args!("{invalid}; Region::from_rings reads any rings")))
+    }
+}
