@@ -51,6 +51,7 @@
 //! # Features
 //!
 //! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`.
+//! - `rayon`: [`Csg::evaluate_all`](Csg#method.evaluate_all), many expressions on many threads.
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!
@@ -59,8 +60,11 @@
 pub use glam;
 pub use glam::DVec2;
 
+mod affine;
 mod area;
 mod arrangement;
+#[cfg(feature = "rayon")]
+mod batch;
 mod below;
 mod boundary;
 mod classify;

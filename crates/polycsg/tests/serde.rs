@@ -42,7 +42,7 @@ fn what_is_no_region_is_refused_with_its_reason() {
         ("[[[]]]", "canonical"),
         ("[[[[1,1]]]]", "canonical"),
         ("[[[[0,0],[null,0],[1,1]]]]", "null"),
-        ("[[[[0,0],[1,0,0],[1,1]]]]", "3"),
+        ("[[[[0,0],[1,0,0],[1,1]]]]", "trailing"),
         ("{}", "sequence"),
     ];
     for (json, reason) in cases {
