@@ -38,7 +38,7 @@ pub fn draw(mesh: &Mesh, radiosity: &[[f64; 3]], camera: &Camera, exposure: Expo
             pixel.copy_from_slice(&pixel_of(samples, exposure));
         }
     });
-    png(&bytes, width, height)
+    png(&bytes, [width, height], png::ColorType::Rgb, png::BitDepth::Eight)
 }
 
 /// Width as asked, height by the aspect.
@@ -65,12 +65,23 @@ fn pixel_of(samples: &[[f64; 3]], exposure: Exposure) -> [u8; 3] {
     })
 }
 
-fn png(bytes: &[u8], width: usize, height: usize) -> Vec<u8> {
-    let side = |side: usize| u32::try_from(side).expect("sides are at most MAX_SIDE");
+/// A grey PNG of 16 bits per texel, sRGB, of linear intensities from 0 to 1.
+pub(crate) fn grey(texels: &[f64], width: usize) -> Vec<u8> {
+    let word = |texel: &f64| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 65535")]
+        let word = (65_535.0 * srgb(texel.clamp(0.0, 1.0))).round() as u16;
+        word.to_be_bytes()
+    };
+    let bytes: Vec<u8> = texels.iter().flat_map(word).collect();
+    png(&bytes, [width, texels.len() / width], png::ColorType::Grayscale, png::BitDepth::Sixteen)
+}
+
+fn png(bytes: &[u8], size: [usize; 2], colour: png::ColorType, depth: png::BitDepth) -> Vec<u8> {
+    let [width, height] = size.map(|side| u32::try_from(side).expect("sides are at most MAX_SIDE"));
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, side(width), side(height));
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(depth);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let written = encoder.write_header().and_then(|mut writer| {
         writer.write_image_data(bytes)?;

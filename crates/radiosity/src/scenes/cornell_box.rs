@@ -3,18 +3,18 @@
 //! Two facts that the file has to meet: the left wall is not planar (its fourth vertex lies 3.20 off the plane of the
 //! others), so that it is two triangles; the lamp lies in the ceiling's plane, so that the ceiling is the ceiling minus
 //! the lamp.
-use super::{Face, Material, Model, View};
+use super::shapes::{Quad, face, halves, quad, surface};
+use crate::io::collada::{Face, Material, Model};
+use crate::{Asset, Camera};
 use glam::DVec3;
 use polycsg::{FillRule, Region};
-
-type Quad = [[f64; 3]; 4];
 
 const FLOOR: Quad = [[552.8, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 559.2], [549.6, 0.0, 559.2]];
 const CEILING: Quad = [[556.0, 548.8, 0.0], [556.0, 548.8, 559.2], [0.0, 548.8, 559.2], [0.0, 548.8, 0.0]];
 const BACK: Quad = [[549.6, 0.0, 559.2], [0.0, 0.0, 559.2], [0.0, 548.8, 559.2], [556.0, 548.8, 559.2]];
 const RIGHT: Quad = [[0.0, 0.0, 559.2], [0.0, 0.0, 0.0], [0.0, 548.8, 0.0], [0.0, 548.8, 559.2]];
 const LEFT: Quad = [[552.8, 0.0, 0.0], [549.6, 0.0, 559.2], [556.0, 548.8, 559.2], [556.0, 548.8, 0.0]];
-const LIGHT: Quad =
+pub(super) const LIGHT: Quad =
     [[343.0, 548.8, 227.0], [343.0, 548.8, 332.0], [213.0, 548.8, 332.0], [213.0, 548.8, 227.0]];
 
 /// The top, then the four sides.
@@ -33,60 +33,65 @@ const TALL: [Quad; 5] = [
     [[265.0, 0.0, 296.0], [265.0, 330.0, 296.0], [423.0, 330.0, 247.0], [423.0, 0.0, 247.0]],
 ];
 
+/// The materials, by number.
+pub(super) const WHITE: usize = 0;
+const RED: usize = 1;
+const GREEN: usize = 2;
+pub(super) const LAMP: usize = 3;
+
+/// The five walls, the left one not planar and the ceiling without its hole.
+pub(super) const WALLS: [(&str, usize, Quad); 5] = [
+    ("floor", WHITE, FLOOR),
+    ("ceiling", WHITE, CEILING),
+    ("back", WHITE, BACK),
+    ("right", GREEN, RIGHT),
+    ("left", RED, LEFT),
+];
+
 pub(super) fn cornell_box() -> Model {
-    let mut faces = vec![
-        quad("floor", "white", FLOOR),
-        Face { name: "ceiling".into(), material: "white", polygons: ceiling() },
-        quad("back", "white", BACK),
-        quad("right", "green", RIGHT),
-        left(),
-        quad("light", "light", LIGHT),
-    ];
-    faces.extend(block("short", SHORT));
-    faces.extend(block("tall", TALL));
+    let wall = |(name, material, corners)| match name {
+        "ceiling" => Face { name: "ceiling".into(), material, polygons: ceiling() },
+        "left" => face(name, material, halves(corners)),
+        _ => quad(name, material, corners),
+    };
+    let mut faces: Vec<Face> = WALLS.into_iter().map(wall).collect();
+    faces.push(quad("light", LAMP, LIGHT));
+    faces.extend(blocks().into_iter().map(|(name, corners)| quad(&name, WHITE, corners)));
     Model {
-        title: "The Cornell box, as published by the Cornell Program of Computer Graphics",
-        up_axis: "Y_UP",
-        unit: ("millimeter", 0.001),
+        title: "The Cornell box, as published by the Cornell Program of Computer Graphics".into(),
+        asset: Asset { up: DVec3::Y, unit: 0.001 },
         materials: materials(),
         faces,
-        view: View {
-            eye: DVec3::new(278.0, 273.0, -800.0),
-            interest: DVec3::new(278.0, 273.0, 0.0),
+        cameras: vec![Camera {
+            name: "camera".into(),
+            position: DVec3::new(278.0, 273.0, -800.0),
+            direction: DVec3::Z,
             up: DVec3::Y,
             // Film 0.025 by 0.025 behind a focal length of 0.035.
-            degrees: 2.0 * (0.0125_f64 / 0.035).atan().to_degrees(),
+            vertical_fov: 2.0 * (0.0125_f64 / 0.035).atan(),
             aspect: 1.0,
-        },
+        }],
     }
+}
+
+/// The faces of both blocks, by name.
+pub(super) fn blocks() -> Vec<(String, Quad)> {
+    let block = |(name, [top, sides @ ..]): (&str, [Quad; 5])| {
+        let sides = sides.into_iter().zip(1..).map(move |(side, number)| (format!("{name}-{number}"), side));
+        std::iter::once((format!("{name}-top"), top)).chain(sides).collect::<Vec<_>>()
+    };
+    [("short", SHORT), ("tall", TALL)].into_iter().flat_map(block).collect()
 }
 
 /// Red, green and blue made of the published spectra.
 fn materials() -> Vec<Material> {
-    let surface = |name, reflectance| Material { name, reflectance, emission: [0.0; 3] };
+    let light = surface("light", [0.78; 3]);
     vec![
         surface("white", [0.725, 0.71, 0.68]),
         surface("red", [0.63, 0.065, 0.05]),
         surface("green", [0.14, 0.45, 0.091]),
-        Material { name: "light", reflectance: [0.78; 3], emission: [17.0, 12.0, 4.0] },
+        Material { emission: [17.0, 12.0, 4.0], ..light },
     ]
-}
-
-fn quad(name: &str, material: &'static str, corners: Quad) -> Face {
-    Face { name: name.into(), material, polygons: vec![vec![corners.map(DVec3::from).to_vec()]] }
-}
-
-fn block(name: &str, [top, sides @ ..]: [Quad; 5]) -> Vec<Face> {
-    let sides =
-        sides.into_iter().zip(1..).map(|(side, number)| quad(&format!("{name}-{number}"), "white", side));
-    std::iter::once(quad(&format!("{name}-top"), "white", top)).chain(sides).collect()
-}
-
-/// The triangles 0-1-2 and 0-2-3.
-fn left() -> Face {
-    let corners = LEFT.map(DVec3::from);
-    let triangle = |picks: [usize; 3]| vec![picks.map(|pick| corners[pick]).to_vec()];
-    Face { name: "left".into(), material: "red", polygons: vec![triangle([0, 1, 2]), triangle([0, 2, 3])] }
 }
 
 /// The ceiling minus the lamp. In (x, z) what is counter-clockwise faces down, as it must.

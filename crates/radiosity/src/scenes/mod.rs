@@ -1,13 +1,38 @@
 //! The sources' scenes, as code: each is built as a list of named faces, which becomes a COLLADA text.
+//!
+//! Of Barreto (2008, chapter 4), whose pages print no coordinates: `emission`, `obstruction`, `beams`,
+//! `small-occluders`, `perforated` and, with its panel cut as he had to, `perforated-cut`. Of Gomes (2010): `wall`,
+//! `chessboard`, `cornell-3842`. The published `cornell-box`. Rooms with a known answer: `furnace` (reflectance 0.5;
+//! `furnace-0.99` for another one), `cube`, `separating-wall`, `colour-bleeding`, `sphere-lamp`.
+mod barreto;
 mod cornell_box;
-mod text;
+mod gomes;
+mod rooms;
+mod shapes;
 
-use glam::DVec3;
+use crate::Scene;
+use crate::io::collada::{Collada, Model, text};
 
 type Builder = fn() -> Model;
 
 /// Every scene's name and what builds it.
-const SCENES: [(&str, Builder); 1] = [("cornell-box", cornell_box::cornell_box)];
+const SCENES: [(&str, Builder); 15] = [
+    ("cornell-box", cornell_box::cornell_box),
+    ("cornell-3842", gomes::cornell_3842),
+    ("emission", barreto::emission),
+    ("obstruction", barreto::obstruction),
+    ("beams", barreto::beams),
+    ("small-occluders", barreto::small_occluders),
+    ("perforated", barreto::perforated),
+    ("perforated-cut", barreto::perforated_cut),
+    ("wall", gomes::wall),
+    ("chessboard", gomes::chessboard),
+    ("furnace", rooms::furnace),
+    ("cube", rooms::cube),
+    ("separating-wall", rooms::separating_wall),
+    ("colour-bleeding", rooms::colour_bleeding),
+    ("sphere-lamp", rooms::sphere_lamp),
+];
 
 /// The names that [`write_scene`] knows.
 pub fn names() -> impl Iterator<Item = &'static str> {
@@ -15,44 +40,28 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 }
 
 /// The scene of that name as COLLADA 1.4 text, always the same bytes; `None` for a name that is not one of [`names`].
+///
+/// `furnace-R` is the furnace with the reflectance R, 0 to below 1.
 #[must_use]
 pub fn write_scene(name: &str) -> Option<String> {
-    let (_, model) = SCENES.iter().find(|(known, _)| *known == name)?;
-    Some(text::text(&model()))
+    let known = SCENES.iter().find(|(known, _)| *known == name).map(|(_, build)| build());
+    known.or_else(|| furnace(name)).map(|model| text(&model))
 }
 
-/// A scene before it becomes a file.
-struct Model {
-    /// What it is and where its numbers come from.
-    title: &'static str,
-    /// `X_UP`, `Y_UP` or `Z_UP`.
-    up_axis: &'static str,
-    /// The unit's name and its length in metres.
-    unit: (&'static str, f64),
-    materials: Vec<Material>,
-    faces: Vec<Face>,
-    view: View,
+/// The scene of that name, as [`write_scene`] writes it.
+///
+/// ```
+/// let scene = radiosity::scenes::scene("small-occluders").expect("a built-in scene");
+/// assert_eq!(scene.patches.len(), 1 + 1 + 25);
+/// ```
+#[must_use]
+pub fn scene(name: &str) -> Option<Scene> {
+    let file = Collada::from_text(name, write_scene(name)?);
+    Some(file.scene().expect("what is written here can be read"))
 }
 
-struct Material {
-    name: &'static str,
-    reflectance: [f64; 3],
-    /// Radiance.
-    emission: [f64; 3],
-}
-
-/// A node: polygons of one material, each an outline, counter-clockwise seen from the front, with its holes.
-struct Face {
-    name: String,
-    material: &'static str,
-    polygons: Vec<Vec<Vec<DVec3>>>,
-}
-
-/// A camera, its vertical field of view in degrees.
-struct View {
-    eye: DVec3,
-    interest: DVec3,
-    up: DVec3,
-    degrees: f64,
-    aspect: f64,
+/// `furnace-0.999` and the like.
+fn furnace(name: &str) -> Option<Model> {
+    let reflectance: f64 = name.strip_prefix("furnace-")?.parse().ok()?;
+    (0.0..1.0).contains(&reflectance).then(|| rooms::furnace_of(reflectance))
 }

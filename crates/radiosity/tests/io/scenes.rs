@@ -1,7 +1,7 @@
 //! The sources' scenes: fresh, and what they say they are.
 use crate::samples::{names, scene};
 use radiosity::glam::DVec3;
-use radiosity::{Scene, scenes};
+use radiosity::{Patch, Scene, scenes};
 
 fn cornell() -> Scene {
     scene(&scenes::write_scene("cornell-box").unwrap())
@@ -9,13 +9,112 @@ fn cornell() -> Scene {
 
 #[test]
 fn the_committed_files_are_what_the_code_writes() {
-    for name in scenes::names() {
-        let path = format!("{}/scenes/{name}.dae", env!("CARGO_MANIFEST_DIR"));
-        let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    let folder = format!("{}/scenes", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|kind| kind == "dae")).collect();
+    assert!(!files.is_empty());
+    for path in files {
+        let name = path.file_stem().unwrap().to_str().unwrap();
         let written = scenes::write_scene(name).unwrap();
-        assert!(committed == written, "{path} is stale: cargo run --release -- scene {name} -o {path}");
+        let fresh = std::fs::read_to_string(&path).unwrap() == written;
+        assert!(fresh, "{0} is stale: cargo run --release -- scene {name} -o {0}", path.display());
     }
     assert!(scenes::write_scene("no such scene").is_none());
+    assert!(scenes::write_scene("furnace-1").is_none());
+}
+
+#[test]
+fn every_scene_is_read_without_a_word_and_has_its_patches() {
+    let patches = [
+        ("cornell-box", 17),
+        ("cornell-3842", 3842),
+        ("emission", 1 + 1 + 100),
+        ("obstruction", 104),
+        ("beams", 1 + 1 + 8 * 6),
+        ("small-occluders", 1 + 1 + 25),
+        ("perforated", 3),
+        ("perforated-cut", 1 + 1 + 12),
+        ("wall", 3),
+        ("chessboard", 1 + 2 + 80),
+        ("furnace", 6),
+        ("cube", 216),
+        ("separating-wall", 9),
+        ("colour-bleeding", 6),
+        ("sphere-lamp", 81),
+    ];
+    assert!(scenes::names().eq(patches.iter().map(|(name, _)| *name)));
+    for (name, count) in patches {
+        let scene = scenes::scene(name).unwrap();
+        assert!(scene.warnings.is_empty() || name == "chessboard", "{name}: {:?}", scene.warnings);
+        assert_eq!((scene.patches.len(), scene.cameras.len()), (count, 1), "{name}");
+        assert!(scene.patches.iter().any(|patch| patch.emits()), "{name} is dark");
+    }
+}
+
+/// The sum of the areas, as vectors along the normals: zero for a closed surface.
+fn area_vector<'p>(patches: impl Iterator<Item = &'p Patch>) -> DVec3 {
+    patches.map(|patch| patch.polygon.area() * patch.polygon.normal()).sum()
+}
+
+#[test]
+fn closed_surfaces_are_closed() {
+    for (name, part) in [
+        ("beams", "lower-1"),
+        ("beams", "upper-4"),
+        ("furnace", ""),
+        ("cube", ""),
+        ("colour-bleeding", ""),
+        ("sphere-lamp", "lamp"),
+        ("chessboard", "lamp"),
+    ] {
+        let scene = scenes::scene(name).unwrap();
+        let vector = area_vector(scene.patches.iter().filter(|patch| patch.name.starts_with(part)));
+        assert!(vector.length() < 1e-12, "{name}, {part}: {vector}");
+    }
+}
+
+#[test]
+fn a_lamp_of_one_polygon_and_one_of_a_hundred_have_the_same_area() {
+    let scene = scenes::scene("emission").unwrap();
+    let area = |lamp: &str| -> f64 {
+        let part = scene.patches.iter().filter(|patch| patch.name.starts_with(lamp));
+        part.map(|patch| patch.polygon.area()).sum()
+    };
+    assert!((area("lamp-left") - area("lamp-right")).abs() < 1e-12);
+}
+
+#[test]
+fn both_panels_cover_the_same_points() {
+    let areas = ["perforated", "perforated-cut"].map(|name| {
+        let scene = scenes::scene(name).unwrap();
+        let panel = scene.patches.iter().filter(|patch| patch.name.starts_with("panel"));
+        panel.map(|patch| patch.polygon.area()).sum::<f64>()
+    });
+    assert!(areas.iter().all(|area| (area - (7.07 * 7.07 - 9.0 * 1.44)).abs() < 1e-12), "{areas:?}");
+}
+
+#[test]
+fn beams_rise_as_stated_and_clear_each_other() {
+    let scene = scenes::scene("beams").unwrap();
+    let heights = |part: &str| {
+        let patches = scene.patches.iter().filter(move |patch| patch.name.starts_with(part));
+        let points = patches.flat_map(|patch| patch.polygon.loops().flatten().map(|point| point.z));
+        points.fold((f64::MAX, f64::MIN), |(low, high), z| (low.min(z), high.max(z)))
+    };
+    assert_eq!(heights("lower"), (0.5, 2.8));
+    assert_eq!(heights("upper"), (3.0, 4.8));
+}
+
+#[test]
+fn the_furnace_emits_what_it_does_not_reflect() {
+    for (name, reflectance) in [("furnace", 0.5), ("furnace-0.999999", 0.999_999)] {
+        for patch in scenes::scene(name).unwrap().patches {
+            assert_eq!(patch.reflectance, [reflectance; 3]);
+            assert!(
+                patch.emission.iter().all(|l| (l * std::f64::consts::PI - (1.0 - reflectance)).abs() < 1e-15)
+            );
+        }
+    }
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn source(id: &str, names: [&str; 3], rows: impl Iterator<Item = [f64; 3]>) -> S
 }
 
 /// Words with a space between them.
-pub(crate) fn list(words: impl Iterator<Item = impl Display>) -> String {
+pub(super) fn list(words: impl Iterator<Item = impl Display>) -> String {
     let mut text = String::new();
     for (index, word) in words.enumerate() {
         let gap = if index == 0 { "" } else { " " };
@@ -81,12 +81,12 @@ pub(crate) fn list(words: impl Iterator<Item = impl Display>) -> String {
 }
 
 /// The shortest decimal that reads back as the same number; −0 is written as 0.
-pub(crate) fn decimal(number: &f64) -> String {
+pub(super) fn decimal(number: &f64) -> String {
     let text = format!("{:?}", number + 0.0);
     text.strip_suffix(".0").map(Into::into).unwrap_or(text)
 }
 
 /// Text that may stand in an attribute.
-pub(crate) fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

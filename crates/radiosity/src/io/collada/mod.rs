@@ -8,9 +8,11 @@
 //! A polygon that is not planar is split into triangles, one without area is left out, both with a warning. A node whose
 //! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
 mod camera;
+mod compose;
 mod file;
 mod material;
 mod mesh_text;
+mod model;
 mod patches;
 mod primitive;
 mod split;
@@ -20,10 +22,14 @@ mod write;
 
 use super::Error;
 use crate::{Asset, Mesh, Scene};
+pub(crate) use compose::text;
 use file::{File, child};
 use glam::DVec3;
-pub(crate) use mesh_text::{decimal, list};
+pub(crate) use model::{Face, Material, Model};
 use std::path::Path;
+
+/// What files say they were made with.
+const TOOL: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
 
 /// The text of a COLLADA file, which a result can be written back into.
 #[derive(Clone, Debug)]
@@ -45,6 +51,19 @@ impl Collada {
             Ok(text) => Ok(Self { name, text }),
             Err(wrong) => Err(Error::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
         }
+    }
+
+    /// A new file of a scene, a node for each patch; its scene has the same patches. Colours are red, green and blue: the
+    /// first three bands.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        Self::from_text("scene.dae", text(&Model::of(scene)))
+    }
+
+    /// The file's text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// Takes a text as the file `name`, which messages will show.

@@ -1,0 +1,70 @@
+//! A scene on its way to becoming a file: named faces and their materials.
+use crate::expose::rgb;
+use crate::{Asset, Camera, Patch, Scene, Texture};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// All that a new file holds.
+#[derive(Debug)]
+pub(crate) struct Model {
+    /// What it is and where its numbers come from.
+    pub(crate) title: String,
+    pub(crate) asset: Asset,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) faces: Vec<Face>,
+    pub(crate) cameras: Vec<Camera>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Material {
+    pub(crate) name: String,
+    pub(crate) reflectance: [f64; 3],
+    /// Radiance.
+    pub(crate) emission: [f64; 3],
+    pub(crate) texture: Option<Texture>,
+}
+
+/// A node: polygons of one material, each an outline, counter-clockwise seen from the front, with its holes.
+#[derive(Debug)]
+pub(crate) struct Face {
+    pub(crate) name: String,
+    /// Which of the model's materials.
+    pub(crate) material: usize,
+    pub(crate) polygons: Vec<Vec<Vec<DVec3>>>,
+}
+
+impl Model {
+    /// A node for every patch, a material for every kind of surface.
+    pub(crate) fn of(scene: &Scene) -> Model {
+        let (mut materials, mut known) = (Vec::new(), BTreeMap::new());
+        let mut face = |(index, patch): (usize, &Patch)| {
+            let material = *known.entry(kind(index, patch)).or_insert_with(|| {
+                materials.push(Material::of(materials.len(), patch));
+                materials.len() - 1
+            });
+            let polygon = patch.polygon.loops().map(<[DVec3]>::to_vec).collect();
+            Face { name: patch.name.clone(), material, polygons: vec![polygon] }
+        };
+        let faces = scene.patches.iter().enumerate().map(&mut face).collect();
+        let title = "Written from another scene file".to_owned();
+        Model { title, asset: scene.asset, materials, faces, cameras: scene.cameras.clone() }
+    }
+}
+
+/// What patches of one material have in common: the bits of their colours; a textured patch is a kind of its own.
+fn kind(index: usize, patch: &Patch) -> (Vec<u64>, Option<usize>) {
+    let colours = patch.reflectance.iter().chain(&patch.emission).map(|number| number.to_bits());
+    (colours.collect(), patch.texture.as_ref().map(|_| index))
+}
+
+impl Material {
+    fn of(number: usize, patch: &Patch) -> Material {
+        let colour = |values: &[f64]| rgb(values, values.len()).first().copied().unwrap_or_default();
+        Material {
+            name: format!("material-{}", number + 1),
+            reflectance: colour(&patch.reflectance),
+            emission: colour(&patch.emission),
+            texture: patch.texture.clone(),
+        }
+    }
+}
