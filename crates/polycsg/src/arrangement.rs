@@ -1,189 +1,311 @@
-//! Stage 4: the arrangement: sub-edges between neighbouring vertices, and around each vertex the half-edges by angle.
+//! Stage 4: the arrangement: the rings cut into arcs at the nodes, and around each junction the half-edges by angle.
 //!
 //! ```text
-//!            h1                  Half-edges leave their vertex: half-edge 2s runs along sub-edge s, 2s + 1 against it.
-//!             |   h0             The sector between h[k] and h[k + 1], counter-clockwise, lies to the left of h[k]
-//!             |  /               and to the right of h[k + 1].
-//!     h2 -----v                  Sorted by angle from just above straight down, so that at the lexicographically
-//!              \                 smallest vertex of a component the outer sector lies right of h[0].
-//!               h3
+//!            h1                  An arc runs along one ring from one contact to the next; arc i starts in contact i.
+//!             |   h0             Half-edges leave their node: half-edge 2a runs along arc a, 2a + 1 against it.
+//!             |  /               The sector between h[k] and h[k + 1], counter-clockwise, lies to the left of h[k]
+//!     h2 -----v                  and to the right of h[k + 1]. Sorted by angle from just above straight down, so that
+//!              \                 at the lexicographically smallest point of a component the outer sector lies right
+//!               h3               of h[0].
 //! ```
 //!
-//! Sub-edges that coincide are one: the one with the smallest id stands for all, and knows the others.
+//! A node where just two edges cross needs no list: the two arcs that start there tell everything. All other nodes are
+//! junctions. Arcs that coincide leave a junction in one direction and are a bundle: the one with the smallest id
+//! stands for all.
 
-use crate::contacts::Contacts;
+use crate::contacts::{Contact, Contacts, Met, Partner, Place};
 use crate::edges::Edges;
 use crate::predicates::{Segment, Side, lexicographic, turn};
 use crate::truth::index;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// No further sub-edge.
-const END: u32 = u32::MAX;
+/// No arc, no node.
+const NONE: u32 = u32::MAX;
+
+/// What is found at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Node {
+    /// Two edges cross: the other of the two arcs that start there.
+    Crossing(u32),
+    /// Anything else, by its number.
+    Junction(u32),
+}
 
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Arrangement {
-    /// Tail and head of each sub-edge.
-    ends: Vec<[u32; 2]>,
-    edge: Vec<u32>,
-    /// Per edge the first of its sub-edges; they follow one another along the edge.
+    arcs: Vec<Arc>,
+    /// Per ring its first arc.
     first: Vec<u32>,
-    /// Per sub-edge the one that stands for it and the next that coincides; empty when nothing overlaps.
-    stands: Vec<u32>,
-    next: Vec<u32>,
-    /// Per vertex the span of its half-edges in `around`.
+    /// Per node the two arcs that start there, or `NONE` and a junction.
+    starting: Vec<[u32; 2]>,
+    /// Per junction where its half-edges start in `around`.
     starts: Vec<u32>,
     around: Vec<u32>,
+    /// Per arc the one that stands for it and the next that coincides; empty when there are no junctions.
+    stands: Vec<u32>,
+    next: Vec<u32>,
+    at_junctions: Vec<(u32, u32)>,
+}
+
+/// Where an arc starts.
+#[derive(Clone, Copy, Debug)]
+struct Arc {
+    edge: u32,
+    node: u32,
+    partner: Partner,
 }
 
 impl Arrangement {
-    /// Splits all edges at their contacts and sorts what leaves each vertex.
+    /// Cuts all rings at their contacts.
     pub(crate) fn split(&mut self, edges: &Edges, contacts: &Contacts) {
         self.cut(edges, contacts);
-        self.unite(contacts);
-        self.gather(contacts.vertex_count());
-        self.sort(edges);
+        self.find_starting(contacts);
+        self.gather(edges);
+        self.unite(edges);
         debug_assert!(self.check(edges));
     }
 
     fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
-        self.ends.clear();
-        self.edge.clear();
+        self.arcs.clear();
+        self.arcs.extend(contacts.sorted().iter().map(|&Contact { edge, node, partner, .. }| Arc {
+            edge,
+            node: contacts.node(node),
+            partner,
+        }));
         self.first.clear();
-        for edge in 0..index(edges.len()) {
-            self.first.push(index(self.ends.len()));
-            if !edges.is_edge(edge) || edges.follows(edge) {
-                continue;
-            }
-            let mut tail = contacts.vertex(edge);
-            for vertex in contacts.inside(edge).chain([contacts.vertex(edges.head(edge))]) {
-                if vertex != tail {
-                    self.ends.push([tail, vertex]);
-                    self.edge.push(edge);
-                    tail = vertex;
-                }
-            }
+        let mut arc = 0;
+        for ring in edges.rings() {
+            self.first.push(index(arc));
+            arc += self.arcs[arc..].partition_point(|arc| arc.edge < ring.end);
         }
-        self.first.push(index(self.ends.len()));
+        self.first.push(index(arc));
     }
 
-    /// Finds the sub-edges with equal ends: only those of overlapping edges can be.
-    fn unite(&mut self, contacts: &Contacts) {
+    /// Finds the arcs that start in each node.
+    fn find_starting(&mut self, contacts: &Contacts) {
+        self.starting.clear();
+        self.starting.resize(contacts.node_count(), [NONE; 2]);
+        self.at_junctions.clear();
+        if contacts.degenerate() {
+            self.list_junctions(contacts);
+        } else {
+            for (i, arc) in self.arcs.iter().enumerate() {
+                let starting = &mut self.starting[arc.node as usize];
+                starting[usize::from(starting[0] != NONE)] = index(i);
+            }
+        }
+        self.number_junctions();
+    }
+
+    /// Finds the starting arcs where there are junctions.
+    fn list_junctions(&mut self, contacts: &Contacts) {
+        let mut count: Vec<u8> = vec![0; contacts.node_count()];
+        for node in 0..index(contacts.node_count()) {
+            let stands = contacts.node(node) as usize;
+            let alone = matches!(contacts.place(node), Place::Crossing(..));
+            count[stands] = count[stands].saturating_add(if alone { 1 } else { 2 });
+        }
+        for (i, arc) in (0..).zip(&self.arcs) {
+            if count[arc.node as usize] > 1 {
+                self.at_junctions.push((arc.node, i));
+            } else {
+                let starting = &mut self.starting[arc.node as usize];
+                starting[usize::from(starting[0] != NONE)] = i;
+            }
+        }
+    }
+
+    fn number_junctions(&mut self) {
+        self.at_junctions.sort_unstable();
+        for (junction, arcs) in (0..).zip(self.at_junctions.chunk_by(|a, b| a.0 == b.0)) {
+            self.starting[arcs[0].0 as usize] = [NONE, junction];
+        }
+    }
+
+    /// Lists the half-edges of each junction by angle.
+    fn gather(&mut self, edges: &Edges) {
+        let (mut around, mut starts) = (std::mem::take(&mut self.around), std::mem::take(&mut self.starts));
+        around.clear();
+        starts.clear();
+        starts.push(0);
+        for arcs in self.at_junctions.chunk_by(|a, b| a.0 == b.0) {
+            let start = around.len();
+            for &(_, arc) in arcs {
+                around.extend([2 * arc, 2 * self.previous(edges, arc) + 1]);
+            }
+            around[start..].sort_unstable_by(|&g, &h| {
+                by_angle(self.direction(edges, g), self.direction(edges, h)).then(g.cmp(&h))
+            });
+            starts.push(index(around.len()));
+        }
+        (self.around, self.starts) = (around, starts);
+    }
+
+    /// Finds the arcs that coincide: they leave a junction in one direction.
+    fn unite(&mut self, edges: &Edges) {
         self.stands.clear();
         self.next.clear();
-        if contacts.overlapping().is_empty() {
+        if self.at_junctions.is_empty() {
             return;
         }
-        self.stands.extend(0..index(self.len()));
-        self.next.resize(self.len(), END);
-        let mut edges = contacts.overlapping().to_vec();
-        edges.sort_unstable();
-        edges.dedup();
-        let mut ends: Vec<(u32, u32, u32)> = Vec::new();
-        for sub in edges.iter().flat_map(|&e| self.of_edge(e)) {
-            let (a, b) = (self.tail(sub), self.head(sub));
-            ends.push((a.min(b), a.max(b), sub));
-        }
-        ends.sort_unstable();
-        for pair in ends.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            if (a.0, a.1) == (b.0, b.1) {
-                self.next[a.2 as usize] = b.2;
-                self.stands[b.2 as usize] = self.stands[a.2 as usize];
+        self.stands.extend(0..index(self.arcs.len()));
+        self.next.resize(self.arcs.len(), NONE);
+        for junction in 0..index(self.starts.len() - 1) {
+            let around = self.span(junction);
+            let mut start = around.start;
+            while start < around.end {
+                let end = self.group_end(edges, start, around.end);
+                if end > start + 1 {
+                    self.unite_group(start..end);
+                }
+                start = end;
             }
         }
     }
 
-    /// Lists the half-edges of each vertex (a counting sort).
-    fn gather(&mut self, vertex_count: usize) {
-        self.starts.clear();
-        self.starts.resize(vertex_count + 2, 0);
-        let live: Vec<u32> = self.live().collect();
-        for &sub in &live {
-            for vertex in [self.tail(sub), self.head(sub)] {
-                self.starts[vertex as usize + 2] += 1;
-            }
+    /// Bundles arcs, at one end of theirs; at the other it was or will be done alike.
+    fn unite_group(&mut self, group: Range<u32>) {
+        let mut arcs: Vec<u32> =
+            self.around[group.start as usize..group.end as usize].iter().map(|h| h >> 1).collect();
+        arcs.sort_unstable();
+        for pair in arcs.windows(2) {
+            self.next[pair[0] as usize] = pair[1];
+            self.stands[pair[1] as usize] = arcs[0];
         }
-        for v in 2..vertex_count + 2 {
-            self.starts[v] += self.starts[v - 1];
-        }
-        self.around.clear();
-        self.around.resize(2 * live.len(), END);
-        for &sub in &live {
-            for half_edge in [2 * sub, 2 * sub + 1] {
-                let origin = self.origin(half_edge) as usize;
-                let at = &mut self.starts[origin + 1];
-                self.around[*at as usize] = half_edge;
-                *at += 1;
-            }
-        }
-        self.starts.pop();
     }
 
-    fn sort(&mut self, edges: &Edges) {
-        let mut around = std::mem::take(&mut self.around);
-        for v in 0..self.starts.len() - 1 {
-            let span = &mut around[self.starts[v] as usize..self.starts[v + 1] as usize];
-            if span.len() > 1 {
-                span.sort_unstable_by(|&g, &h| by_angle(self.direction(edges, g), self.direction(edges, h)));
-            }
-        }
-        self.around = around;
+    /// Where the half-edges end that leave in the direction of the one at `place`.
+    fn group_end(&self, edges: &Edges, place: u32, end: u32) -> u32 {
+        let direction = |place: u32| self.direction(edges, self.around(place));
+        let first = direction(place);
+        (place + 1..end).find(|&p| by_angle(first, direction(p)) != Ordering::Equal).unwrap_or(end)
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.ends.len()
+        self.arcs.len()
     }
 
-    /// The sub-edges of an edge, in order along it.
-    pub(crate) fn of_edge(&self, edge: u32) -> Range<u32> {
-        self.first[edge as usize]..self.first[edge as usize + 1]
-    }
-
-    /// The sub-edges that stand for themselves.
-    pub(crate) fn live(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..index(self.len())).filter(|&sub| self.stand_in(sub) == sub)
-    }
-
+    /// The arcs of a ring; none if nothing meets it.
     #[inline]
-    pub(crate) fn tail(&self, sub: u32) -> u32 {
-        self.ends[sub as usize][0]
+    pub(crate) fn of_ring(&self, ring: u32) -> Range<u32> {
+        self.first[ring as usize]..self.first[ring as usize + 1]
     }
 
+    /// The arc that starts where this one ends.
     #[inline]
-    pub(crate) fn head(&self, sub: u32) -> u32 {
-        self.ends[sub as usize][1]
+    pub(crate) fn following(&self, edges: &Edges, arc: u32) -> u32 {
+        let ring = edges.ring_of(self.edge(arc));
+        if arc + 1 == self.first[ring as usize + 1] { self.first[ring as usize] } else { arc + 1 }
     }
 
-    /// The edge that the sub-edge is a piece of.
+    /// The arc that ends where this one starts.
     #[inline]
-    pub(crate) fn edge(&self, sub: u32) -> u32 {
-        self.edge[sub as usize]
+    pub(crate) fn previous(&self, edges: &Edges, arc: u32) -> u32 {
+        let ring = edges.ring_of(self.edge(arc));
+        if arc == self.first[ring as usize] { self.first[ring as usize + 1] - 1 } else { arc - 1 }
     }
 
-    /// The sub-edge that stands for all that coincide with this one.
+    /// The edge on which an arc starts.
     #[inline]
-    pub(crate) fn stand_in(&self, sub: u32) -> u32 {
-        self.stands.get(sub as usize).copied().unwrap_or(sub)
+    pub(crate) fn edge(&self, arc: u32) -> u32 {
+        self.arcs[arc as usize].edge
     }
 
-    /// A sub-edge that stands for itself, and all that coincide with it.
+    /// The node in which an arc starts.
     #[inline]
-    pub(crate) fn coincident(&self, sub: u32) -> impl Iterator<Item = u32> + '_ {
-        let next = |&s: &u32| self.next.get(s as usize).copied().filter(|&n| n != END);
-        std::iter::successors(Some(sub), next)
+    pub(crate) fn node(&self, arc: u32) -> u32 {
+        self.arcs[arc as usize].node
     }
 
+    /// Whether an arc starts in the start of its edge.
     #[inline]
-    pub(crate) fn origin(&self, half_edge: u32) -> u32 {
-        self.ends[half_edge as usize >> 1][half_edge as usize & 1]
+    pub(crate) fn starts_edge(&self, arc: u32) -> bool {
+        self.arcs[arc as usize].partner.met() == Met::Start
     }
 
-    /// The places in [`around`](Arrangement::around) of the half-edges that leave a vertex.
+    /// Whether the edge that crosses where an arc starts comes from the left.
     #[inline]
-    pub(crate) fn span(&self, vertex: u32) -> Range<u32> {
-        self.starts[vertex as usize]..self.starts[vertex as usize + 1]
+    pub(crate) fn crossed_from_left(&self, arc: u32) -> bool {
+        matches!(self.arcs[arc as usize].partner.met(), Met::FromLeft(_))
+    }
+
+    /// What is found where an arc starts.
+    #[inline]
+    pub(crate) fn met(&self, arc: u32) -> Node {
+        match self.starting[self.node(arc) as usize] {
+            [NONE, junction] => Node::Junction(junction),
+            [a, b] => Node::Crossing(if a == arc { b } else { a }),
+        }
+    }
+
+    /// What is found at a node, and one of the arcs that start there.
+    pub(crate) fn junction_at(&self, node: u32) -> Option<u32> {
+        match self.starting[node as usize] {
+            [NONE, junction] => Some(junction),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn junction_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The arc that contains a vertex of a ring, or starts in it: the last that starts at or before it.
+    pub(crate) fn arc_at(&self, edges: &Edges, vertex: u32) -> Option<u32> {
+        let arcs = self.of_ring(edges.ring_of(vertex));
+        let after =
+            |arc: u32| self.edge(arc) > vertex || (self.edge(arc) == vertex && !self.starts_edge(arc));
+        self.last_before(arcs, after)
+    }
+
+    /// Of a ring's arcs the last before the first for which `after` holds, going round.
+    pub(crate) fn last_before(&self, arcs: Range<u32>, after: impl Fn(u32) -> bool) -> Option<u32> {
+        let slice = &self.arcs[arcs.start as usize..arcs.end as usize];
+        let mut low = 0;
+        let mut high = slice.len();
+        while low < high {
+            let middle = (low + high) / 2;
+            if after(arcs.start + index(middle)) { high = middle } else { low = middle + 1 }
+        }
+        if slice.is_empty() {
+            None
+        } else {
+            Some(if low == 0 { arcs.end - 1 } else { arcs.start + index(low) - 1 })
+        }
+    }
+
+    /// The arc that stands for all that coincide with this one.
+    #[inline]
+    pub(crate) fn stand_in(&self, arc: u32) -> u32 {
+        self.stands.get(arc as usize).copied().unwrap_or(arc)
+    }
+
+    /// An arc that stands for itself, and all that coincide with it.
+    #[inline]
+    pub(crate) fn bundle(&self, arc: u32) -> impl Iterator<Item = u32> + '_ {
+        let next = |&a: &u32| self.next.get(a as usize).copied().filter(|&n| n != NONE);
+        std::iter::successors(Some(arc), next)
+    }
+
+    /// Whether an arc of a bundle runs in the direction of another: whether they start in one node, or for loops, leave
+    /// it in one direction.
+    #[inline]
+    pub(crate) fn is_along(&self, edges: &Edges, arc: u32, other: u32) -> bool {
+        arc == other || {
+            let forward = |arc: u32| {
+                let [a, b] = self.direction(edges, 2 * arc);
+                lexicographic(a, b) == Ordering::Less
+            };
+            forward(arc) == forward(other)
+        }
+    }
+
+    /// The places in [`around`](Arrangement::around) of a junction's half-edges.
+    #[inline]
+    pub(crate) fn span(&self, junction: u32) -> Range<u32> {
+        self.starts[junction as usize]..self.starts[junction as usize + 1]
     }
 
     #[inline]
@@ -191,21 +313,32 @@ impl Arrangement {
         self.around[place as usize]
     }
 
-    /// The edge along a half-edge, directed as it.
+    /// The edge along which a half-edge leaves its node, directed as it.
     #[inline]
-    fn direction(&self, edges: &Edges, half_edge: u32) -> Segment {
-        let [a, b] = edges.segment(self.edge(half_edge >> 1));
-        if half_edge & 1 == 0 { [a, b] } else { [b, a] }
+    pub(crate) fn direction(&self, edges: &Edges, half_edge: u32) -> Segment {
+        let arc = half_edge >> 1;
+        if half_edge & 1 == 0 {
+            return edges.segment(self.edge(arc));
+        }
+        let end = self.following(edges, arc);
+        let edge = self.edge(end);
+        let edge = if self.starts_edge(end) { edges.ring(edge).previous(edge) } else { edge };
+        let [a, b] = edges.segment(edge);
+        [b, a]
     }
 
-    /// The laws: half-edges leave their vertex, and angles strictly increase around each vertex.
+    /// The laws: arcs of a crossing know one another, and angles increase around each junction.
     fn check(&self, edges: &Edges) -> bool {
-        (0..index(self.starts.len() - 1)).all(|v| {
+        let crossings = (0..index(self.len())).all(|arc| match self.met(arc) {
+            Node::Crossing(other) => other != NONE && self.met(other) == Node::Crossing(arc),
+            Node::Junction(_) => true,
+        });
+        let junctions = (0..index(self.junction_count())).all(|junction| {
             let directions: Vec<Segment> =
-                self.span(v).map(|place| self.direction(edges, self.around(place))).collect();
-            self.span(v).all(|place| self.origin(self.around(place)) == v)
-                && directions.windows(2).all(|pair| by_angle(pair[0], pair[1]) == Ordering::Less)
-        })
+                self.span(junction).map(|place| self.direction(edges, self.around(place))).collect();
+            directions.windows(2).all(|pair| by_angle(pair[0], pair[1]) != Ordering::Greater)
+        });
+        crossings && junctions
     }
 }
 

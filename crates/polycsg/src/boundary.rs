@@ -1,8 +1,9 @@
 //! The boundary of an evaluated expression, as a set of directed edges.
 
 use crate::area::enclosed_area;
-use crate::edges::Edges;
-use crate::select::Selection;
+use crate::contacts::Contacts;
+use crate::edges::{Edges, Origin};
+use crate::select::{Piece, Selection};
 use glam::DVec2;
 
 /// A directed edge of a boundary, the interior to its left.
@@ -26,26 +27,34 @@ pub struct BoundaryEdge {
 pub struct Boundary<'s> {
     selection: &'s Selection,
     edges: &'s Edges,
+    contacts: &'s Contacts,
 }
 
 impl<'s> Boundary<'s> {
-    pub(crate) fn new(selection: &'s Selection, edges: &'s Edges) -> Boundary<'s> {
-        Boundary { selection, edges }
+    pub(crate) fn new(selection: &'s Selection, edges: &'s Edges, contacts: &'s Contacts) -> Boundary<'s> {
+        Boundary { selection, edges, contacts }
     }
 
     /// The edges; those that rounding shrank to a point are left out.
     pub fn edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + use<'s> {
-        let Boundary { selection, edges } = *self;
-        selection
-            .pieces()
-            .iter()
-            .map(move |piece| BoundaryEdge {
-                start: selection.point(edges, piece.start),
-                end: selection.point(edges, piece.end),
-                operand: edges.ring(piece.edge).operand as usize,
-                edge: edges.source(piece.edge) as usize,
+        let boundary = *self;
+        self.selection.pieces().iter().flat_map(move |&piece| boundary.edges_of(piece))
+    }
+
+    fn edges_of(self, piece: Piece) -> impl Iterator<Item = BoundaryEdge> + Clone + use<'s> {
+        let Boundary { selection, edges, contacts } = self;
+        let points = selection.points(edges, contacts, piece);
+        let (mut ids, along) = (piece.edges(), piece.along);
+        let next_id = move || if along { ids.next() } else { ids.next_back() };
+        points
+            .clone()
+            .zip(points.skip(1))
+            .zip(std::iter::from_fn(next_id))
+            .filter(|((start, end), _)| start != end)
+            .map(move |((start, end), id)| {
+                let Origin { operand, edge } = edges.origin(id);
+                BoundaryEdge { start, end, operand: operand as usize, edge: edge as usize }
             })
-            .filter(|edge| edge.start != edge.end)
     }
 
     /// Whether the set is empty.
@@ -55,6 +64,10 @@ impl<'s> Boundary<'s> {
 
     /// The enclosed area; infinite when it exceeds the largest `f64`.
     pub fn area(&self) -> f64 {
-        enclosed_area(std::iter::once(self.edges().map(|edge| [edge.start, edge.end])))
+        let walks = self.selection.pieces().iter().map(|&piece| {
+            let points = self.selection.points(self.edges, self.contacts, piece);
+            points.clone().zip(points.skip(1)).map(|(start, end)| [start, end])
+        });
+        enclosed_area(std::iter::once(walks.flatten()))
     }
 }

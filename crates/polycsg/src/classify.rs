@@ -1,9 +1,10 @@
 //! How a directed segment lies in a region.
 
-use crate::predicates::{crossing_point, lexicographic};
+use crate::contacts::Place;
+use crate::predicates::crossing_point;
+use crate::truth::index;
 use crate::{Csg, Error, Membership, Region, Scratch, pipeline};
 use glam::DVec2;
-use std::cmp::Ordering;
 
 /// A piece of a classified segment between neighbouring contacts with the region's boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,19 +44,21 @@ pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, E
     let mut scratch = Scratch::default();
     pipeline::arrange(&Csg::edge_beside(segment, region), &mut scratch);
     let Scratch { edges, contacts, arrangement, labels, .. } = &scratch;
-    let point = |vertex: u32| match contacts.crossing(vertex) {
-        None => edges.point(vertex),
-        Some([e, f]) => crossing_point(edges.segment(e), edges.segment(f)),
+    let point = |arc: u32| match contacts.place(arrangement.node(arc)) {
+        Place::Vertex(vertex) => edges.point(vertex),
+        Place::Crossing(e, f) => crossing_point(edges.segment(e), edges.segment(f)),
     };
-    // The segment is the first operand: edge 0. The sub-edge that stands in for one of its own may run against it.
-    let forward = |s: [DVec2; 2]| lexicographic(s[0], s[1]) == Ordering::Less;
-    let intervals = arrangement.of_edge(0).map(|sub| {
-        let stands = arrangement.stand_in(sub);
-        let along = forward(edges.segment(arrangement.edge(stands))) == forward(segment);
+    // The segment is the first operand: the first edge of its ring runs along it, the second one back.
+    let ring = edges.rings().iter().position(|ring| ring.origin.operand == 0).map_or(0, index);
+    let along = edges.rings()[ring as usize].start;
+    let arcs = arrangement.of_ring(ring).filter(|&arc| arrangement.edge(arc) == along);
+    let intervals = arcs.map(|arc| {
+        let stands = arrangement.stand_in(arc);
+        let along = arrangement.is_along(edges, stands, arc);
         let membership = labels.of(stands);
         Interval {
-            start: point(arrangement.tail(sub)),
-            end: point(arrangement.head(sub)),
+            start: point(arc),
+            end: point(arrangement.following(edges, arc)),
             membership: if along { membership } else { membership.reversed() },
         }
     });

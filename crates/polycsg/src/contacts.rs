@@ -6,85 +6,148 @@
 //!  crossing          touch             shared end       overlap = two touches or shared ends
 //!      \ f            f                  |f              ____f____
 //!   ----x---- e   ----+---- e        e---+              e----+====+
-//!        \       one record, on e   one vertex, no record
+//!        \
 //! ```
 //!
-//! A crossing becomes a vertex of its own, known as the pair of edges; two crossings at one point always share an edge
-//! pairwise, so that equality along each edge is all that is needed to unify them.
+//! Each point where something meets is a node. A crossing is a node of its own, known as the pair of edges; an
+//! explicit vertex becomes a node when anything touches it. A node has a contact on each edge that it lies inside of,
+//! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
+//! that equality along each edge is all that is needed to unify them.
 
+use crate::chains::Chains;
 use crate::edges::Edges;
 use crate::predicates::{
-    Parameter, Side, crossing_order, doubled_area, is_inside, lexicographic, point_crossing_order, side,
-    side_of,
+    Area, Parameter, Segment, Side, crossing_order, doubled_area, is_inside, lexicographic,
+    point_crossing_order, side_of,
 };
 use crate::strips::Strips;
+use crate::suspects::Suspects;
 use crate::truth::index;
 use crate::union_find::UnionFind;
 use std::cmp::Ordering;
-use std::ops::Range;
 
-/// No other edge: the contact is an explicit vertex.
+/// No edge, no node.
 const NONE: u32 = u32::MAX;
 
-/// A vertex strictly inside an edge.
-#[derive(Clone, Copy, Debug)]
-struct Contact {
-    at: Parameter,
-    edge: u32,
-    /// The edge that crosses here, or none.
-    other: u32,
-    vertex: u32,
+/// What meets an edge in a contact: a kind in the top bits, and the id of an edge or vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Partner(u32);
+
+/// The kinds of [`Partner`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Met {
+    /// An edge that crosses from the left to the right.
+    FromLeft(u32),
+    /// An edge that crosses from the right to the left.
+    FromRight(u32),
+    /// A vertex inside the edge.
+    Vertex(u32),
+    /// The edge's own start.
+    Start,
 }
 
-/// All contacts, by edge and in order along it, and which vertices and rings they join.
+impl Partner {
+    const ID: u32 = (1 << 30) - 1;
+    const FROM_RIGHT: u32 = 1 << 30;
+    const VERTEX: u32 = 2 << 30;
+    const START: Partner = Partner(3 << 30);
+
+    fn crossing(edge: u32, from_left: bool) -> Partner {
+        Partner(edge | if from_left { 0 } else { Partner::FROM_RIGHT })
+    }
+
+    pub(crate) fn vertex(vertex: u32) -> Partner {
+        Partner(vertex | Partner::VERTEX)
+    }
+
+    #[inline]
+    pub(crate) fn met(self) -> Met {
+        let id = self.0 & Partner::ID;
+        match self.0 >> 30 {
+            0 => Met::FromLeft(id),
+            1 => Met::FromRight(id),
+            2 => Met::Vertex(id),
+            _ => Met::Start,
+        }
+    }
+}
+
+/// A node on an edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    at: Parameter,
+    pub(crate) edge: u32,
+    pub(crate) node: u32,
+    pub(crate) partner: Partner,
+}
+
+/// All contacts, sorted by edge and along it, and the nodes.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
     found: Vec<Contact>,
     sorted: Vec<Contact>,
     starts: Vec<u32>,
-    /// The two edges of each crossing; its vertex is the number of explicit vertices plus its index.
-    crossings: Vec<[u32; 2]>,
-    vertices: UnionFind,
+    /// Per node the two edges that cross there, or a vertex and `NONE`.
+    nodes: Vec<[u32; 2]>,
+    classes: UnionFind,
+    /// Per vertex its node; empty as long as no vertex has one.
+    node_of_vertex: Vec<u32>,
     rings: UnionFind,
-    /// The edges that overlap another one.
-    overlapping: Vec<u32>,
+    /// Whether any two nodes lie in one point, or any node is a vertex.
+    degenerate: bool,
 }
 
 impl Contacts {
-    /// Finds the contacts of all candidate pairs; the pairs in `same` are edges with the same ends.
-    pub(crate) fn find(&mut self, edges: &Edges, strips: &Strips, same: &[[u32; 2]]) {
+    /// Finds the contacts of all pairs of edges.
+    pub(crate) fn find(&mut self, edges: &Edges, chains: &Chains, strips: &Strips, suspects: &mut Suspects) {
         self.found.clear();
-        self.crossings.clear();
-        self.overlapping.clear();
-        self.vertices.reset(edges.len());
+        self.nodes.clear();
+        self.classes.reset(0);
+        self.node_of_vertex.clear();
         self.rings.reset(edges.rings().len());
-        for &[e, f] in same {
-            self.join_ends(edges, e, f);
-        }
-        strips.pairs(|e, f| self.meet(edges, e.min(f), e.max(f)));
+        self.degenerate = false;
+        suspects.start(chains.size());
+        strips.pairs(|a, b| {
+            let (a, b) = (chains.chain(a), chains.chain(b));
+            a.meet(b, edges.points(), |e, f| self.meet(edges, e.min(f), e.max(f), suspects));
+        });
         self.bucket(edges.len());
-        self.sort(edges);
+        self.sort(edges, suspects);
     }
 
-    /// The vertices strictly inside an edge, in order along it; one vertex may stand twice in a row.
-    pub(crate) fn inside(&self, edge: u32) -> impl Iterator<Item = u32> + '_ {
-        self.sorted[self.span(edge)].iter().map(|contact| self.vertices.find(contact.vertex))
+    /// The contacts by edge and in order along it, each node once on each edge.
+    pub(crate) fn sorted(&self) -> &[Contact] {
+        &self.sorted
     }
 
-    /// The one vertex that stands for all at its point; an explicit one if there is any.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The one node that stands for all at its point.
     #[inline]
-    pub(crate) fn vertex(&self, vertex: u32) -> u32 {
-        self.vertices.find(vertex)
+    pub(crate) fn node(&self, node: u32) -> u32 {
+        self.classes.find(node)
     }
 
-    pub(crate) fn vertex_count(&self) -> usize {
-        self.vertices.len()
+    /// The two edges that cross at a node that stands for all at its point, or a vertex there.
+    #[inline]
+    pub(crate) fn place(&self, node: u32) -> Place {
+        match self.nodes[node as usize] {
+            [vertex, NONE] => Place::Vertex(vertex),
+            [e, f] => Place::Crossing(e, f),
+        }
     }
 
-    /// The edges whose crossing a vertex is; `None` for an explicit one.
-    pub(crate) fn crossing(&self, vertex: u32) -> Option<[u32; 2]> {
-        let explicit = self.vertices.len() - self.crossings.len();
-        (vertex as usize).checked_sub(explicit).map(|i| self.crossings[i])
+    /// Whether there are nodes other than crossings of two edges.
+    pub(crate) fn degenerate(&self) -> bool {
+        self.degenerate
+    }
+
+    /// The node at a vertex, if it has one.
+    pub(crate) fn node_at(&self, vertex: u32) -> Option<u32> {
+        let node = self.node_of_vertex.get(vertex as usize).copied().filter(|&node| node != NONE)?;
+        Some(self.node(node))
     }
 
     /// The connected component of a ring, named by one of its rings.
@@ -92,155 +155,287 @@ impl Contacts {
         self.rings.find(ring)
     }
 
-    pub(crate) fn overlapping(&self) -> &[u32] {
-        &self.overlapping
-    }
-
-    fn span(&self, edge: u32) -> Range<usize> {
-        self.starts[edge as usize] as usize..self.starts[edge as usize + 1] as usize
-    }
-
-    fn join_ends(&mut self, edges: &Edges, e: u32, f: u32) {
-        let ends = if edges.is_along(e, f) { [f, edges.head(f)] } else { [edges.head(f), f] };
-        self.vertices.join(e, ends[0]);
-        self.vertices.join(edges.head(e), ends[1]);
-        self.rings.join(edges.ring_of(e), edges.ring_of(f));
-    }
-
-    fn meet(&mut self, edges: &Edges, e: u32, f: u32) {
+    #[inline]
+    fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut Suspects) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        let neighbours_turn = (edges.head(e) == f && side(s[0], s[1], t[1]) != Side::On)
-            || (edges.head(f) == e && side(t[0], t[1], s[1]) != Side::On);
-        if neighbours_turn {
-            return; // they share their vertex and nothing else
-        }
-        let (t0, t1) = (doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1]));
-        let (p0, p1) = (side_of(t0, s[0], s[1], t[0]), side_of(t1, s[0], s[1], t[1]));
-        if p0 == p1 && p0 != Side::On {
+        let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
+        if suspects.are_apart(s, ends_of_f) {
             return;
         }
-        let (s0, s1) = (doubled_area(t[0], t[1], s[0]), doubled_area(t[0], t[1], s[1]));
-        let (q0, q1) = (side_of(s0, t[0], t[1], s[0]), side_of(s1, t[0], t[1], s[1]));
-        if q0 == q1 && q0 != Side::On {
+        let ends_of_e = [doubled_area(t[0], t[1], s[0]), doubled_area(t[0], t[1], s[1])];
+        if suspects.are_apart(t, ends_of_e) {
             return;
         }
-        if [p0, p1, q0, q1].contains(&Side::On) {
-            self.touch(edges, e, f, [p0, p1, q0, q1]);
-        } else {
-            self.cross(edges, (e, Parameter::of_crossing(s0, s1)), (f, Parameter::of_crossing(t0, t1)));
+        if suspects.is_clear_crossing([s, t], ends_of_f, ends_of_e) {
+            let from_left = ends_of_f[0].value > 0.0;
+            return self.cross(edges, [e, f], ends_of_f, ends_of_e, from_left);
+        }
+        self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, suspects);
+    }
+
+    fn cross(
+        &mut self,
+        edges: &Edges,
+        [e, f]: [u32; 2],
+        ends_of_f: [Area; 2],
+        ends_of_e: [Area; 2],
+        from_left: bool,
+    ) {
+        let node = self.classes.push();
+        self.nodes.push([e, f]);
+        let at = Parameter::of_crossing(ends_of_e[0], ends_of_e[1]);
+        self.found.push(Contact { at, edge: e, node, partner: Partner::crossing(f, from_left) });
+        // Seen along f, e comes from the other side.
+        let at = Parameter::of_crossing(ends_of_f[0], ends_of_f[1]);
+        self.found.push(Contact { at, edge: f, node, partner: Partner::crossing(e, !from_left) });
+        self.rings.join(edges.ring_of(e), edges.ring_of(f));
+    }
+
+    /// As [`meet`](Contacts::meet), for edges that are not clear of one another or have an end in common.
+    fn meet_closely(
+        &mut self,
+        edges: &Edges,
+        [e, f]: [u32; 2],
+        ends_of_f: [Area; 2],
+        ends_of_e: [Area; 2],
+        suspects: &mut Suspects,
+    ) {
+        let (s, t) = (edges.segment(e), edges.segment(f));
+        if let Some(corner) = Corner::of(s, t) {
+            let area = doubled_area(corner.common, corner.end_of_s, corner.end_of_t);
+            if side_of(area, corner.common, corner.end_of_s, corner.end_of_t) != Side::On
+                || corner.is_straight()
+            {
+                return self.share(edges, [e, f], &corner, area, suspects);
+            }
+        }
+        let sides_of = |line: Segment, areas: [Area; 2], ends: Segment| {
+            [0, 1].map(|i| side_of(areas[i], line[0], line[1], ends[i]))
+        };
+        let ([p0, p1], [q0, q1]) = (sides_of(s, ends_of_f, t), sides_of(t, ends_of_e, s));
+        let on_one_side = |a: Side, b: Side| a == b && a != Side::On;
+        if on_one_side(p0, p1) || on_one_side(q0, q1) {
+            return suspects.add(e, f);
+        }
+        if ![p0, p1, q0, q1].contains(&Side::On) {
+            suspects.add(e, f);
+            return self.cross(edges, [e, f], ends_of_f, ends_of_e, p0 == Side::Left);
+        }
+        self.touch(edges, [e, f], [p0, p1, q0, q1]);
+        let line_up = [p0, p1, q0, q1] == [Side::On; 4];
+        let steep = ends_of_f.iter().chain(&ends_of_e).any(|&area| suspects.is_steep(s, t, area));
+        if !line_up && !steep {
+            suspects.add(e, f);
         }
     }
 
-    fn cross(&mut self, edges: &Edges, (e, at_e): (u32, Parameter), (f, at_f): (u32, Parameter)) {
-        let vertex = self.vertices.push();
-        self.crossings.push([e, f]);
-        self.found.push(Contact { at: at_e, edge: e, other: f, vertex });
-        self.found.push(Contact { at: at_f, edge: f, other: e, vertex });
-        self.rings.join(edges.ring_of(e), edges.ring_of(f));
+    /// Two edges that have an end in common, and nothing else.
+    fn share(
+        &mut self,
+        edges: &Edges,
+        [e, f]: [u32; 2],
+        corner: &Corner,
+        area: Area,
+        suspects: &mut Suspects,
+    ) {
+        let (s, t) = (edges.segment(e), edges.segment(f));
+        if !corner.is_straight() && !suspects.is_steep(s, t, area) {
+            suspects.add(e, f);
+        }
+        let v = if s[0] == corner.common { e } else { edges.head(e) };
+        let w = if t[0] == corner.common { f } else { edges.head(f) };
+        if v != w {
+            self.join(edges, v, w);
+        }
     }
 
     /// Contacts at ends: `sides` are those of f's ends against e and of e's ends against f.
-    fn touch(&mut self, edges: &Edges, e: u32, f: u32, sides: [Side; 4]) {
-        let mut joined = 0;
+    fn touch(&mut self, edges: &Edges, [e, f]: [u32; 2], sides: [Side; 4]) {
         for (side, (edge, vertex)) in
             sides.into_iter().zip([(e, f), (e, edges.head(f)), (f, e), (f, edges.head(e))])
         {
             if side == Side::On {
-                joined += u32::from(self.put(edges, edge, vertex));
+                self.put(edges, edge, vertex);
             }
-        }
-        if joined > 0 {
-            self.rings.join(edges.ring_of(e), edges.ring_of(f));
-        }
-        // Collinear edges with two common points overlap; a shared end counts from both sides.
-        let shared_end = joined == 2 && {
-            let (s, t) = (edges.segment(e), edges.segment(f));
-            s.iter().filter(|p| t.contains(p)).count() == 1
-        };
-        if sides == [Side::On; 4] && joined >= 2 && !shared_end {
-            self.overlapping.extend([e, f]);
         }
     }
 
     /// Records a vertex, a point on the line of `edge`, if it lies on the edge.
-    fn put(&mut self, edges: &Edges, edge: u32, vertex: u32) -> bool {
+    fn put(&mut self, edges: &Edges, edge: u32, vertex: u32) {
         let (segment, point) = (edges.segment(edge), edges.point(vertex));
         if point == segment[0] {
-            self.vertices.join(edge, vertex);
-            return true;
-        }
-        if point == segment[1] {
-            self.vertices.join(edges.head(edge), vertex);
-            return true;
-        }
-        let inside = is_inside(segment, point);
-        if inside {
+            self.join(edges, edge, vertex);
+        } else if point == segment[1] {
+            self.join(edges, edges.head(edge), vertex);
+        } else if is_inside(segment, point) {
+            let node = self.make_node(edges, vertex);
             let at = Parameter::of_point(segment, point);
-            self.found.push(Contact { at, edge, other: NONE, vertex });
+            self.found.push(Contact { at, edge, node, partner: Partner::vertex(vertex) });
+            self.rings.join(edges.ring_of(edge), edges.ring_of(vertex));
         }
-        inside
     }
 
-    /// Moves the contacts to their edges' places (a counting sort).
-    fn bucket(&mut self, edge_count: usize) {
-        self.starts.clear();
-        self.starts.resize(edge_count + 2, 0);
-        for contact in &self.found {
-            self.starts[contact.edge as usize + 2] += 1;
+    /// Makes two vertices at one point one node.
+    fn join(&mut self, edges: &Edges, v: u32, w: u32) {
+        let (a, b) = (self.make_node(edges, v), self.make_node(edges, w));
+        self.classes.join(a, b);
+        self.rings.join(edges.ring_of(v), edges.ring_of(w));
+    }
+
+    fn make_node(&mut self, edges: &Edges, vertex: u32) -> u32 {
+        if !self.degenerate {
+            self.degenerate = true;
+            self.node_of_vertex.resize(edges.len(), NONE);
         }
-        for e in 2..edge_count + 2 {
-            self.starts[e] += self.starts[e - 1];
+        if self.node_of_vertex[vertex as usize] == NONE {
+            let node = self.classes.push();
+            self.node_of_vertex[vertex as usize] = node;
+            self.nodes.push([vertex, NONE]);
+            self.found.push(Contact { at: Parameter::START, edge: vertex, node, partner: Partner::START });
+        }
+        self.node_of_vertex[vertex as usize]
+    }
+
+    /// Moves the contacts near their edges' places (a counting sort by some leading bits of the edge).
+    fn bucket(&mut self, edge_count: usize) {
+        let shift = (edge_count / (self.found.len() + 1)).max(1).ilog2();
+        self.starts.clear();
+        self.starts.resize((edge_count >> shift) + 3, 0);
+        for contact in &self.found {
+            self.starts[(contact.edge >> shift) as usize + 2] += 1;
+        }
+        for bucket in 2..self.starts.len() {
+            self.starts[bucket] += self.starts[bucket - 1];
         }
         self.sorted.clear();
-        self.sorted.resize(
-            self.found.len(),
-            Contact { at: Parameter::default(), edge: NONE, other: NONE, vertex: NONE },
-        );
+        self.sorted.resize(self.found.len(), Contact::NOWHERE);
         for &contact in &self.found {
-            let at = &mut self.starts[contact.edge as usize + 1];
+            let at = &mut self.starts[(contact.edge >> shift) as usize + 1];
             self.sorted[*at as usize] = contact;
             *at += 1;
         }
         self.starts.pop();
     }
 
-    fn sort(&mut self, edges: &Edges) {
+    fn sort(&mut self, edges: &Edges, suspects: &mut Suspects) {
         let mut start = 0;
-        while start < self.sorted.len() {
-            let edge = self.sorted[start].edge;
-            let span = self.span(edge);
-            start = span.end;
-            if span.len() < 2 {
-                continue;
+        for i in 1..self.starts.len() {
+            let end = self.starts[i] as usize;
+            if end > start + 1 {
+                self.sorted[start..end].sort_unstable_by(|a, b| order(edges, a, b));
             }
-            let contacts = &mut self.sorted[span];
-            contacts.sort_unstable_by(|a, b| order(edges, a, b));
-            for pair in contacts.windows(2) {
-                if order(edges, &pair[0], &pair[1]) == Ordering::Equal {
-                    self.vertices.join(pair[0].vertex, pair[1].vertex);
-                }
+            start = end;
+        }
+        self.unify(edges, suspects);
+        self.prefer_vertices();
+    }
+
+    /// Unifies what lies in one place of an edge.
+    fn unify(&mut self, edges: &Edges, suspects: &mut Suspects) {
+        let mut kept = 0;
+        for i in 0..self.sorted.len() {
+            let contact = self.sorted[i];
+            let same = kept > 0 && order(edges, &self.sorted[kept - 1], &contact) == Ordering::Equal;
+            if same {
+                self.degenerate = true;
+                self.classes.join(self.sorted[kept - 1].node, contact.node);
+            } else {
+                self.sorted[kept] = contact;
+                kept += 1;
             }
         }
-        debug_assert!(index(self.found.len()) as usize == self.sorted.len());
+        self.sorted.truncate(kept);
+        for on_edge in self.sorted.chunk_by(|a, b| a.edge == b.edge) {
+            suspects.look_along(edges, on_edge);
+        }
+    }
+
+    /// Lets a vertex, where there is one, tell the place of a node.
+    fn prefer_vertices(&mut self) {
+        if !self.degenerate {
+            return;
+        }
+        for node in 0..self.nodes.len() {
+            let stands = self.classes.find(index(node)) as usize;
+            if self.nodes[node][1] == NONE && self.nodes[stands][1] != NONE {
+                self.nodes[stands] = self.nodes[node];
+            }
+        }
     }
 }
 
-/// The order of two contacts along their common edge: by the parameters where their bounds allow, else exactly.
+/// Where a node is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Place {
+    Vertex(u32),
+    Crossing(u32, u32),
+}
+
+impl Contact {
+    const NOWHERE: Contact =
+        Contact { at: Parameter::START, edge: NONE, node: NONE, partner: Partner::START };
+
+    #[inline]
+    pub(crate) fn at(&self) -> Parameter {
+        self.at
+    }
+}
+
+/// Two edges with one end in common.
+struct Corner {
+    common: glam::DVec2,
+    end_of_s: glam::DVec2,
+    end_of_t: glam::DVec2,
+}
+
+impl Corner {
+    fn of(s: Segment, t: Segment) -> Option<Corner> {
+        let corner = |i: usize, j: usize| Corner { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
+        let mut corners = [(1, 0), (0, 1), (0, 0), (1, 1)]
+            .into_iter()
+            .filter(|&(i, j)| s[i] == t[j])
+            .map(|(i, j)| corner(i, j));
+        let first = corners.next()?;
+        corners.next().is_none().then_some(first)
+    }
+
+    /// Whether the other ends lie in opposite quadrants from the common one: then the edges do not overlap, and are
+    /// not flat to one another.
+    fn is_straight(&self) -> bool {
+        let opposite = |a: f64, c: f64, b: f64| (a <= c && c <= b) || (b <= c && c <= a);
+        let (c, p, q) = (self.common, self.end_of_s, self.end_of_t);
+        opposite(p.x, c.x, q.x) && opposite(p.y, c.y, q.y)
+    }
+}
+
+/// The order of two contacts by edge and along it: by the parameters where their bounds allow, else exactly.
 #[inline]
 fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
+    if a.edge != b.edge {
+        return a.edge.cmp(&b.edge);
+    }
     a.at.certain_order(b.at).unwrap_or_else(|| order_exactly(edges, a, b))
 }
 
 #[cold]
 fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
     let e = edges.segment(a.edge);
-    match (a.other, b.other) {
-        (NONE, NONE) => {
-            let order = lexicographic(edges.point(a.vertex), edges.point(b.vertex));
+    match (a.partner.met(), b.partner.met()) {
+        (Met::Start, Met::Start) => Ordering::Equal,
+        (Met::Start, _) => Ordering::Less,
+        (_, Met::Start) => Ordering::Greater,
+        (Met::Vertex(v), Met::Vertex(w)) => {
+            let order = lexicographic(edges.point(v), edges.point(w));
             if lexicographic(e[0], e[1]) == Ordering::Less { order } else { order.reverse() }
         }
-        (NONE, g) => point_crossing_order(e, edges.point(a.vertex), edges.segment(g)),
-        (g, NONE) => point_crossing_order(e, edges.point(b.vertex), edges.segment(g)).reverse(),
-        (f, g) => crossing_order(e, edges.segment(f), edges.segment(g)),
+        (Met::Vertex(v), Met::FromLeft(g) | Met::FromRight(g)) => {
+            point_crossing_order(e, edges.point(v), edges.segment(g))
+        }
+        (Met::FromLeft(g) | Met::FromRight(g), Met::Vertex(v)) => {
+            point_crossing_order(e, edges.point(v), edges.segment(g)).reverse()
+        }
+        (Met::FromLeft(f) | Met::FromRight(f), Met::FromLeft(g) | Met::FromRight(g)) => {
+            crossing_order(e, edges.segment(f), edges.segment(g))
+        }
     }
 }

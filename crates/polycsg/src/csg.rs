@@ -29,8 +29,8 @@ pub(crate) enum Operator {
 pub(crate) enum Token<'a> {
     Region(&'a Region),
     Rings(Rings, FillRule),
-    /// An open edge: it bounds nothing, and the arrangement tells what lies beside it.
-    Edge([DVec2; 2]),
+    /// An open edge as a ring, there and back: it bounds nothing, and the arrangement tells what lies beside it.
+    Edge(Rings),
     /// Takes that many operands, those that stand before it.
     Operator(Operator, usize),
 }
@@ -40,8 +40,8 @@ impl Token<'_> {
     pub(crate) fn rings(&self) -> Option<&Rings> {
         match self {
             Token::Region(region) => Some(region.rings_of()),
-            Token::Rings(rings, _) => Some(rings),
-            Token::Edge(_) | Token::Operator(..) => None,
+            Token::Rings(rings, _) | Token::Edge(rings) => Some(rings),
+            Token::Operator(..) => None,
         }
     }
 }
@@ -119,7 +119,11 @@ impl<'a> Csg<'a> {
 
     /// The open edge beside `region`: the set is the region, the edge takes part in the arrangement alone.
     pub(crate) fn edge_beside(edge: [DVec2; 2], region: &'a Region) -> Csg<'a> {
-        let postfix = vec![Token::Edge(edge), Token::Region(region), Token::Operator(Operator::Union, 2)];
+        let mut there_and_back = Rings::default();
+        there_and_back.extend(&edge);
+        there_and_back.close();
+        let postfix =
+            vec![Token::Edge(there_and_back), Token::Region(region), Token::Operator(Operator::Union, 2)];
         Csg { postfix }
     }
 

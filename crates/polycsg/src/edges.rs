@@ -1,42 +1,76 @@
 //! Stage 1: all operands' rings as one array of directed edges.
 
+use crate::copies::Copy;
 use crate::csg::{Csg, Token};
-use crate::predicates::{Segment, lexicographic, rightward};
+use crate::predicates::Segment;
 use crate::rings::Rings;
 use crate::truth::{Truth, index};
 use glam::DVec2;
-use std::cmp::Ordering;
+use std::ops::Range;
 
-/// Edges and explicit vertices under one numbering: edge `e` starts in vertex `e`.
+/// Edges and explicit vertices under one numbering: edge `e` runs from point `e` to point `e + 1`.
 ///
-/// The rings lie one after the other; a vertex that starts no edge (the end of an open edge) is its own head.
+/// The rings lie one after the other, each with its first point once more behind the last: a slot that is neither an
+/// edge nor a vertex of its own.
 #[derive(Debug, Default)]
 pub(crate) struct Edges {
     points: Vec<DVec2>,
-    head: Vec<u32>,
+    /// Per slot.
     ring: Vec<u32>,
-    /// The counter that the edge changes, or none.
-    counter: Vec<u32>,
-    /// The edge's number within its operand, in the order given.
-    source: Vec<u32>,
     rings: Vec<Ring>,
-    /// The next edge with the same ends, per edge; empty when there is none at all.
-    next_same: Vec<u32>,
-    follows: Vec<bool>,
+    /// Per slot where the edge comes from; empty while all of each ring's points are there.
+    origins: Vec<Origin>,
+    also: Vec<Also>,
 }
 
+/// A ring: its edges are `start..end`, in slot `end` its first point stands again.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ring {
-    pub(crate) operand: u32,
-    /// The counter that its edges change; none for an open edge.
+    pub(crate) start: u32,
+    pub(crate) end: u32,
+    /// The counter that its edges change, none for an open edge, and by how much.
     counter: Option<u32>,
+    winds: i32,
+    /// The other counters that its edges change, as the place of the first in `also`.
+    also: u32,
+    /// Where its first edge comes from.
+    pub(crate) origin: Origin,
 }
 
-/// The counter of an open edge.
-const NO_COUNTER: u32 = u32::MAX;
+/// A counter that the edges of a ring change for a copy of it.
+#[derive(Clone, Copy, Debug)]
+struct Also {
+    counter: u32,
+    winds: i32,
+    next: u32,
+}
 
-/// No further edge.
+/// Nothing more in a list.
 const END: u32 = u32::MAX;
+
+impl Ring {
+    /// Whether it bounds anything: an open edge does not.
+    pub(crate) fn is_closed(self) -> bool {
+        self.counter.is_some()
+    }
+
+    #[inline]
+    pub(crate) fn next(self, edge: u32) -> u32 {
+        if edge + 1 == self.end { self.start } else { edge + 1 }
+    }
+
+    #[inline]
+    pub(crate) fn previous(self, edge: u32) -> u32 {
+        if edge == self.start { self.end - 1 } else { edge - 1 }
+    }
+}
+
+/// An operand and the number of an edge of it, in the order given.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Origin {
+    pub(crate) operand: u32,
+    pub(crate) edge: u32,
+}
 
 /// Up to so many rings keep their order; more are sorted so that what lies close in the plane lies close in memory.
 const FEW_RINGS: usize = 64;
@@ -50,10 +84,12 @@ struct Place {
 
 impl Place {
     fn of_all(rings: &Rings, operand: usize) -> impl Iterator<Item = Place> + '_ {
-        let place = move |(i, ring): (usize, &[DVec2])| {
-            ring.first().map(|&point| Place { point, operand: index(operand), ring: index(i) })
+        let place = move |(i, ring): (usize, &[DVec2])| Place {
+            point: ring[0],
+            operand: index(operand),
+            ring: index(i),
         };
-        rings.iter().enumerate().filter_map(place)
+        rings.iter().enumerate().map(place)
     }
 }
 
@@ -74,85 +110,84 @@ fn sort_by_place(places: &mut [Place]) {
 impl Edges {
     /// Reads the operands. Repeated points are dropped, and rings that have fewer than three others left.
     pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth) {
-        self.clear();
+        self.points.clear();
+        self.ring.clear();
+        self.rings.clear();
+        self.origins.clear();
+        self.also.clear();
         let leaves = csg.postfix().iter().filter(|token| !matches!(token, Token::Operator(..)));
         let rings = leaves.clone().map(|leaf| leaf.rings().map_or(0, Rings::len)).sum::<usize>();
-        let scattered = rings > FEW_RINGS;
-        let mut places = Vec::new();
-        for (operand, leaf) in leaves.clone().enumerate() {
-            match (leaf, leaf.rings()) {
-                (Token::Edge(edge), _) => self.add_open_edge(*edge, index(operand)),
-                (_, Some(rings)) if scattered => places.extend(Place::of_all(rings, operand)),
-                (_, Some(rings)) => self.add_rings(rings, index(operand), truth.counter(operand)),
-                _ => {}
+        if rings > FEW_RINGS {
+            let leaves: Vec<&Token<'_>> = leaves.collect();
+            let mut places: Vec<Place> = Vec::with_capacity(rings);
+            for (operand, leaf) in leaves.iter().enumerate() {
+                places.extend(leaf.rings().into_iter().flat_map(|rings| Place::of_all(rings, operand)));
             }
-        }
-        if scattered {
-            let leaves: Vec<Option<&Rings>> = leaves.map(Token::rings).collect();
             sort_by_place(&mut places);
             for place in places {
-                let about = Ring { operand: place.operand, counter: truth.counter(place.operand as usize) };
-                if let Some(rings) = leaves[place.operand as usize] {
-                    self.add_ring(rings.ring(place.ring as usize), rings.start(place.ring as usize), about);
+                self.add_ring(leaves[place.operand as usize], place.operand, place.ring as usize, truth);
+            }
+        } else {
+            for (operand, leaf) in leaves.enumerate() {
+                for ring in 0..leaf.rings().map_or(0, Rings::len) {
+                    self.add_ring(leaf, index(operand), ring, truth);
                 }
             }
         }
     }
 
-    fn clear(&mut self) {
-        self.points.clear();
-        self.head.clear();
-        self.ring.clear();
-        self.source.clear();
-        self.counter.clear();
-        self.rings.clear();
-        self.next_same.clear();
-        self.follows.clear();
-    }
-
-    fn add_rings(&mut self, rings: &Rings, operand: u32, counter: Option<u32>) {
-        for (i, ring) in rings.iter().enumerate() {
-            self.add_ring(ring, rings.start(i), Ring { operand, counter });
+    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth) {
+        let Some(rings) = leaf.rings() else { return };
+        let (start, points) = (index(self.points.len()), rings.closed(ring));
+        let origin = Origin { operand, edge: index(rings.start(ring)) };
+        let counter = truth.counter(operand as usize);
+        let fewest = if counter.is_none() { 2 } else { 3 };
+        if points.windows(2).any(|pair| pair[0] == pair[1]) {
+            self.add_distinct(points, origin);
+        } else {
+            self.points.extend_from_slice(points);
         }
-    }
-
-    fn add_ring(&mut self, ring: &[DVec2], source: usize, about: Ring) {
-        let start = self.points.len();
-        for (i, &point) in ring.iter().enumerate() {
-            let next = if i + 1 == ring.len() { ring[0] } else { ring[i + 1] };
-            if point != next {
-                self.points.push(point);
-                self.head.push(index(self.points.len()));
-                self.source.push(index(source + i));
-            }
-        }
-        if self.points.len() < start + 3 {
-            self.points.truncate(start);
-            self.head.truncate(start);
-            self.source.truncate(start);
+        if self.points.len() < start as usize + fewest + 1 {
+            self.points.truncate(start as usize);
+            self.origins.truncate(start as usize);
             return;
         }
-        let end = self.points.len() - 1;
-        self.head[end] = index(start);
+        let slots = start..index(self.points.len());
+        if !self.origins.is_empty() && self.origins.len() < self.points.len() {
+            self.origins
+                .extend(slots.clone().map(|slot| Origin { operand, edge: origin.edge + slot - start }));
+        }
         self.ring.resize(self.points.len(), index(self.rings.len()));
-        self.counter.resize(self.points.len(), about.counter.unwrap_or(NO_COUNTER));
-        self.rings.push(about);
+        self.rings.push(Ring { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
     }
 
-    fn add_open_edge(&mut self, edge: Segment, operand: u32) {
-        let start = index(self.points.len());
-        self.points.extend(edge);
-        self.head.extend([start + 1, start + 1]);
-        self.source.extend([0, 0]);
-        self.ring.extend([index(self.rings.len()); 2]);
-        self.counter.extend([NO_COUNTER; 2]);
-        self.rings.push(Ring { operand, counter: None });
+    /// The points of a ring that differ from the next one, and the first of them again.
+    fn add_distinct(&mut self, points: &[DVec2], origin: Origin) {
+        let start = self.points.len();
+        if self.origins.is_empty() {
+            self.origins = (0..index(start)).map(|slot| self.origin(slot)).collect();
+        }
+        for (pair, edge) in points.windows(2).zip(origin.edge..) {
+            if pair[0] != pair[1] {
+                self.points.push(pair[0]);
+                self.origins.push(Origin { operand: origin.operand, edge });
+            }
+        }
+        if self.points.len() > start {
+            self.points.push(self.points[start]);
+            self.origins.push(origin);
+        }
     }
 
-    /// The number of edges, and of explicit vertices.
+    /// The number of slots: more than any edge's id.
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.points.len()
+    }
+
+    /// All slots' points.
+    pub(crate) fn points(&self) -> &[DVec2] {
+        &self.points
     }
 
     #[inline]
@@ -160,25 +195,15 @@ impl Edges {
         self.points[vertex as usize]
     }
 
+    /// The vertex that an edge runs to.
     #[inline]
     pub(crate) fn head(&self, edge: u32) -> u32 {
-        self.head[edge as usize]
-    }
-
-    /// Whether vertex `edge` starts an edge at all.
-    #[inline]
-    pub(crate) fn is_edge(&self, edge: u32) -> bool {
-        self.head(edge) != edge
-    }
-
-    /// All edges, by id.
-    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> + Clone + '_ {
-        (0..index(self.len())).filter(|&e| self.is_edge(e))
+        self.ring(edge).next(edge)
     }
 
     #[inline]
     pub(crate) fn segment(&self, edge: u32) -> Segment {
-        [self.point(edge), self.point(self.head(edge))]
+        [self.points[edge as usize], self.points[edge as usize + 1]]
     }
 
     #[inline]
@@ -191,59 +216,79 @@ impl Edges {
         self.rings[self.ring[edge as usize] as usize]
     }
 
+    /// The slots of each ring.
+    pub(crate) fn spans(&self) -> impl Iterator<Item = Range<u32>> + '_ {
+        self.rings.iter().map(|ring| ring.start..ring.end + 1)
+    }
+
     pub(crate) fn rings(&self) -> &[Ring] {
         &self.rings
     }
 
-    /// The order of two edges by their ends, whatever their directions.
-    pub(crate) fn compare(&self, e: u32, f: u32) -> Ordering {
-        let (s, t) = (rightward(self.segment(e)), rightward(self.segment(f)));
-        lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]))
+    pub(crate) fn origin(&self, edge: u32) -> Origin {
+        self.origins.get(edge as usize).copied().unwrap_or_else(|| {
+            let Ring { start, origin, .. } = self.ring(edge);
+            Origin { operand: origin.operand, edge: origin.edge + edge - start }
+        })
     }
 
-    /// Lets the first edge of each pair stand for the second too, which has the same ends.
-    pub(crate) fn unite(&mut self, same: &[[u32; 2]]) {
-        self.next_same.resize(if same.is_empty() { 0 } else { self.len() }, END);
-        for &[stands, follows] in same {
-            self.next_same[follows as usize] = self.next_same[stands as usize];
-            self.next_same[stands as usize] = follows;
-        }
-        self.follows.clear();
-        self.follows.resize(self.next_same.len(), false);
-        same.iter().for_each(|&[_, follows]| self.follows[follows as usize] = true);
-    }
-
-    /// Whether another edge stands for this one.
-    pub(crate) fn follows(&self, edge: u32) -> bool {
-        self.follows.get(edge as usize).is_some_and(|&follows| follows)
-    }
-
-    /// Whether two edges with the same ends have the same direction.
-    pub(crate) fn is_along(&self, e: u32, f: u32) -> bool {
-        self.point(e) == self.point(f)
-    }
-
-    /// An edge that stands for itself, and all that have the same ends.
-    #[inline]
-    fn same(&self, edge: u32) -> impl Iterator<Item = u32> + '_ {
-        let next = |&e: &u32| self.next_same.get(e as usize).copied().filter(|&n| n != END);
-        std::iter::successors(Some(edge), next)
-    }
-
-    /// Moves the walk from the right of an edge, and of all that it stands for, to the left; or, against the edge, back.
-    #[inline]
-    pub(crate) fn cross(&self, edge: u32, along: bool, truth: &mut Truth) {
-        for other in self.same(edge) {
-            let counter = self.counter[other as usize];
-            if counter != NO_COUNTER {
-                let other_along = along == (other == edge || self.is_along(other, edge));
-                truth.cross(counter, if other_along { 1 } else { -1 });
+    /// Lets rings stand for their copies too, and drops these.
+    pub(crate) fn unite(&mut self, copies: &[Copy]) {
+        let mut dropped = vec![false; self.rings.len()];
+        for copy in copies {
+            dropped[copy.ring as usize] = true;
+            let Ring { counter, winds, .. } = self.rings[copy.ring as usize];
+            let winds = if copy.along { winds } else { -winds };
+            let of = &mut self.rings[copy.of as usize];
+            match counter {
+                Some(counter) if Some(counter) != of.counter => {
+                    let next = std::mem::replace(&mut of.also, index(self.also.len()));
+                    self.also.push(Also { counter, winds, next });
+                }
+                _ => of.winds += winds,
             }
+            dropped[copy.of as usize] = of.winds == 0 && of.also == END;
+        }
+        self.drop_rings(&dropped);
+    }
+
+    fn drop_rings(&mut self, dropped: &[bool]) {
+        let rings = std::mem::take(&mut self.rings);
+        let mut end = 0;
+        self.ring.clear();
+        for (ring, _) in rings.iter().zip(dropped).filter(|(_, dropped)| !**dropped) {
+            let slots = ring.start as usize..ring.end as usize + 1;
+            self.points.copy_within(slots.clone(), end);
+            if !self.origins.is_empty() {
+                self.origins.copy_within(slots.clone(), end);
+            }
+            let start = index(end);
+            end += slots.len();
+            self.ring.resize(end, index(self.rings.len()));
+            self.rings.push(Ring { start, end: index(end - 1), ..*ring });
+        }
+        self.points.truncate(end);
+        self.origins.truncate(end);
+    }
+
+    /// Moves the walk over an edge of a ring, from its right to its left, or `back`.
+    #[inline]
+    pub(crate) fn cross(&self, edge: u32, back: bool, truth: &mut Truth) {
+        let ring = self.ring(edge);
+        if let Some(counter) = ring.counter {
+            truth.cross(counter, if back { -ring.winds } else { ring.winds });
+        }
+        if ring.also != END {
+            self.cross_also(ring.also, back, truth);
         }
     }
 
-    #[inline]
-    pub(crate) fn source(&self, edge: u32) -> u32 {
-        self.source[edge as usize]
+    #[cold]
+    fn cross_also(&self, mut place: u32, back: bool, truth: &mut Truth) {
+        while place != END {
+            let also = self.also[place as usize];
+            truth.cross(also.counter, if back { -also.winds } else { also.winds });
+            place = also.next;
+        }
     }
 }

@@ -67,8 +67,10 @@ mod arrangement;
 mod batch;
 mod below;
 mod boundary;
+mod chains;
 mod classify;
 mod contacts;
+mod copies;
 mod csg;
 mod double;
 mod edges;
@@ -90,6 +92,7 @@ mod select;
 #[cfg(feature = "serde")]
 mod serde;
 mod strips;
+mod suspects;
 #[cfg(feature = "triangulate")]
 mod triangulate;
 mod truth;

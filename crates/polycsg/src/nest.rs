@@ -11,12 +11,15 @@
 //!
 //! An edge below whose near side is on the wrong side of the boundary means that the rings are not nested.
 
-use crate::below::nearest_segment_below;
-use crate::link::{Cycles, Ring, by_angle};
+use crate::below::nearest_below;
+use crate::chains::{Chains, span};
+use crate::link::{Cycles, Ring, Spoke, by_angle, neighbours};
 use crate::outline::Outline;
+use crate::predicates::lexicographic;
 use crate::region::{Region, RegionBuilder};
 use crate::strips::Strips;
 use crate::truth::index;
+use glam::DVec2;
 use std::cmp::Ordering;
 
 /// The rings are no boundary: some lies on the wrong side of another, or edges around a point do not alternate.
@@ -31,7 +34,7 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct Nesting {
     /// The rings by leftmost point; of those that start in one point the lower first.
     order: Vec<u32>,
-    /// Per cycle its outer ring, if it has one, and the leftmost point of all its rings.
+    /// Per cycle its outer ring, if it has one, and the one of its rings that starts furthest left.
     outer: Vec<u32>,
     leftmost: Vec<u32>,
     /// Per ring the polygon that it bounds from outside or inside.
@@ -45,25 +48,29 @@ pub(crate) struct Nesting {
 struct Nest<'a> {
     outline: &'a Outline,
     cycles: &'a Cycles,
+    chains: &'a Chains,
     strips: &'a Strips,
     nesting: &'a mut Nesting,
 }
 
-/// Builds the region; the outline's edges meet in shared points only.
+/// Builds the region; the outline's strokes meet in their nodes only.
 pub(crate) fn nest(
     outline: &Outline,
     cycles: &Cycles,
+    chains: &mut Chains,
     strips: &mut Strips,
     nesting: &mut Nesting,
 ) -> Result<Region, Misnested> {
     if !cycles.alternate {
         return Err(Misnested);
     }
-    if cycles.rings().len() > 1 {
-        strips.build((0..index(outline.edges().len())).map(|e| (e, outline.segment(e))));
+    let rings = cycles.rings();
+    if rings.len() > 1 {
+        chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
+        strips.build(chains.boxes());
     }
-    nesting.start(outline, cycles)?;
-    let mut nest = Nest { outline, cycles, strips, nesting };
+    nesting.start(cycles)?;
+    let mut nest = Nest { outline, cycles, chains, strips, nesting };
     for i in 0..nest.nesting.order.len() {
         nest.place(nest.nesting.order[i])?;
     }
@@ -71,32 +78,25 @@ pub(crate) fn nest(
 }
 
 impl Nesting {
-    fn start(&mut self, outline: &Outline, cycles: &Cycles) -> Result<(), Misnested> {
-        let rings = cycles.rings();
+    fn start(&mut self, cycles: &Cycles) -> Result<(), Misnested> {
+        let rings = cycles.about();
         self.polygon.clear();
         self.polygon.resize(rings.len(), NONE);
         self.around.clear();
         self.around.resize(rings.len(), NONE);
         self.depth.clear();
-        self.sort_rings(outline, cycles);
+        self.sort_rings(cycles);
         self.find_outer(rings)?;
         self.find_leftmost(cycles);
         Ok(())
     }
 
-    fn sort_rings(&mut self, outline: &Outline, cycles: &Cycles) {
+    fn sort_rings(&mut self, cycles: &Cycles) {
         self.order.clear();
-        self.order.extend(0..index(cycles.rings().len()));
-        // The leftmost point, and the neighbour on the lower of the two edges there.
-        let corner = |ring: u32| {
-            let ring = cycles.rings()[ring as usize];
-            let ids = cycles.ids(ring);
-            (ids[0], if ring.counter_clockwise { ids[1] } else { ids[ids.len() - 1] })
-        };
-        let point = |id: u32| outline.point(id);
+        self.order.extend(0..index(cycles.about().len()));
         self.order.sort_unstable_by(|&a, &b| {
-            let (a, b) = (corner(a), corner(b));
-            a.0.cmp(&b.0).then_with(|| by_angle(point(a.0), point(a.1), point(b.1)))
+            let (a, b) = (Corner::of(cycles, a), Corner::of(cycles, b));
+            lexicographic(a.point, b.point).then_with(|| by_angle(a.point, a.lower(), b.lower()))
         });
     }
 
@@ -116,16 +116,38 @@ impl Nesting {
     fn find_leftmost(&mut self, cycles: &Cycles) {
         self.leftmost.clear();
         self.leftmost.resize(self.outer.len(), NONE);
-        for &ring in cycles.rings() {
-            let place = &mut self.leftmost[ring.cycle as usize];
-            *place = cycles.ids(ring)[0].min(*place);
+        for &ring in self.order.iter().rev() {
+            self.leftmost[cycles.about()[ring as usize].cycle as usize] = ring;
         }
+    }
+}
+
+/// The leftmost point of a ring, and its neighbours.
+struct Corner {
+    point: DVec2,
+    before: DVec2,
+    after: DVec2,
+    counter_clockwise: bool,
+}
+
+impl Corner {
+    fn of(cycles: &Cycles, ring: u32) -> Corner {
+        let Ring { leftmost, counter_clockwise, .. } = cycles.about()[ring as usize];
+        let points = cycles.rings().points();
+        let slots = cycles.rings().slots(ring as usize);
+        let [before, after] = neighbours(&slots, leftmost as usize).map(|slot| points[slot]);
+        Corner { point: points[leftmost as usize], before, after, counter_clockwise }
+    }
+
+    /// The neighbour on the lower of the two edges.
+    fn lower(&self) -> DVec2 {
+        if self.counter_clockwise { self.after } else { self.before }
     }
 }
 
 impl Nest<'_> {
     fn ring(&self, ring: u32) -> Ring {
-        self.cycles.rings()[ring as usize]
+        self.cycles.about()[ring as usize]
     }
 
     fn place(&mut self, ring: u32) -> Result<(), Misnested> {
@@ -155,70 +177,73 @@ impl Nest<'_> {
 
     /// The ring that runs right below the leftmost point of a cycle of holes; its interior lies above.
     fn ring_below_hole(&self, ring: u32) -> Result<u32, Misnested> {
-        let edge = self.edge_below(self.nesting.leftmost[self.ring(ring).cycle as usize]).ok_or(Misnested)?;
-        if self.is_rightward(edge) { Ok(self.cycles.ring_of_edge(edge)) } else { Err(Misnested) }
+        let leftmost = self.nesting.leftmost[self.ring(ring).cycle as usize];
+        match self.ring_below(leftmost) {
+            Some((ring, true)) => Ok(ring),
+            _ => Err(Misnested),
+        }
     }
 
     /// The ring that bounds the outside of an outer ring, right below its leftmost point.
     fn ring_beside_outer(&self, ring: u32) -> Result<Option<u32>, Misnested> {
-        let ids = self.cycles.ids(self.ring(ring));
-        let (start, next) = (ids[0], ids[1]);
-        let (edge, outside) = match self.clockwise_neighbour(start, next) {
-            // An edge of the point itself: the outside lies on its left seen from the point.
-            Some((edge, leaves)) => (edge, !leaves),
-            None => match self.edge_below(start) {
+        let (other, outside) = match self.clockwise_neighbour(ring) {
+            // A stroke of the point itself: the outside lies on its left seen from the point.
+            Some(spoke) => (self.cycles.ring_of_stroke(spoke.stroke), !spoke.leaves),
+            None => match self.ring_below(ring) {
                 None => return Ok(None),
-                Some(edge) => (edge, !self.is_rightward(edge)),
+                Some((other, interior_above)) => (other, !interior_above),
             },
         };
-        if outside { Ok(Some(self.cycles.ring_of_edge(edge))) } else { Err(Misnested) }
+        if outside { Ok(Some(other)) } else { Err(Misnested) }
     }
 
-    /// Of the edges at `point`, the first met turning clockwise from `next` to straight down and on to straight up:
-    /// that edge, and whether it leaves the point.
-    fn clockwise_neighbour(&self, point: u32, next: u32) -> Option<(u32, bool)> {
-        let p = |id: u32| self.outline.point(id);
-        let angle = |a: u32, b: u32| by_angle(p(point), p(a), p(b));
-        let edge_end = |edge: u32, end: usize| self.outline.edges()[edge as usize][end];
-        let leaving = self.outline.leaving(point).map(|edge| (edge, edge_end(edge, 1), true));
-        let arriving = self.outline.arriving(point).iter().map(|&edge| (edge, edge_end(edge, 0), false));
-        let others = leaving.chain(arriving).filter(|&(_, end, _)| end != next);
-        // Smaller angles than next's come first, the largest of them; then the left half, again the largest.
-        let below = |end: u32| angle(end, next) == Ordering::Less;
-        let candidates = others.filter(|&(_, end, _)| below(end) || end < point);
-        let nearest = candidates.max_by(|a, b| below(a.1).cmp(&below(b.1)).then_with(|| angle(a.1, b.1)));
-        nearest.map(|(edge, _, leaves)| (edge, leaves))
+    /// Of the strokes at the leftmost point of a counter-clockwise ring, the first met turning clockwise from the one
+    /// that leaves along the ring, to straight down and on to straight up.
+    fn clockwise_neighbour(&self, ring: u32) -> Option<Spoke> {
+        let stroke = self.ring(ring).stroke;
+        if stroke == NONE {
+            return None; // inside a stroke nothing meets it
+        }
+        let spokes = self.cycles.spokes_at_start(self.outline, stroke);
+        let place = spokes.iter().position(|spoke| spoke.stroke == stroke && spoke.leaves)?;
+        match place.checked_sub(1) {
+            Some(before) => Some(spokes[before]),
+            None => spokes.last().copied().filter(|&spoke| {
+                let point = Corner::of(self.cycles, ring).point;
+                lexicographic(self.cycles.spoke_end(self.outline, spoke), point) == Ordering::Less
+            }),
+        }
     }
 
-    fn edge_below(&self, point: u32) -> Option<u32> {
-        if self.cycles.rings().len() == 1 {
+    /// The ring that runs right below the leftmost point of a ring, and whether its interior lies above.
+    fn ring_below(&self, ring: u32) -> Option<(u32, bool)> {
+        let rings = self.cycles.rings();
+        if rings.len() == 1 {
             return None; // nothing is indexed
         }
-        nearest_segment_below(self.strips, self.outline.point(point), |e| self.outline.segment(e))
-    }
-
-    /// Whether the interior lies above the edge.
-    fn is_rightward(&self, edge: u32) -> bool {
-        let [from, to] = self.outline.edges()[edge as usize];
-        from < to
+        let point = rings.points()[self.ring(ring).leftmost as usize];
+        let (edge, [left, _]) = nearest_below(self.chains, self.strips, rings.points(), point)?;
+        Some((index(rings.ring_at(edge as usize)), rings.points()[edge as usize] == left))
     }
 
     /// The polygons, outermost first, then by leftmost point.
     fn build(&mut self) -> Region {
         let Nesting { order, polygon, depth, .. } = &mut *self.nesting;
-        let rings = self.cycles.rings();
-        let is_hole = |ring: u32| !rings[ring as usize].counter_clockwise;
+        let about = self.cycles.about();
+        let is_hole = |ring: u32| !about[ring as usize].counter_clockwise;
         // Polygons are numbered by leftmost point, and `order` is too: what remains equal keeps its order.
         order.sort_by_key(|&ring| {
             let polygon = polygon[ring as usize];
             (depth[polygon as usize], polygon, is_hole(ring))
         });
-        let mut builder = RegionBuilder::with_capacity(self.cycles.point_count(), rings.len());
+        let rings = self.cycles.rings();
+        let mut builder = RegionBuilder::with_capacity(rings.point_count(), rings.len());
         for &ring in order.iter() {
             if !is_hole(ring) {
                 builder.polygon(depth[polygon[ring as usize] as usize]);
             }
-            builder.ring(self.cycles.ids(rings[ring as usize]).iter().map(|&id| self.outline.point(id)));
+            let (slots, leftmost) = (rings.slots(ring as usize), about[ring as usize].leftmost as usize);
+            builder.ring([leftmost..slots.end - 1, slots.start..leftmost].map(|part| &rings.points()[part]));
         }
         builder.build()
     }

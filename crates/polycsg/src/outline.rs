@@ -1,51 +1,97 @@
-//! The rounded boundary: distinct points in lexicographic order and directed edges between them.
+//! The rounded boundary: directed strokes from node to node.
 
+use crate::contacts::Contacts;
+use crate::edges::Edges;
 use crate::predicates::{Segment, lexicographic};
+use crate::select::{Piece, Selection};
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
-use std::ops::Range;
 
-/// Points and directed edges by point ids, each edge once; the smaller id is the lexicographically smaller point.
+/// A directed chain of points between two nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stroke {
+    pub(crate) start: u32,
+    pub(crate) end: u32,
+    /// The place of its first point.
+    first: u32,
+}
+
+/// Strokes that meet in nodes only, as many arriving as leaving in each.
 #[derive(Debug, Default)]
 pub(crate) struct Outline {
+    /// Of all strokes in a row: the points without the last.
     points: Vec<DVec2>,
-    /// Sorted by start, then by end.
-    edges: Vec<[u32; 2]>,
-    /// Per point its first leaving edge.
-    leaving: Vec<u32>,
-    /// Per point the place of its first arriving edge in `by_end`.
-    arriving: Vec<u32>,
-    by_end: Vec<u32>,
-    /// Of every start of a segment its point and its place in the input.
+    strokes: Vec<Stroke>,
+    node_count: usize,
+    /// For numbering points: every start of a segment and its place in the input.
     starts: Vec<(DVec2, u32)>,
+    numbered: Vec<DVec2>,
     unsorted: Vec<[u32; 2]>,
 }
 
 impl Outline {
-    /// Numbers the points of closed walks, drops empty edges and, if any may coincide, cancels opposite ones.
+    /// Takes the pieces as they are: their nodes are distinct points.
+    pub(crate) fn take(&mut self, edges: &Edges, contacts: &Contacts, selection: &Selection) {
+        self.points.clear();
+        self.strokes.clear();
+        self.node_count = contacts.node_count();
+        for piece in selection.pieces() {
+            let first = index(self.points.len());
+            let [start, end] = piece.nodes.unwrap_or_else(|| {
+                self.node_count += 1;
+                [index(self.node_count - 1); 2]
+            });
+            let (from, to) = if piece.along { (start, end) } else { (end, start) };
+            self.strokes.push(Stroke { start: from, end: to, first });
+            self.points.push(match piece.nodes {
+                Some(_) => selection.node_point(edges, contacts, from),
+                None => edges.point(piece.edge_spans()[0].start),
+            });
+            self.add_inner(edges, piece);
+        }
+    }
+
+    fn add_inner(&mut self, edges: &Edges, piece: &Piece) {
+        let spans = piece.inner();
+        if piece.along {
+            spans.into_iter().for_each(|span| self.points.extend_from_slice(&edges.points()[span]));
+        } else {
+            for span in spans.into_iter().rev() {
+                self.points.extend(edges.points()[span].iter().rev());
+            }
+        }
+    }
+
+    /// Numbers the points of closed walks, drops empty edges and, if any may coincide, cancels opposite ones: each
+    /// edge that is left is a stroke.
     pub(crate) fn build(&mut self, segments: impl Iterator<Item = Segment> + Clone, may_coincide: bool) {
         self.starts.clear();
         self.starts.extend(segments.clone().zip(0..).map(|([start, _], i)| (start, i)));
         self.starts.sort_unstable_by(|a, b| lexicographic(a.0, b.0));
-        self.points.clear();
+        self.numbered.clear();
         self.unsorted.clear();
         self.unsorted.resize(self.starts.len(), [0; 2]);
         for &(point, segment) in &self.starts {
-            if self.points.last() != Some(&point) {
-                self.points.push(point);
+            if self.numbered.last() != Some(&point) {
+                self.numbered.push(point);
             }
-            self.unsorted[segment as usize][0] = index(self.points.len() - 1);
+            self.unsorted[segment as usize][0] = index(self.numbered.len() - 1);
         }
         // Each point where a walk arrives is also left: the ends are found among the starts.
         for (edge, [_, end]) in self.unsorted.iter_mut().zip(segments) {
-            edge[1] = index(self.points.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
+            edge[1] = index(self.numbered.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
         }
         self.unsorted.retain(|edge| edge[0] != edge[1]);
         if may_coincide {
             self.cancel();
         }
-        self.sort();
+        self.node_count = self.numbered.len();
+        self.points.clear();
+        self.points.extend(self.unsorted.iter().map(|edge| self.numbered[edge[0] as usize]));
+        self.strokes.clear();
+        let stroke = |(&[start, end], first): (&[u32; 2], u32)| Stroke { start, end, first };
+        self.strokes.extend(self.unsorted.iter().zip(0..).map(stroke));
     }
 
     /// Removes pairs of opposite edges.
@@ -61,64 +107,18 @@ impl Outline {
         self.unsorted = kept;
     }
 
-    /// Sorts the edges by start and end, and indexes them by either.
-    fn sort(&mut self) {
-        sort_by_end(&self.unsorted, 1, self.points.len(), &mut self.arriving, &mut self.by_end);
-        self.edges.clear();
-        self.edges.extend(self.by_end.iter().map(|&e| self.unsorted[e as usize]));
-        std::mem::swap(&mut self.edges, &mut self.unsorted);
-        sort_by_end(&self.unsorted, 0, self.points.len(), &mut self.leaving, &mut self.by_end);
-        self.edges.clear();
-        self.edges.extend(self.by_end.iter().map(|&e| self.unsorted[e as usize]));
-        sort_by_end(&self.edges, 1, self.points.len(), &mut self.arriving, &mut self.by_end);
+    pub(crate) fn node_count(&self) -> usize {
+        self.node_count
     }
 
-    /// The edges that leave a point.
-    pub(crate) fn leaving(&self, point: u32) -> Range<u32> {
-        self.leaving[point as usize]..self.leaving[point as usize + 1]
+    pub(crate) fn strokes(&self) -> &[Stroke] {
+        &self.strokes
     }
 
-    /// The edges that arrive at a point.
-    pub(crate) fn arriving(&self, point: u32) -> &[u32] {
-        &self.by_end[self.arriving[point as usize] as usize..self.arriving[point as usize + 1] as usize]
-    }
-
+    /// The points of a stroke, without the last.
     #[inline]
-    pub(crate) fn point(&self, id: u32) -> DVec2 {
-        self.points[id as usize]
+    pub(crate) fn points(&self, stroke: u32) -> &[DVec2] {
+        let end = self.strokes.get(stroke as usize + 1).map_or(self.points.len(), |next| next.first as usize);
+        &self.points[self.strokes[stroke as usize].first as usize..end]
     }
-
-    pub(crate) fn point_count(&self) -> usize {
-        self.points.len()
-    }
-
-    /// The edges, sorted by start and end.
-    pub(crate) fn edges(&self) -> &[[u32; 2]] {
-        &self.edges
-    }
-
-    #[inline]
-    pub(crate) fn segment(&self, edge: u32) -> Segment {
-        self.edges[edge as usize].map(|id| self.point(id))
-    }
-}
-
-/// A stable counting sort of the edges by one of their ends: per point where its edges begin in `order`.
-fn sort_by_end(edges: &[[u32; 2]], end: usize, points: usize, starts: &mut Vec<u32>, order: &mut Vec<u32>) {
-    starts.clear();
-    starts.resize(points + 2, 0);
-    for edge in edges {
-        starts[edge[end] as usize + 2] += 1;
-    }
-    for p in 2..points + 2 {
-        starts[p] += starts[p - 1];
-    }
-    order.clear();
-    order.resize(edges.len(), 0);
-    for (i, edge) in edges.iter().enumerate() {
-        let at = &mut starts[edge[end] as usize + 1];
-        order[*at as usize] = index(i);
-        *at += 1;
-    }
-    starts.pop();
 }

@@ -1,19 +1,26 @@
 //! The stages in a row.
 
 use crate::csg::Csg;
-use crate::{Boundary, Region, Scratch, nest, repair};
+use crate::labels::Map;
+use crate::repair::{self, Rounded};
+use crate::{Boundary, Region, Scratch, nest};
 
-/// Edges, contacts, arrangement, memberships.
+/// Edges, chains, contacts, arrangement, memberships.
 pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
-    let Scratch { truth, edges, strips, contacts, arrangement, labels, .. } = scratch;
+    let Scratch { truth, edges, chains, copies, strips, suspects, contacts, arrangement, labels, .. } =
+        scratch;
     truth.compile(csg);
     edges.collect(csg, truth);
-    strips.build(edges.ids().map(|e| (e, edges.segment(e))));
-    let same = strips.unite(|e, f| edges.compare(e, f));
-    edges.unite(&same);
-    contacts.find(edges, strips, &same);
+    chains.build(edges.points(), edges.spans());
+    let copies = copies.find(edges, chains);
+    if !copies.is_empty() {
+        edges.unite(copies);
+        chains.build(edges.points(), edges.spans());
+    }
+    strips.build(chains.boxes());
+    contacts.find(edges, chains, strips, suspects);
     arrangement.split(edges, contacts);
-    labels.classify(edges, strips, contacts, arrangement, truth);
+    labels.classify(Map { edges, chains, strips, contacts, arrangement }, truth);
 }
 
 /// … and the pieces whose sides differ, rounded.
@@ -21,22 +28,40 @@ pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<
     arrange(csg, scratch);
     let Scratch { edges, contacts, arrangement, labels, selection, .. } = scratch;
     selection.select(edges, contacts, arrangement, labels);
-    Boundary::new(selection, edges)
+    Boundary::new(selection, edges, contacts)
 }
 
-/// … repaired, linked to rings and nested.
+/// … repaired where rounding broke something, linked to rings and nested.
 ///
 /// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
 pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
     boundary(csg, scratch);
-    let Scratch { edges, contacts, strips, selection, mending, outline, cycles, nesting, .. } = scratch;
-    repair::mend(edges, contacts, selection, strips, mending, outline);
+    let Scratch {
+        edges,
+        contacts,
+        chains,
+        strips,
+        suspects,
+        selection,
+        mending,
+        outline,
+        cycles,
+        nesting,
+        ..
+    } = scratch;
+
+    let rounded = Rounded { edges, contacts, selection };
+    if repair::is_sound(rounded, suspects, mending) {
+        outline.take(edges, contacts, selection);
+    } else {
+        repair::mend(rounded, strips, mending, outline);
+    }
     cycles.link(outline);
-    match nest::nest(outline, cycles, strips, nesting) {
+    match nest::nest(outline, cycles, chains, strips, nesting) {
         Ok(region) => region,
         Err(nest::Misnested) => {
-            let rings = cycles.to_rings(outline);
+            let rings = cycles.rings().clone();
             region(&Csg::positive(rings), scratch)
         }
     }

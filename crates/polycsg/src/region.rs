@@ -258,8 +258,9 @@ impl RegionBuilder {
         self.region.polygons.push(Span { first: self.region.rings.len(), depth: depth as usize });
     }
 
-    pub(crate) fn ring(&mut self, points: impl Iterator<Item = DVec2>) {
-        points.for_each(|p| self.region.rings.push(p));
+    /// Adds a ring, in two parts.
+    pub(crate) fn ring(&mut self, parts: [&[DVec2]; 2]) {
+        parts.iter().for_each(|part| self.region.rings.extend(part));
         self.region.rings.close();
     }
 

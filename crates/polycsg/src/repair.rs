@@ -17,12 +17,13 @@
 //! Only fragments that rounding made vertical escape this argument: they can overlap on their one abscissa, and are cut
 //! at the points that lie on them, which moves nothing.
 
-use crate::contacts::Contacts;
+use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
 use crate::outline::Outline;
 use crate::predicates::{Ratio, Segment, Side, crossing_ratio, is_inside, lexicographic, rightward, side};
-use crate::select::{Piece, Selection};
+use crate::select::{End, Piece, Selection};
 use crate::strips::Strips;
+use crate::suspects::Suspects;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -34,56 +35,107 @@ struct Abscissa {
     rounded: f64,
 }
 
-/// A part of a piece between neighbouring cuts, rounded.
+/// A part of one edge between neighbouring vertices of the boundary, in the boundary's direction. Vertices are slots,
+/// or nodes counted behind the slots.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    start: u32,
+    end: u32,
+    edge: u32,
+}
+
+/// A piece of a part between neighbouring cuts, rounded.
 #[derive(Clone, Copy, Debug)]
 struct Fragment {
     segment: Segment,
-    piece: u32,
+    part: u32,
+    edge: u32,
     /// The vertices whose abscissae its ends have.
     ends: [u32; 2],
     /// Whether an end is a rounded point.
     moved: bool,
 }
 
-/// A cut of a piece at a vertex's abscissa.
+/// A cut of a part at a vertex's abscissa.
 type CutAt = (u32, u32);
 
 /// The buffers of the stage.
 #[derive(Debug, Default)]
 pub(crate) struct Mending {
+    parts: Vec<Part>,
     fragments: Vec<Fragment>,
     conflicts: Vec<[u32; 2]>,
-    /// The cuts, sorted by piece.
+    /// The cuts, sorted by part.
     cuts: Vec<CutAt>,
+    /// The suspected edges, sorted.
+    edges: Vec<u32>,
 }
 
-struct Repair<'a> {
-    edges: &'a Edges,
-    contacts: &'a Contacts,
-    selection: &'a Selection,
+/// What the stage looks at.
+#[derive(Clone, Copy)]
+pub(crate) struct Rounded<'a> {
+    pub(crate) edges: &'a Edges,
+    pub(crate) contacts: &'a Contacts,
+    pub(crate) selection: &'a Selection,
+}
+
+/// Whether rounding left every piece where it was, as seen from the others: of the suspected pairs of edges, which are
+/// the only ones that can, no two fragments meet but in a vertex of both.
+pub(crate) fn is_sound(rounded: Rounded<'_>, suspects: &Suspects, mending: &mut Mending) -> bool {
+    let sound = suspects.pairs().is_empty() || are_all_sound(rounded, suspects, mending);
+    debug_assert!(!sound || rounded.is_sound_throughout());
+    sound
+}
+
+fn are_all_sound(rounded: Rounded<'_>, suspects: &Suspects, mending: &mut Mending) -> bool {
+    mending.edges.clear();
+    mending.edges.extend(suspects.pairs().iter().flatten());
+    mending.edges.sort_unstable();
+    mending.edges.dedup();
+    rounded.list_parts(Some(&mending.edges), &mut mending.parts);
+    mending.parts.sort_unstable_by_key(|part| part.edge);
+    rounded.cut_up(&mending.parts, &[], &mut mending.fragments);
+    let fragments = &mending.fragments;
+    let of_edge = |edge: u32| {
+        let start = fragments.partition_point(|f| f.edge < edge);
+        let count = fragments[start..].partition_point(|f| f.edge == edge);
+        &fragments[start..start + count]
+    };
+    let collapsed = fragments.iter().any(|f| f.segment[0] == f.segment[1]);
+    let sound = |&[e, f]: &[u32; 2]| {
+        of_edge(e).iter().all(|f0| of_edge(f).iter().all(|f1| !(f0.moved || f1.moved) || are_sound(f0, f1)))
+    };
+    !collapsed && suspects.pairs().iter().all(sound)
+}
+
+/// Whether two fragments of different edges meet in common vertices only.
+fn are_sound(f: &Fragment, g: &Fragment) -> bool {
+    let same_point = |i: usize, j: usize| f.segment[i] == g.segment[j];
+    let same_vertex = |i: usize, j: usize| f.ends[i] == g.ends[j];
+    let ends_agree =
+        [(0, 0), (0, 1), (1, 0), (1, 1)].iter().all(|&(i, j)| same_point(i, j) == same_vertex(i, j));
+    ends_agree && matches!(meeting(f.segment, g.segment), Meeting::Apart)
 }
 
 /// Puts the pieces into an outline: no two of its edges meet but in their ends.
-pub(crate) fn mend(
-    edges: &Edges,
-    contacts: &Contacts,
-    selection: &Selection,
-    strips: &mut Strips,
-    mending: &mut Mending,
-    outline: &mut Outline,
-) {
-    let repair = Repair { edges, contacts, selection };
+pub(crate) fn mend(rounded: Rounded<'_>, strips: &mut Strips, mending: &mut Mending, outline: &mut Outline) {
     mending.cuts.clear();
+    rounded.list_parts(None, &mut mending.parts);
     loop {
-        repair.cut_up(&mending.cuts, &mut mending.fragments);
+        rounded.cut_up(&mending.parts, &mending.cuts, &mut mending.fragments);
         let may_coincide = find_conflicts(&mending.fragments, strips, &mut mending.conflicts);
         if mending.conflicts.is_empty() {
             return outline.build(mending.fragments.iter().map(|f| f.segment), may_coincide);
         }
-        if !repair.add_cuts(mending) {
+        if !rounded.add_cuts(mending) {
             return outline.build(cut_verticals(&mending.fragments).iter().copied(), true);
         }
     }
+}
+
+/// The smallest box around a segment.
+fn bounds([a, b]: Segment) -> [DVec2; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// Finds the pairs of fragments, one at least with a rounded end, that meet otherwise than in common ends; returns
@@ -92,10 +144,10 @@ fn find_conflicts(fragments: &[Fragment], strips: &mut Strips, conflicts: &mut V
     conflicts.clear();
     let mut coincide = false;
     if fragments.iter().any(|f| f.moved) {
-        strips.build(fragments.iter().enumerate().map(|(i, f)| (index(i), f.segment)));
+        strips.build(fragments.iter().map(|f| bounds(f.segment)));
         strips.pairs(|i, j| {
             let (f, g) = (&fragments[i as usize], &fragments[j as usize]);
-            if (f.moved || g.moved) && f.piece != g.piece {
+            if (f.moved || g.moved) && f.part != g.part {
                 match meeting(f.segment, g.segment) {
                     Meeting::Apart => {}
                     Meeting::Coincide => coincide = true,
@@ -129,57 +181,121 @@ fn meeting(s: Segment, t: Segment) -> Meeting {
     if touch || cross { Meeting::Conflict } else { Meeting::Apart }
 }
 
-impl Repair<'_> {
-    /// All fragments of all pieces.
-    fn cut_up(&self, mut cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+impl Rounded<'_> {
+    /// The law behind [`is_sound`]: no two fragments at all meet but in common vertices.
+    fn is_sound_throughout(&self) -> bool {
+        let (mut parts, mut fragments, mut strips) = (Vec::new(), Vec::new(), Strips::default());
+        self.list_parts(None, &mut parts);
+        self.cut_up(&parts, &[], &mut fragments);
+        let mut sound = fragments.iter().all(|f| f.segment[0] != f.segment[1]);
+        strips.build(fragments.iter().map(|f| bounds(f.segment)));
+        strips.pairs(|i, j| sound = sound && are_sound(&fragments[i as usize], &fragments[j as usize]));
+        sound
+    }
+
+    /// The parts of all pieces, or of those on some edges.
+    fn list_parts(&self, only: Option<&[u32]>, parts: &mut Vec<Part>) {
+        parts.clear();
+        for piece in self.selection.pieces() {
+            for (i, span) in piece.edge_spans().into_iter().enumerate() {
+                match only {
+                    None => self.add_parts(piece, i, span, parts),
+                    Some(edges) => {
+                        let first = edges.partition_point(|&e| e < span.start);
+                        let count = edges[first..].partition_point(|&e| e < span.end);
+                        self.add_parts(piece, i, edges[first..first + count].iter().copied(), parts);
+                    }
+                }
+            }
+        }
+    }
+
+    fn add_parts(&self, piece: &Piece, span: usize, edges: impl Iterator<Item = u32>, parts: &mut Vec<Part>) {
+        for edge in edges {
+            let [from, to] = piece.ends_on(span, edge, self.edges.ring(edge)).map(|end| self.vertex(end));
+            let (start, end) = if piece.along { (from, to) } else { (to, from) };
+            parts.push(Part { start, end, edge });
+        }
+    }
+
+    /// The one id of a vertex that all have who end there.
+    fn vertex(&self, end: End) -> u32 {
+        let node = match end {
+            End::Node(node) => Some(node),
+            End::Vertex(vertex) => self.contacts.node_at(vertex),
+        };
+        match (node.map(|node| (node, self.contacts.place(node))), end) {
+            (Some((_, Place::Vertex(vertex))), _) | (None, End::Vertex(vertex)) => vertex,
+            (Some((node, Place::Crossing(..))), _) | (None, End::Node(node)) => {
+                index(self.edges.len()) + node
+            }
+        }
+    }
+
+    /// The edges whose crossing a vertex is; `None` for an explicit one.
+    fn crossing(&self, vertex: u32) -> Option<[u32; 2]> {
+        let node = vertex.checked_sub(index(self.edges.len()))?;
+        match self.contacts.place(node) {
+            Place::Crossing(e, f) => Some([e, f]),
+            Place::Vertex(_) => None,
+        }
+    }
+
+    /// Where a vertex lies, rounded.
+    fn point(&self, vertex: u32) -> DVec2 {
+        match vertex.checked_sub(index(self.edges.len())) {
+            Some(node) => self.selection.node_point(self.edges, self.contacts, node),
+            None => self.edges.point(vertex),
+        }
+    }
+
+    /// All fragments of all parts.
+    fn cut_up(&self, parts: &[Part], mut cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
         fragments.clear();
-        for (i, &piece) in self.selection.pieces().iter().enumerate() {
-            let id = index(i);
+        for (id, &part) in (0..).zip(parts) {
             let own = cuts.iter().take_while(|cut| cut.0 == id).count();
-            self.fragment(id, piece, &cuts[..own], fragments);
+            self.fragment(id, part, &cuts[..own], fragments);
             cuts = &cuts[own..];
         }
     }
 
-    fn fragment(&self, id: u32, piece: Piece, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
-        let mut from = (piece.start, self.selection.point(self.edges, piece.start));
-        let mut moved = self.selection.is_crossing(piece.start);
-        for vertex in self.ordered(piece, cuts) {
-            let to = (vertex, self.cut_point(piece, vertex));
-            fragments.push(Fragment {
-                segment: [from.1, to.1],
-                piece: id,
-                ends: [from.0, vertex],
-                moved: true,
-            });
+    fn fragment(&self, id: u32, part: Part, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+        let is_crossing = |vertex: u32| self.crossing(vertex).is_some();
+        let mut from = (part.start, self.point(part.start));
+        let mut moved = is_crossing(part.start);
+        let mut add = |from: (u32, DVec2), to: (u32, DVec2), moved: bool| {
+            let segment = [from.1, to.1];
+            fragments.push(Fragment { segment, part: id, edge: part.edge, ends: [from.0, to.0], moved });
+        };
+        for vertex in self.ordered(part, cuts) {
+            let to = (vertex, self.cut_point(part, vertex));
+            add(from, to, true);
             (from, moved) = (to, true);
         }
-        let moved = moved || self.selection.is_crossing(piece.end);
-        let end = self.selection.point(self.edges, piece.end);
-        fragments.push(Fragment { segment: [from.1, end], piece: id, ends: [from.0, piece.end], moved });
+        add(from, (part.end, self.point(part.end)), moved || is_crossing(part.end));
     }
 
-    /// The vertices at whose abscissae a piece is cut, in order along it, equal abscissae once.
-    fn ordered(&self, piece: Piece, cuts: &[CutAt]) -> Vec<u32> {
+    /// The vertices at whose abscissae a part is cut, in order along it, equal abscissae once.
+    fn ordered(&self, part: Part, cuts: &[CutAt]) -> Vec<u32> {
         if cuts.is_empty() {
             return Vec::new();
         }
         let mut vertices: Vec<u32> = cuts.iter().map(|cut| cut.1).collect();
         vertices.sort_by(|&a, &b| self.compare_abscissae(a, b));
         vertices.dedup_by(|a, b| self.compare_abscissae(*a, *b) == Ordering::Equal);
-        if self.compare_abscissae(piece.start, piece.end) == Ordering::Greater {
+        if self.compare_abscissae(part.start, part.end) == Ordering::Greater {
             vertices.reverse();
         }
         vertices
     }
 
     fn abscissa(&self, vertex: u32) -> Abscissa {
-        Abscissa { vertex, rounded: self.selection.point(self.edges, vertex).x }
+        Abscissa { vertex, rounded: self.point(vertex).x }
     }
 
     /// The exact x of a vertex.
     fn exact_abscissa(&self, vertex: u32) -> Ratio {
-        match self.contacts.crossing(vertex) {
+        match self.crossing(vertex) {
             None => Ratio::from_f64(self.edges.point(vertex).x),
             Some([e, f]) => {
                 let [x, _] = crossing_ratio(self.edges.segment(e), self.edges.segment(f));
@@ -199,20 +315,20 @@ impl Repair<'_> {
         }
     }
 
-    /// The point of the piece's edge at a vertex's abscissa, rounded.
-    fn cut_point(&self, piece: Piece, vertex: u32) -> DVec2 {
-        let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(piece.edge));
+    /// The point of the part's edge at a vertex's abscissa, rounded.
+    fn cut_point(&self, part: Part, vertex: u32) -> DVec2 {
+        let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(part.edge));
         DVec2::new(self.abscissa(vertex).rounded, y.to_f64())
     }
 
-    /// Cuts the pieces of conflicting fragments at each other's ends; whether that added any cut.
+    /// Cuts the parts of conflicting fragments at each other's ends; whether that added any cut.
     fn add_cuts(&self, mending: &mut Mending) -> bool {
         let mut added: Vec<CutAt> = Vec::new();
         for &[i, j] in &mending.conflicts {
             let (f, g) = (&mending.fragments[i as usize], &mending.fragments[j as usize]);
             for (fragment, vertex) in [(f, g.ends[0]), (f, g.ends[1]), (g, f.ends[0]), (g, f.ends[1])] {
                 if self.is_strictly_between(fragment.ends, vertex) {
-                    added.push((fragment.piece, vertex));
+                    added.push((fragment.part, vertex));
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! The buffers of all stages.
 
 use crate::arrangement::Arrangement;
+use crate::chains::Chains;
 use crate::contacts::Contacts;
+use crate::copies::Copies;
 use crate::edges::Edges;
 use crate::labels::Labels;
 use crate::link::Cycles;
@@ -10,6 +12,7 @@ use crate::outline::Outline;
 use crate::repair::Mending;
 use crate::select::Selection;
 use crate::strips::Strips;
+use crate::suspects::Suspects;
 use crate::truth::Truth;
 
 /// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
@@ -28,7 +31,10 @@ use crate::truth::Truth;
 pub struct Scratch {
     pub(crate) truth: Truth,
     pub(crate) edges: Edges,
+    pub(crate) chains: Chains,
+    pub(crate) copies: Copies,
     pub(crate) strips: Strips,
+    pub(crate) suspects: Suspects,
     pub(crate) contacts: Contacts,
     pub(crate) arrangement: Arrangement,
     pub(crate) labels: Labels,

@@ -1,30 +1,94 @@
-//! Stage 6: the sub-edges whose two sides differ, directed with the interior to the left, each vertex rounded once.
+//! Stage 6: the arcs whose two sides differ, directed with the interior to the left, each vertex rounded once.
 
-use crate::arrangement::Arrangement;
-use crate::contacts::Contacts;
-use crate::edges::Edges;
+use crate::arrangement::{Arrangement, Node};
+use crate::contacts::{Contacts, Place};
+use crate::edges::{Edges, Ring};
 use crate::labels::Labels;
 use crate::membership::Membership;
 use crate::predicates::crossing_point;
+use crate::truth::index;
 use glam::DVec2;
+use std::ops::Range;
 
-/// A directed piece of the boundary: two vertices and the edge that it lies on.
+/// A directed piece of the boundary: a part of one ring, from node to node or all of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
-    pub(crate) start: u32,
-    pub(crate) end: u32,
-    pub(crate) edge: u32,
+    pub(crate) ring: u32,
+    /// The nodes where it starts and ends in the ring's direction; none for a whole ring.
+    pub(crate) nodes: Option<[u32; 2]>,
+    /// The edge on which it starts, in the ring's direction; of a whole ring the last one.
+    first_edge: u32,
+    /// The ring's vertices inside the piece, in order: at most two spans of slots.
+    inner: [[u32; 2]; 2],
+    /// Whether the interior lies to the left of the ring; else the piece runs against it.
+    pub(crate) along: bool,
+}
+
+impl Piece {
+    fn whole(ring: u32, about: Ring, along: bool) -> Piece {
+        let inner = [[about.start, about.end - 1], [0, 0]];
+        Piece { ring, nodes: None, first_edge: about.end - 1, inner, along }
+    }
+
+    /// The spans of slots of the vertices inside, in the ring's order.
+    pub(crate) fn inner(&self) -> [Range<usize>; 2] {
+        self.inner.map(|[start, end]| start as usize..end as usize)
+    }
+
+    /// Its edges, as spans.
+    pub(crate) fn edge_spans(&self) -> [Range<u32>; 3] {
+        let [a, b] = self.inner;
+        [self.first_edge..self.first_edge + 1, a[0]..a[1], b[0]..b[1]]
+    }
+
+    /// Where the part on an edge of one of its spans starts and ends, in the ring's direction.
+    pub(crate) fn ends_on(&self, span: usize, edge: u32, about: Ring) -> [End; 2] {
+        let spans = self.edge_spans();
+        let is_last = edge + 1 == spans[span].end && spans[span + 1..].iter().all(Range::is_empty);
+        let (start, end) = (End::Vertex(edge), End::Vertex(about.next(edge)));
+        match self.nodes {
+            Some([from, to]) => {
+                [if span == 0 { End::Node(from) } else { start }, if is_last { End::Node(to) } else { end }]
+            }
+            None => [start, end],
+        }
+    }
+
+    /// Its edges, in the ring's order.
+    pub(crate) fn edges(&self) -> impl DoubleEndedIterator<Item = u32> + Clone + use<> {
+        let [a, b] = self.inner;
+        std::iter::once(self.first_edge).chain(a[0]..a[1]).chain(b[0]..b[1])
+    }
+}
+
+/// Where a piece's part on one edge ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum End {
+    Vertex(u32),
+    Node(u32),
 }
 
 /// The boundary's pieces and the rounded crossings.
 #[derive(Debug, Default)]
 pub(crate) struct Selection {
     pieces: Vec<Piece>,
-    /// The number of explicit vertices; beyond them `rounded` and `degree` are indexed.
-    explicit: usize,
+    /// Per node its point if it is a crossing where a piece ends.
     rounded: Vec<DVec2>,
-    /// How many pieces start in each crossing; two are as good as more.
-    degree: Vec<u8>,
+}
+
+/// A run of selected arcs, being built: from the start of one arc to that of another.
+#[derive(Clone, Copy)]
+struct Run {
+    start: u32,
+    end: u32,
+    along: bool,
+}
+
+struct Select<'a> {
+    edges: &'a Edges,
+    contacts: &'a Contacts,
+    arrangement: &'a Arrangement,
+    labels: &'a Labels,
 }
 
 impl Selection {
@@ -39,85 +103,61 @@ impl Selection {
         arrangement: &Arrangement,
         labels: &Labels,
     ) {
+        let select = Select { edges, contacts, arrangement, labels };
         self.pieces.clear();
-        self.explicit = edges.len();
-        let crossings = contacts.vertex_count() - edges.len();
-        self.degree.clear();
-        self.degree.resize(crossings, 0);
-        self.count_degrees(arrangement, labels);
-        for edge in edges.ids() {
-            self.select_along(edge, arrangement, labels);
+        for ring in 0..index(edges.rings().len()) {
+            select.select_along(ring, &mut self.pieces);
         }
-        self.round(edges, contacts, crossings);
+        self.round(edges, contacts);
     }
 
     pub(crate) fn pieces(&self) -> &[Piece] {
         &self.pieces
     }
 
-    /// Where a vertex of a piece lies, rounded.
+    /// Where a piece's node lies, rounded.
     #[inline]
-    pub(crate) fn point(&self, edges: &Edges, vertex: u32) -> DVec2 {
-        match self.crossing_index(vertex) {
-            None => edges.point(vertex),
-            Some(i) => self.rounded[i],
+    pub(crate) fn node_point(&self, edges: &Edges, contacts: &Contacts, node: u32) -> DVec2 {
+        match contacts.place(node) {
+            Place::Vertex(vertex) => edges.point(vertex),
+            Place::Crossing(..) => self.rounded[node as usize],
         }
     }
 
-    /// Whether the vertex is a crossing, which rounding may have moved.
-    #[inline]
-    pub(crate) fn is_crossing(&self, vertex: u32) -> bool {
-        vertex as usize >= self.explicit
-    }
-
-    fn crossing_index(&self, vertex: u32) -> Option<usize> {
-        (vertex as usize).checked_sub(self.explicit)
-    }
-
-    fn count_degrees(&mut self, arrangement: &Arrangement, labels: &Labels) {
-        for sub in arrangement.live() {
-            let start = directed(arrangement, labels, sub).map(|[start, _]| start);
-            if let Some(i) = start.and_then(|start| self.crossing_index(start)) {
-                self.degree[i] = self.degree[i].saturating_add(1);
+    /// Of a piece the points of its edges, in its own direction.
+    pub(crate) fn points<'a>(
+        &'a self,
+        edges: &'a Edges,
+        contacts: &'a Contacts,
+        piece: Piece,
+    ) -> impl Iterator<Item = DVec2> + Clone + 'a {
+        let along = piece.along;
+        let ends = match piece.nodes {
+            Some(nodes) => nodes.map(|node| self.node_point(edges, contacts, node)),
+            None => [edges.point(piece.first_edge); 2],
+        };
+        let [a, b] = piece.inner();
+        let count = a.len() + b.len() + 1;
+        let inner =
+            move |i: usize| edges.points()[if i < a.len() { a.start + i } else { b.start + i - a.len() }];
+        (0..=count).map(move |i| {
+            let i = if along { i } else { count - i };
+            if i == 0 {
+                ends[0]
+            } else if i < count {
+                inner(i - 1)
+            } else {
+                ends[1]
             }
-        }
+        })
     }
 
-    fn select_along(&mut self, edge: u32, arrangement: &Arrangement, labels: &Labels) {
-        let mut last: Option<Piece> = None;
-        for sub in arrangement.of_edge(edge) {
-            let selected = (arrangement.stand_in(sub) == sub)
-                .then(|| directed(arrangement, labels, sub))
-                .flatten()
-                .map(|[start, end]| Piece { start, end, edge });
-            match (last, selected) {
-                (Some(a), Some(b)) if a.end == b.start && self.passes_through(a.end) => {
-                    last = Some(Piece { end: b.end, ..a });
-                }
-                (Some(a), Some(b)) if b.end == a.start && self.passes_through(a.start) => {
-                    last = Some(Piece { start: b.start, ..a });
-                }
-                _ => {
-                    self.pieces.extend(last);
-                    last = selected;
-                }
-            }
-        }
-        self.pieces.extend(last);
-    }
-
-    /// A crossing at which one piece ends and one starts.
-    fn passes_through(&self, vertex: u32) -> bool {
-        self.crossing_index(vertex).is_some_and(|i| self.degree[i] == 1)
-    }
-
-    fn round(&mut self, edges: &Edges, contacts: &Contacts, crossings: usize) {
+    fn round(&mut self, edges: &Edges, contacts: &Contacts) {
         self.rounded.clear();
-        self.rounded.resize(crossings, DVec2::NAN);
-        for piece in &self.pieces {
-            for vertex in [piece.start, piece.end] {
-                let Some([e, f]) = contacts.crossing(vertex) else { continue };
-                let place = &mut self.rounded[vertex as usize - self.explicit];
+        self.rounded.resize(contacts.node_count(), DVec2::NAN);
+        for node in self.pieces.iter().filter_map(|piece| piece.nodes).flatten() {
+            if let Place::Crossing(e, f) = contacts.place(node) {
+                let place = &mut self.rounded[node as usize];
                 if place.is_nan() {
                     *place = crossing_point(edges.segment(e), edges.segment(f));
                 }
@@ -126,11 +166,89 @@ impl Selection {
     }
 }
 
-/// The ends of a sub-edge of the boundary, directed with the interior to the left.
-fn directed(arrangement: &Arrangement, labels: &Labels, sub: u32) -> Option<[u32; 2]> {
-    match labels.of(sub) {
-        Membership::OnPlus => Some([arrangement.tail(sub), arrangement.head(sub)]),
-        Membership::OnMinus => Some([arrangement.head(sub), arrangement.tail(sub)]),
-        Membership::In | Membership::Out => None,
+impl Select<'_> {
+    fn select_along(&self, ring: u32, pieces: &mut Vec<Piece>) {
+        let arcs = self.arrangement.of_ring(ring);
+        let about = self.edges.rings()[ring as usize];
+        if arcs.is_empty() {
+            let whole = self.along(index(self.arrangement.len()) + ring);
+            pieces.extend(whole.map(|along| Piece::whole(ring, about, along)));
+            return;
+        }
+        let first = pieces.len();
+        let mut run: Option<Run> = None;
+        let mut first_run: Option<Run> = None;
+        let mut put = |run: Run| {
+            // The first run may yet be found to continue the last one.
+            if run.start == arcs.start && first_run.is_none() {
+                first_run = Some(run)
+            } else {
+                pieces.push(self.piece(ring, run))
+            }
+        };
+        for arc in arcs.clone() {
+            let next = if arc + 1 == arcs.end { arcs.start } else { arc + 1 };
+            let along = self.along(arc);
+            run = match (run, along) {
+                (Some(run), Some(along)) if run.along == along && self.passes_through(arc, arc - 1) => {
+                    Some(Run { end: next, ..run })
+                }
+                (before, along) => {
+                    before.into_iter().for_each(&mut put);
+                    along.map(|along| Run { start: arc, end: next, along })
+                }
+            };
+        }
+        match (first_run, run) {
+            (None, Some(run)) if run.start == arcs.start && run.end == arcs.start => {
+                let whole = self.passes_through(arcs.start, arcs.end - 1);
+                pieces.push(if whole { Piece::whole(ring, about, run.along) } else { self.piece(ring, run) });
+            }
+            (Some(a), Some(b)) if a.along == b.along && self.passes_through(arcs.start, arcs.end - 1) => {
+                pieces.push(self.piece(ring, Run { start: b.start, ..a }));
+            }
+            (a, b) => pieces.extend(a.into_iter().chain(b).map(|run| self.piece(ring, run))),
+        }
+        debug_assert!(pieces.len() >= first);
+    }
+
+    /// Whether an arc is selected, and its ring's direction then.
+    #[inline]
+    fn along(&self, arc: u32) -> Option<bool> {
+        match self.labels.of(arc) {
+            Membership::OnPlus => Some(true),
+            Membership::OnMinus => Some(false),
+            Membership::In | Membership::Out => None,
+        }
+    }
+
+    /// Whether between two selected arcs of a ring there is only a crossing, and nothing else selected.
+    fn passes_through(&self, arc: u32, before: u32) -> bool {
+        let selected = |arc: u32| self.along(arc).is_some();
+        match self.arrangement.met(arc) {
+            Node::Crossing(other) => {
+                !selected(other) && !selected(self.arrangement.previous(self.edges, other))
+            }
+            Node::Junction(junction) => {
+                let others = self.arrangement.span(junction).map(|place| self.arrangement.around(place));
+                let mut others =
+                    others.filter(|&half_edge| half_edge != 2 * arc && half_edge != 2 * before + 1);
+                matches!(self.contacts.place(self.arrangement.node(arc)), Place::Crossing(..))
+                    && !others.any(|half_edge| selected(half_edge >> 1))
+            }
+        }
+    }
+
+    fn piece(&self, ring: u32, run: Run) -> Piece {
+        let about = self.edges.rings()[ring as usize];
+        let (first_edge, last_edge) = (self.arrangement.edge(run.start), self.arrangement.edge(run.end));
+        let end = last_edge + u32::from(!self.arrangement.starts_edge(run.end));
+        let inner = if run.end > run.start {
+            [[first_edge + 1, end.max(first_edge + 1)], [0, 0]]
+        } else {
+            [[first_edge + 1, about.end.max(first_edge + 1)], [about.start, end]]
+        };
+        let nodes = Some([run.start, run.end].map(|arc| self.arrangement.node(arc)));
+        Piece { ring, nodes, first_edge, inner, along: run.along }
     }
 }

@@ -23,10 +23,6 @@ impl UnionFind {
         id
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.parent.len()
-    }
-
     #[inline]
     pub(crate) fn find(&self, mut id: u32) -> u32 {
         loop {

@@ -4,13 +4,12 @@ use crate::predicates::{Segment, Side, is_inside, side};
 use crate::region::{Invalid, Region};
 use crate::rings::ring_edges;
 use crate::strips::Strips;
-use crate::truth::index;
 
 /// See [`Region::validate`].
 pub(crate) fn validate(region: &Region) -> Result<(), Invalid> {
     let edges: Vec<Segment> = region.rings().flat_map(ring_edges).collect();
     let mut strips = Strips::default();
-    strips.build(edges.iter().enumerate().map(|(i, &e)| (index(i), e)));
+    strips.build(edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]));
     let mut contact = None;
     strips.pairs(|i, j| {
         if contact.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {

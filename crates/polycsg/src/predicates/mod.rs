@@ -24,7 +24,7 @@ pub(crate) use exact::Ratio;
 pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
 };
-pub(crate) use orient::{Side, doubled_area, side, side_of, turn};
+pub(crate) use orient::{Area, Side, doubled_area, side, side_of, turn};
 pub(crate) use parameter::Parameter;
 pub(crate) use round::{crossing_point, crossing_ratio};
 

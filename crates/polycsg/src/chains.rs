@@ -1,0 +1,173 @@
+//! Stage 2: runs of a ring's edges that lead from left to right or from right to left, with their boxes.
+//!
+//! ```text
+//!        ______            Lexicographically monotone: x never turns back (upright edges lead upward or downward,
+//!   ____/  |   \___        all of a chain the same way). So the edges of one chain meet in their common ends only,
+//!   chain 1|   chain 2     at every abscissa a chain has one edge, and two chains are compared by one pass along x.
+//! ```
+
+use crate::predicates::{Segment, lexicographic};
+use crate::truth::index;
+use glam::DVec2;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// More edges make a chain's box too large to tell anything.
+pub(crate) const LONGEST: u32 = 16;
+
+/// A run of edges and its box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chain {
+    /// The slots of its points, in the order of the ring.
+    first: u32,
+    last: u32,
+    rightward: bool,
+    pub(crate) low: DVec2,
+    pub(crate) high: DVec2,
+}
+
+impl Chain {
+    /// The number of its edges.
+    #[inline]
+    pub(crate) fn len(&self) -> u32 {
+        self.last - self.first
+    }
+
+    /// The i-th edge from the left.
+    #[inline]
+    pub(crate) fn edge(&self, i: u32) -> u32 {
+        if self.rightward { self.first + i } else { self.last - 1 - i }
+    }
+
+    /// The slot of the i-th point from the left.
+    #[inline]
+    pub(crate) fn slot(&self, i: u32) -> u32 {
+        if self.rightward { self.first + i } else { self.last - i }
+    }
+
+    #[inline]
+    fn point(&self, points: &[DVec2], i: u32) -> DVec2 {
+        points[self.slot(i) as usize]
+    }
+
+    /// The edge, as an index and directed to the right, whose leftmost end lies at or left of `x` and whose rightmost end lies right of it.
+    pub(crate) fn edge_at(&self, points: &[DVec2], x: f64) -> Option<(u32, Segment)> {
+        let right = (0..=self.len()).find(|&i| self.point(points, i).x > x)?;
+        let i = right.checked_sub(1)?;
+        Some((self.edge(i), [self.point(points, i), self.point(points, right)]))
+    }
+
+    /// Calls `visit` for each edge of this chain and each of another whose boxes meet.
+    #[inline]
+    pub(crate) fn meet(&self, other: &Chain, points: &[DVec2], mut visit: impl FnMut(u32, u32)) {
+        let (low, high) = (self.low.max(other.low), self.high.min(other.high));
+        let mut first = 0;
+        for i in 0..self.len() {
+            let (a, b) = (self.point(points, i), self.point(points, i + 1));
+            if b.x < low.x {
+                continue;
+            }
+            if a.x > high.x {
+                return;
+            }
+            let (bottom, top) = (a.y.min(b.y), a.y.max(b.y));
+            if bottom > high.y || top < low.y {
+                continue;
+            }
+            while first < other.len() && other.point(points, first + 1).x < a.x {
+                first += 1;
+            }
+            for j in first..other.len() {
+                let (c, d) = (other.point(points, j), other.point(points, j + 1));
+                if c.x > b.x {
+                    break;
+                }
+                if c.y.min(d.y) <= top && c.y.max(d.y) >= bottom {
+                    visit(self.edge(i), other.edge(j));
+                }
+            }
+        }
+    }
+}
+
+/// The chains of rings, ring by ring.
+#[derive(Debug, Default)]
+pub(crate) struct Chains {
+    chains: Vec<Chain>,
+    /// Per ring its lexicographically smallest vertex.
+    leftmost: Vec<u32>,
+}
+
+impl Chains {
+    /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
+    pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.chains.clear();
+        self.leftmost.clear();
+        for slots in rings {
+            self.add_ring(points, slots);
+        }
+    }
+
+    /// The lower left and upper right corner of each chain's box.
+    pub(crate) fn boxes(&self) -> impl Iterator<Item = [DVec2; 2]> + Clone + '_ {
+        self.chains.iter().map(|chain| [chain.low, chain.high])
+    }
+
+    #[inline]
+    pub(crate) fn chain(&self, chain: u32) -> &Chain {
+        &self.chains[chain as usize]
+    }
+
+    /// The lexicographically smallest vertex of a ring, the first if there are several.
+    pub(crate) fn leftmost(&self, ring: u32) -> u32 {
+        self.leftmost[ring as usize]
+    }
+
+    /// The largest absolute coordinate.
+    pub(crate) fn size(&self) -> f64 {
+        let largest = |size: f64, p: DVec2| p.abs().max_element().max(size);
+        self.chains.iter().flat_map(|chain| [chain.low, chain.high]).fold(0.0, largest)
+    }
+
+    fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>) {
+        let last = slots.end - 1;
+        let mut leftmost = slots.start;
+        let mut start = slots.start;
+        while start < last {
+            let chain = longest_chain(points, start, last);
+            let left = chain.slot(0);
+            if lexicographic(points[left as usize], points[leftmost as usize]) == Ordering::Less {
+                leftmost = left;
+            }
+            self.chains.push(chain);
+            start = chain.last;
+        }
+        self.leftmost.push(if leftmost == last { slots.start } else { leftmost });
+    }
+}
+
+/// The longest chain from a slot on.
+#[inline]
+fn longest_chain(points: &[DVec2], first: u32, ring_end: u32) -> Chain {
+    let (a, mut b) = (points[first as usize], points[first as usize + 1]);
+    let rightward = lexicographic(a, b) == Ordering::Less;
+    let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
+    let mut last = first + 1;
+    let end = ring_end.min(first + LONGEST);
+    while last < end {
+        let c = points[last as usize + 1];
+        if (lexicographic(b, c) == Ordering::Less) != rightward {
+            break;
+        }
+        (bottom, top) = (bottom.min(c.y), top.max(c.y));
+        b = c;
+        last += 1;
+    }
+    let (left, right) = if rightward { (a.x, b.x) } else { (b.x, a.x) };
+    Chain { first, last, rightward, low: DVec2::new(left, bottom), high: DVec2::new(right, top) }
+}
+
+/// A span of slots in 32 bits.
+pub(crate) fn span(slots: Range<usize>) -> Range<u32> {
+    index(slots.start)..index(slots.end)
+}
