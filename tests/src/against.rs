@@ -119,6 +119,32 @@ fn check_area(region: &Region, outline: &Outline<'_>) -> Result<(), String> {
     if error > reach { Err(format!("area off by {error}, rounding reaches {reach}")) } else { Ok(()) }
 }
 
+/// Checks that a region is the set that `combine` makes of the operands, but for what rounding its vertices can move.
+///
+/// The area between the two, exactly: what is lost, added or misplaced counts, however small the sum of all is.
+pub fn check_set(
+    region: &Region,
+    operands: &[Operand],
+    combine: impl Fn(&[Class]) -> Class,
+) -> Result<(), String> {
+    let all: Vec<Operand> = operands.iter().cloned().chain([operand(region)]).collect();
+    let arrangement = Arrangement::of(&all);
+    let [exact, between] = [false, true].map(|is_compared| {
+        arrangement.outline(|classes| {
+            let (given, found) = classes.split_at(operands.len());
+            let class = combine(given);
+            if is_compared { class.symmetric_difference(found[0]) } else { class }
+        })
+    });
+    let reach = exact.area_of_one_ulp();
+    let area = between.area();
+    if area > reach {
+        Err(format!("{area} lies between it and the exact set, rounding reaches {reach}"))
+    } else {
+        Ok(())
+    }
+}
+
 fn difference(found: &[[DVec2; 2]], expected: &[[DVec2; 2]]) -> String {
     let only = |a: &[[DVec2; 2]], b: &[[DVec2; 2]]| {
         a.iter()

@@ -143,6 +143,8 @@ impl<'a> Csg<'a> {
             postfix.append(&mut operand.into().postfix);
             count += 1;
         }
+        // Nothing combines to the empty set, which as an operand is not the same as no operand at all.
+        let operator = if count == 0 { Operator::Union } else { operator };
         postfix.push(Token::Operator(operator, count));
         Csg { postfix }
     }
