@@ -2,7 +2,9 @@
 pub mod collada;
 mod error;
 pub mod glb;
+mod image;
 mod save;
+mod surface;
 
 pub use error::{Error, Fault};
 pub use save::save;

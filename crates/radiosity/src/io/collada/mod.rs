@@ -10,12 +10,12 @@
 mod camera;
 mod compose;
 mod file;
+mod images;
 mod material;
 mod mesh_text;
 mod model;
 mod patches;
 mod primitive;
-mod split;
 mod transform;
 mod walk;
 mod write;
@@ -78,7 +78,9 @@ impl Collada {
     pub fn scene(&self) -> Result<Scene, Error> {
         self.with_file(|file| {
             let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
-            let patches = patches::patches(file, &instances, &mut warnings)?;
+            let folder = Path::new(&self.name).parent();
+            let mut images = images::Images::new(folder);
+            let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
             let cameras = camera::cameras(file, &sights, &mut warnings)?;
             Ok(Scene { patches, cameras, bands: 3, warnings, asset: asset(file)? })
         })
