@@ -9,6 +9,7 @@ pub use glam;
 
 mod error;
 pub mod expose;
+mod groups;
 mod interpolate;
 pub mod io;
 mod mesh;
@@ -20,4 +21,4 @@ mod solve;
 pub use error::Error;
 pub use mesh::{Element, Mesh};
 pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
-pub use solve::{Ledger, Options, Progress, Solution, solve};
+pub use solve::{Ledger, Method, Options, Progress, Solution, State, StateError, solve, solve_from};

@@ -1,6 +1,5 @@
 //! A progress bar on a terminal; nothing elsewhere.
 use indicatif::{ProgressBar, ProgressStyle};
-use radiosity::Progress;
 
 /// Shows how many of the decades between all power and the tolerance are behind.
 #[derive(Debug)]
@@ -22,10 +21,10 @@ impl Bar {
 
     /// Shows where the solver stands.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the bar's steps")]
-    pub(super) fn show(&self, progress: Progress) {
-        let done = progress.unshot.log10() / self.tolerance.log10();
+    pub(super) fn show(&self, shots: usize, unshot: f64) {
+        let done = unshot.log10() / self.tolerance.log10();
         self.bar.set_position((done.clamp(0.0, 1.0) * STEPS as f64) as u64);
-        self.bar.set_message(format!("{} shots, {:.2e} unshot", progress.shots, progress.unshot));
+        self.bar.set_message(format!("{} shots, {:.2e} unshot", shots, unshot));
     }
 
     /// Takes the bar off the screen.

@@ -1,6 +1,6 @@
 //! `radiosity solve`
 use super::{Failure, input, json, output, progress};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use output::{Findings, Output};
 use radiosity::{Options, Scene, Solution};
 use std::{ops::ControlFlow, path::PathBuf, process::ExitCode};
@@ -19,10 +19,13 @@ pub(super) struct Solve {
     /// About how many elements to cut the scene into
     #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().elements, value_parser = super::count)]
     pub(super) elements: usize,
-    /// Stop when the unshot power is at most this share of the emitted power
+    /// How to find the light
+    #[arg(long, value_enum, default_value_t = Method::Auto)]
+    pub(super) method: Method,
+    /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness
     #[arg(long, value_name = "SHARE", default_value_t = radiosity::Options::default().tolerance, value_parser = super::positive)]
     pub(super) tolerance: f64,
-    /// Split a shooter while it deviates from a uniform one by more than this share of the emitted power
+    /// Split a shooter while it deviates from a uniform one by more than this share of all power
     #[arg(long, value_name = "SHARE", default_value_t = radiosity::Options::default().spread, value_parser = super::positive)]
     pub(super) spread: f64,
     /// Stop after so many shots
@@ -39,6 +42,21 @@ pub(super) struct Solve {
     pub(super) width: u32,
 }
 
+/// `--method`
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Method {
+    /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
+    Auto,
+    /// Progressive refinement: the brightest piece shoots, again and again
+    Shoot,
+    /// The full matrix by Gaussian elimination: to check with, for some thousand elements
+    Matrix,
+    /// Conjugate gradients on symmetric exchange areas: for bright closed rooms
+    Cg,
+    /// GMRES on one-sided factors
+    Gmres,
+}
+
 /// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
 pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
@@ -49,7 +67,7 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     warn_of_darkness(&scene);
     let bar = progress::Bar::new(arguments.tolerance);
     let solution = radiosity::solve(&scene, &options(arguments), |progress| {
-        bar.show(progress);
+        bar.show(progress.shots, progress.unshot);
         ControlFlow::Continue(())
     });
     bar.clear();
@@ -70,13 +88,22 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
 
 /// One line for people.
 fn report(solution: &Solution) {
-    let (elements, shots, seconds) = (solution.mesh.elements.len(), solution.shots, solution.seconds);
-    eprintln!("{elements} elements, {shots} shots, {seconds:.1} s");
+    let (elements, seconds) = (solution.mesh.elements.len(), solution.seconds);
+    let (shots, products) = (solution.shots, solution.products);
+    eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s");
 }
 
 /// How the solver is asked.
 fn options(arguments: &Solve) -> Options {
+    let method = match arguments.method {
+        Method::Auto => radiosity::Method::Auto,
+        Method::Shoot => radiosity::Method::Shoot,
+        Method::Matrix => radiosity::Method::Matrix,
+        Method::Cg => radiosity::Method::Cg,
+        Method::Gmres => radiosity::Method::Gmres,
+    };
     Options {
+        method,
         elements: arguments.elements,
         tolerance: arguments.tolerance,
         spread: arguments.spread,
