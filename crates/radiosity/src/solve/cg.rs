@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 pub(super) fn conjugate_gradients(
     balance: &Balance<'_>,
     x: &mut [f64],
-    residual: &mut Vec<f64>,
+    residual: &mut [f64],
     mut watch: impl FnMut(&[f64], &[f64], f64) -> ControlFlow<()>,
 ) {
     let weight = |piece: usize| {
