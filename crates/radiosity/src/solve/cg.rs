@@ -23,7 +23,7 @@ pub(super) fn conjugate_gradients(
     let dot = |u: &[f64], v: &[f64]| -> f64 {
         weights.iter().zip(u.iter().zip(v)).map(|(weight, (u, v))| weight * u * v).sum()
     };
-    let mut direction = residual.clone();
+    let mut direction = residual.to_vec();
     let mut length = dot(residual, residual);
     while length > 0.0 && watch(x, residual, largest(residual)).is_continue() {
         let image = balance.apply(&direction);
