@@ -1,9 +1,10 @@
 //! Many polygons that see and hide each other.
 use crate::cull::Pyramid;
-use crate::exact::{form_factor_past, unseen};
-use crate::pool::Pool;
+use crate::exact::{by_csg, unseen};
+use crate::pool::{Buffers, Pool};
+use crate::quick::{self, Target};
 use crate::tree::Tree;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use crate::{DifferentialArea, FormFactor, PlanarPolygon, Stats};
 use std::cmp::Ordering;
 
 /// A set of polygons, each of which is a target and hides the others.
@@ -41,7 +42,16 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor(&self, from: &DifferentialArea, id: usize) -> FormFactor {
-        self.form_factor_to_part(from, id, &self.polygons[id])
+        self.find(from, id, &self.polygons[id]).0
+    }
+
+    /// [`Self::form_factor`], and what had to be looked at and what was left out to find it.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factor_with_stats(&self, from: &DifferentialArea, id: usize) -> (FormFactor, Stats) {
+        self.find(from, id, &self.polygons[id])
     }
 
     /// The form factor to `part`, a part of polygon `id` that lies in its plane; that polygon does not hide it.
@@ -52,20 +62,41 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
+        self.find(from, id, part).0
+    }
+
+    fn find(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> (FormFactor, Stats) {
+        let unhidden = Stats { none: 1, ..Stats::default() };
         if self.is_edge_on(from, id) {
-            return FormFactor::default();
+            return (FormFactor::default(), unhidden);
         }
         // Rounding may have put the part a last bit off the polygon's plane, which decides.
         let whole = &self.polygons[id];
         if whole.plane().side_of(from.position()) != Ordering::Greater {
-            return unseen(from, whole);
+            return (unseen(from, whole), unhidden);
         }
-        let slack = self.deviation + part.deviation();
-        let others = |pyramid: &Pyramid| {
-            let found = self.tree.find(|extent| pyramid.misses_box(extent, slack)).into_iter();
-            found.filter(|i| *i != id && !self.is_edge_on(from, *i)).map(|i| &self.polygons[i])
-        };
-        self.pool.lend(|scratch| form_factor_past(from, part, others, scratch))
+        self.pool.lend(|Buffers { quick, scratch, stats }| {
+            *stats = Stats::default();
+            let slack = self.deviation;
+            let near = |t: &Target| self.others(from, id, self.tree.find(|e| t.misses_box(e, slack)));
+            let found = quick::form_factor(from, part, near, quick, stats).unwrap_or_else(|| {
+                let slack = self.deviation + part.deviation();
+                let near = |p: &Pyramid| self.others(from, id, self.tree.find(|e| p.misses_box(e, slack)));
+                by_csg(from, part, near, scratch, stats)
+            });
+            (found, *stats)
+        })
+    }
+
+    /// Those of the polygons that can hide polygon `id`.
+    fn others(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        found: Vec<usize>,
+    ) -> impl Iterator<Item = &PlanarPolygon> {
+        let found = found.into_iter();
+        found.filter(move |i| *i != id && !self.is_edge_on(from, *i)).map(|i| &self.polygons[i])
     }
 
     /// Whether polygon `id` owns `from` or lies in the plane of the one that does.

@@ -1,0 +1,196 @@
+//! Convex polygons as dA sees them: edges, each with the plane through it and dA.
+use crate::polygon::ROUNDING;
+use glam::{DVec2, DVec3};
+
+/// A vertex of a convex polygon, and how far it may lie from where it stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) at: DVec3,
+    pub(super) slack: f64,
+}
+
+/// An edge as dA sees it, the polygon to its left.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    /// Its ends relative to dA, rounded.
+    pub(super) start: DVec3,
+    pub(super) end: DVec3,
+    /// From start to end, rounded once.
+    pub(super) along: DVec3,
+    /// The normal of its plane through dA, toward the polygon: `along x start`.
+    pub(super) inward: DVec3,
+    /// A bound on the error of `inward . p`, per component of p.
+    pub(super) doubt: DVec3,
+}
+
+/// A component of `inward` has the terms |along_j start_k| + |along_k start_j|. Rounding of both factors, the product and
+/// the difference takes less than 4.1 roundings of them, the dot product with a rounded vector less than 4.1 more.
+pub(super) const ERROR: f64 = 9.0 * ROUNDING;
+
+/// More than underflow can take from a product of three, for coordinates up to 2^200.
+pub(super) const UNDERFLOW: f64 = 1e-240;
+
+/// On which side of a plane a point is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Inside,
+    Outside,
+    Open,
+}
+
+impl Edge {
+    pub(super) fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
+        let (a, b) = (along.abs(), start.abs());
+        let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
+        let doubt = ERROR * terms;
+        Self { start, end, along, inward: along.cross(start), doubt }
+    }
+
+    /// How far inside a point is, relative to dA, and a bound on the error of that.
+    pub(super) fn depth(&self, point: DVec3) -> (f64, f64) {
+        (self.inward.dot(point), self.doubt.dot(point.abs()) + UNDERFLOW)
+    }
+
+    /// A lower bound on the angle that it spans: its sine, by more than the lengths.
+    pub(super) fn least_angle(&self) -> f64 {
+        self.inward.length() / (size(self.start) * size(self.end))
+    }
+
+    /// On which side of its plane a point lies.
+    pub(super) fn place(&self, point: DVec3) -> Place {
+        let (depth, doubt) = self.depth(point);
+        if depth > doubt {
+            Place::Inside
+        } else if depth < -doubt {
+            Place::Outside
+        } else {
+            Place::Open
+        }
+    }
+}
+
+/// The sum of the magnitudes of a vector's components.
+pub(super) fn size(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
+/// What the slopes of directions are measured by: a depth along one vector, and two axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub(super) forward: DVec3,
+    pub(super) axes: [usize; 3],
+}
+
+/// A rectangle of slopes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) low: DVec2,
+    pub(super) high: DVec2,
+}
+
+impl Extent {
+    const ALL: Self = Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
+
+    pub(super) fn join(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        self.low.x <= other.high.x
+            && other.low.x <= self.high.x
+            && self.low.y <= other.high.y
+            && other.low.y <= self.high.y
+    }
+
+    pub(super) fn holds(&self, other: &Self) -> bool {
+        self.low.cmple(other.low).all() && self.high.cmpge(other.high).all()
+    }
+}
+
+impl Frame {
+    /// A little around the slopes of a direction; everything where it does not lead forward well enough.
+    ///
+    /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
+    /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
+    fn slopes(&self, toward: DVec3) -> Extent {
+        let (depth, size) = (self.forward.dot(toward), size(self.forward));
+        if depth < 1e-3 * size * toward.abs().max_element() {
+            return Extent::ALL;
+        }
+        let [u, v, _] = self.axes;
+        let slopes = DVec2::new(toward[u], toward[v]) / depth;
+        let margin = DVec2::splat(1e-6 / size);
+        Extent { low: slopes - margin, high: slopes + margin }
+    }
+}
+
+/// Adds the edges of a convex polygon whose corners are counter-clockwise as `origin` sees them, and what is around each.
+pub(super) fn faces(
+    origin: DVec3,
+    frame: &Frame,
+    corners: &[Corner],
+    edges: &mut Vec<Edge>,
+    extents: &mut Vec<Extent>,
+) {
+    let Some(last) = corners.last() else { return };
+    let (mut before, mut start) = (last.at, last.at - origin);
+    let mut around = frame.slopes(start);
+    for corner in corners {
+        let end = corner.at - origin;
+        let slopes = frame.slopes(end);
+        if corner.at != before {
+            edges.push(Edge::new(start, end, corner.at - before));
+            extents.push(around.join(slopes));
+        }
+        (before, start, around) = (corner.at, end, slopes);
+    }
+}
+
+/// The cones of occluders: edges in a row, and where each cone's end.
+#[derive(Debug, Default)]
+pub(super) struct Cones {
+    edges: Vec<Edge>,
+    edge_extents: Vec<Extent>,
+    ends: Vec<usize>,
+    extents: Vec<Extent>,
+}
+
+impl Cones {
+    pub(super) fn clear(&mut self) {
+        self.edges.clear();
+        self.edge_extents.clear();
+        self.ends.clear();
+        self.extents.clear();
+    }
+
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them: its edges.
+    pub(super) fn push(&mut self, origin: DVec3, frame: &Frame, corners: &[Corner]) -> &[Edge] {
+        let first = self.edges.len();
+        faces(origin, frame, corners, &mut self.edges, &mut self.edge_extents);
+        let extent = self.edge_extents[first..].iter().copied().reduce(Extent::join);
+        self.extents.push(extent.unwrap_or(Extent::ALL));
+        self.ends.push(self.edges.len());
+        &self.edges[first..]
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    fn range(&self, cone: usize) -> std::ops::Range<usize> {
+        let start = if cone == 0 { 0 } else { self.ends[cone - 1] };
+        start..self.ends[cone]
+    }
+
+    pub(super) fn edges(&self, cone: usize) -> &[Edge] {
+        &self.edges[self.range(cone)]
+    }
+
+    pub(super) fn edge_extents(&self, cone: usize) -> &[Extent] {
+        &self.edge_extents[self.range(cone)]
+    }
+
+    pub(super) fn extent(&self, cone: usize) -> &Extent {
+        &self.extents[cone]
+    }
+}
