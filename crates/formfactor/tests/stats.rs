@@ -63,7 +63,7 @@ fn a_frame_needs_csg() {
 #[test]
 fn what_passes_through_the_targets_plane_is_clipped() {
     let board =
-        PlanarPolygon::new([[[0.1, -0.3, 1.0], [0.1, 0.4, 1.0], [0.2, 0.4, 3.0], [0.2, -0.3, 3.0]]]).unwrap();
+        PlanarPolygon::new([[[0.1, -0.3, 1.0], [0.1, 0.4, 1.0], [0.3, 0.4, 3.0], [0.3, -0.3, 3.0]]]).unwrap();
     let stats = stats(vec![board]);
     assert_eq!((stats.partial, stats.clipped), (1, 1));
 }
