@@ -55,6 +55,8 @@ pub struct Patch {
     /// Patches of one object with the same number are facets of one curved surface; none for a facet that is meant
     /// flat.
     pub smoothing: Option<usize>,
+    /// Whether it only stands in the way of light, and has no part in it otherwise.
+    pub only_blocks: bool,
     /// Where in the file it stands.
     pub origin: Origin,
 }
@@ -77,8 +79,9 @@ impl Patch {
         reflectance: Vec<f64>,
         emission: Vec<f64>,
     ) -> Patch {
-        let (name, texture, smoothing, origin) = (name.into(), None, None, Origin::default());
-        Patch { name, polygon, reflectance, emission, texture, smoothing, origin }
+        let name = name.into();
+        let (texture, smoothing, only_blocks, origin) = (None, None, false, Origin::default());
+        Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, origin }
     }
 
     /// The reflectance per band of a triangle on the patch: its own, or the mean of its texture there.

@@ -1,11 +1,11 @@
 //! Scenes from files.
 use super::Failure;
-use radiosity::{Scene, io::collada::Collada};
+use radiosity::{Scene, io::Source};
 use std::path::Path;
 
 /// Reads a scene and its file; prints what the reader had to say on stderr.
-pub(super) fn read(path: &Path) -> Result<(Scene, Collada), Failure> {
-    let source = Collada::open(path)?;
+pub(super) fn read(path: &Path) -> Result<(Scene, Source), Failure> {
+    let source = Source::open(path)?;
     let scene = source.scene()?;
     for warning in &scene.warnings {
         eprintln!("warning: {warning}");

@@ -3,7 +3,7 @@ use super::{Failure, solve::Solve};
 use radiosity::{
     Scene, Solution,
     expose::{self, Exposure},
-    io::{self, collada::Collada, glb},
+    io::{self, Source, gltf},
     picture,
 };
 use std::{
@@ -31,7 +31,7 @@ enum Kind {
 #[derive(Debug)]
 pub(super) struct Findings<'s> {
     pub(super) arguments: &'s Solve,
-    pub(super) source: &'s Collada,
+    pub(super) source: &'s Source,
     pub(super) scene: &'s Scene,
     pub(super) solution: &'s Solution,
     pub(super) figures: &'s str,
@@ -83,7 +83,7 @@ impl Findings<'_> {
 
     /// glTF binary.
     fn glb(&self) -> Result<Vec<u8>, Failure> {
-        Ok(glb::glb(self.scene, &self.solution.mesh, &self.colours(), self.exposure())?)
+        Ok(gltf::glb(self.scene, &self.solution.mesh, &self.colours(), self.exposure())?)
     }
 
     /// Red, green and blue radiosity at the vertices.

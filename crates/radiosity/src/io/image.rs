@@ -9,15 +9,20 @@ const MAX_TEXELS: u64 = 1 << 26;
 
 /// A picture from a `data:` address, or from a file whose name is relative to a folder.
 pub(super) fn fetch(address: &str, folder: Option<&Path>) -> Result<Image, String> {
+    let name = if address.starts_with("data:") { "embedded" } else { address };
+    decode(name, bytes(address, folder)?)
+}
+
+/// The bytes behind a `data:` address, or of a file whose name is relative to a folder.
+pub(super) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     if let Some(data) = address.strip_prefix("data:") {
         let (_, text) = data.split_once(";base64,").ok_or("its address is not in base64")?;
         let bytes = base64::engine::general_purpose::STANDARD.decode(text.trim());
-        return decode("embedded", bytes.map_err(|error| format!("its address is not in base64: {error}"))?);
+        return bytes.map_err(|error| format!("its address is not in base64: {error}"));
     }
     let path = local(address).ok_or("it is not a file of this machine; save it beside the scene")?;
     let folder = folder.ok_or("the scene is in no folder")?;
-    let bytes = std::fs::read(folder.join(&path)).map_err(|error| format!("{}: {error}", path.display()))?;
-    decode(address, bytes)
+    std::fs::read(folder.join(&path)).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// A path from an address: `file://` or none, `%20` and its like resolved.

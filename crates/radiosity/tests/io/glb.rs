@@ -1,7 +1,7 @@
 //! The binary glTF: its layout, and what a viewer finds in it.
 use crate::samples::{fans, file, node, scene};
 use radiosity::expose::Exposure;
-use radiosity::io::glb::glb;
+use radiosity::io::gltf::glb;
 use radiosity::{Mesh, Scene};
 use serde_json::Value;
 

@@ -33,6 +33,7 @@ pub(super) fn patches<'a>(
                 facets: &facets,
                 world: instance.visit.world,
                 finish,
+                two_sided: false,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
             };
             surfaces.add(&surface, warnings).map_err(|refusal| fault(file, primitive, refusal))?;

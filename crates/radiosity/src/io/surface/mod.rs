@@ -73,6 +73,8 @@ pub(super) struct Surface<'s> {
     /// From the node to the world.
     pub(super) world: DMat4,
     pub(super) finish: Finish,
+    /// Whether its back is a surface too.
+    pub(super) two_sided: bool,
     /// Which instance, which primitive of it.
     pub(super) origin: crate::Origin,
 }

@@ -36,6 +36,7 @@ struct Draft {
     number: usize,
     piece: Option<usize>,
     /// What follows the name: the side, where a surface has two.
+    side: &'static str,
     patch: Patch,
 }
 
@@ -77,12 +78,16 @@ impl Surfaces {
         let pieces = planar(&loops, polygon, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
         let texture = texture(&loops, facet, surface);
         let origin = Origin { polygon, ..surface.origin };
-        let draft = |(piece, polygon)| {
+        let draft = |(piece, polygon, side)| {
             let mut patch = finished(polygon, &surface.finish, texture.clone());
             (patch.origin, patch.smoothing) = (origin, smoothing);
-            Draft { base: surface.name.into(), number, piece, patch }
+            Draft { base: surface.name.into(), number, piece, side, patch }
         };
-        self.drafts.extend(pieces.into_iter().map(draft));
+        for (piece, polygon) in pieces {
+            let back = if surface.two_sided { turned(&polygon) } else { None };
+            self.drafts.push(draft((piece, polygon, "")));
+            self.drafts.extend(back.map(|polygon| draft((piece, polygon, ".back"))));
+        }
         Ok(())
     }
 
@@ -123,6 +128,7 @@ impl Surfaces {
                 None if counts[&draft.base] > 1 => format!("{}.{}", draft.base, draft.number),
                 None => draft.base,
             };
+            name.push_str(draft.side);
             while !taken.insert(name.clone()) {
                 name.push('\'');
             }
@@ -130,6 +136,12 @@ impl Surfaces {
         };
         self.drafts.into_iter().map(patch).collect()
     }
+}
+
+/// The same points seen from the other side.
+fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
+    let loops = polygon.loops().map(|points| points.iter().rev().copied().collect::<Vec<_>>());
+    PlanarPolygon::new(loops).ok()
 }
 
 /// A patch without a name; its reflectance is the texture's mean where it has one.

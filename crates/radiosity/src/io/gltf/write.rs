@@ -1,5 +1,5 @@
 //! glTF 2.0 binary: the lit mesh for any viewer.
-use super::Error;
+use super::super::Error;
 use crate::expose::Exposure;
 use crate::{Asset, Camera, Mesh, Scene};
 use glam::{DMat3, DMat4, DVec3};
