@@ -66,6 +66,19 @@ pub enum Error {
         /// How many the scene has.
         expected: usize,
     },
+    /// Two patches lie on each other, facing the same way: which one light meets is not said.
+    #[error(
+        "patches {first} and {second} overlap in one plane, {share:.3} of the smaller one; let `inspect --mend` cut one, \
+         or remove it"
+    )]
+    Overlap {
+        /// The one's name.
+        first: String,
+        /// The other's.
+        second: String,
+        /// Which part of the smaller patch lies on the larger one.
+        share: f64,
+    },
     /// A patch could not be cut into triangles.
     #[error("patch {patch}: no triangles: {reason}; simplify or remove the polygon")]
     Mesh {

@@ -9,6 +9,7 @@ pub use glam;
 
 mod error;
 pub mod expose;
+mod extent;
 mod groups;
 mod interpolate;
 pub mod io;

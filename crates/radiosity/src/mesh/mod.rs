@@ -9,7 +9,7 @@
 //! tree         the triangles in the order of a binary tree of zones and lattice cells
 //! outline      the polygon around any node of the tree: what a shooter looks like
 //! ```
-use crate::{Error, Scene};
+use crate::{Error, Scene, extent::Extent};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 
@@ -86,8 +86,9 @@ impl Subdivision {
         let spacing = (2.0 * area / elements.max(1) as f64).sqrt();
         let mut subdivision =
             Subdivision { nodes: vec![Node::default(); scene.patches.len()], ..Default::default() };
+        let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
         for (index, patch) in scene.patches.iter().enumerate() {
-            let contacts = contacts::contacts(scene, index, spacing);
+            let contacts = contacts::contacts(scene, &extents, index, spacing);
             subdivision
                 .add(index, &patch.polygon, &contacts, spacing)
                 .map_err(|source| source.of(&patch.name))?;

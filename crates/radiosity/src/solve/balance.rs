@@ -8,6 +8,8 @@ pub(super) struct Balance<'e> {
     pub(super) exchange: &'e Exchange,
     pub(super) emittance: Vec<f64>,
     pub(super) reflectance: Vec<f64>,
+    /// 1 − ρ, to all its digits.
+    absorptance: Vec<f64>,
     /// Of each piece's power per radiosity, what is received anywhere.
     received: Vec<f64>,
     /// And of that, what is absorbed.
@@ -15,16 +17,17 @@ pub(super) struct Balance<'e> {
 }
 
 impl<'e> Balance<'e> {
-    /// The balance of pieces that emit and reflect so much.
-    pub(super) fn new(exchange: &'e Exchange, emittance: Vec<f64>, reflectance: Vec<f64>) -> Balance<'e> {
+    /// The balance of pieces that emit and absorb so much.
+    pub(super) fn new(exchange: &'e Exchange, emittance: Vec<f64>, absorptance: Vec<f64>) -> Balance<'e> {
         let (mut received, mut absorbed) = (vec![0.0; emittance.len()], vec![0.0; emittance.len()]);
-        for (piece, (area, rho)) in exchange.areas.iter().zip(&reflectance).enumerate() {
+        for (piece, (area, kept)) in exchange.areas.iter().zip(&absorptance).enumerate() {
             for (sender, factor) in exchange.row(piece).iter().enumerate() {
                 received[sender] += area * factor;
-                absorbed[sender] += (1.0 - rho) * area * factor;
+                absorbed[sender] += kept * area * factor;
             }
         }
-        Balance { exchange, emittance, reflectance, received, absorbed }
+        let reflectance = absorptance.iter().map(|kept| 1.0 - kept).collect();
+        Balance { exchange, emittance, reflectance, absorptance, received, absorbed }
     }
 
     /// Power absorbed, and power that no piece receives, when the pieces send x.
@@ -53,8 +56,7 @@ impl<'e> Balance<'e> {
 
     /// 1 − ρΣF of a piece: the share of light that is absorbed or lost.
     pub(super) fn kept(&self, piece: usize) -> f64 {
-        let rho = self.reflectance[piece];
-        1.0 - rho + rho * self.exchange.lost[piece]
+        self.absorptance[piece] + self.reflectance[piece] * self.exchange.lost[piece]
     }
 
     /// ‖r‖∞ / (1 − max ρΣF): how far x may be from the solution, anywhere, when its residual is nowhere larger than

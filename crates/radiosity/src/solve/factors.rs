@@ -47,6 +47,11 @@ impl<'s> Factors<'s> {
         self.state.knows(self.fingerprint)
     }
 
+    /// Whether the column of a piece is known.
+    pub(super) fn is_known(&self, node: usize) -> bool {
+        self.state.column(self.fingerprint, node).is_some()
+    }
+
     /// The form factors from all elements to one piece. They never change, so they are kept while memory lasts.
     pub(super) fn column(&mut self, node: usize) -> Result<Arc<Column>, Error> {
         if let Some(column) = self.state.column(self.fingerprint, node) {

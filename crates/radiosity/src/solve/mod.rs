@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! check      refuse what has no solution: negative emission, reflectance above 1
+//! overlap    refuse patches that lie on each other
 //! mesh       patches into elements; each patch with a binary tree of pieces
 //! factors    column of exact form factors from every element's centroid to one piece; kept in the state
 //! rooms      which patches light reaches, and which of them close a room
@@ -33,6 +34,7 @@ mod gauss;
 mod gmres;
 mod ledger;
 mod light;
+mod overlap;
 mod relax;
 mod rooms;
 mod run;
@@ -159,7 +161,7 @@ pub struct Solution {
     /// there is none: a patch reflects all light.
     pub bound: Vec<f64>,
     /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. Not known for a run that was
-    /// stopped.
+    /// stopped, or where finding it would take longer than the solution.
     pub closure: Option<f64>,
     /// The largest relative change of a form factor that closure scaling made; none where nothing was scaled.
     pub scaling: Option<f64>,
@@ -220,6 +222,7 @@ pub fn solve_from(
 ) -> Result<Solution, Error> {
     let start = Instant::now();
     check::check(scene)?;
+    overlap::check(scene)?;
     let subdivision = Subdivision::new(scene, options.elements)?;
     let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
     let converged = match run.choose(scene)? {

@@ -78,7 +78,7 @@ fn solve_bands(run: &mut Run<'_>, exchange: &Exchange, method: Method) -> Contro
     solved
 }
 
-/// The balance of one band, with the pieces' mean emittance and reflectance.
+/// The balance of one band, with the pieces' mean emittance and absorptance.
 fn balance<'e>(run: &Run<'_>, exchange: &'e Exchange, band: usize) -> Balance<'e> {
     let light = &run.light;
     let mean = |values: &[f64]| {
@@ -88,7 +88,8 @@ fn balance<'e>(run: &Run<'_>, exchange: &'e Exchange, band: usize) -> Balance<'e
         }
         sums.iter().zip(&exchange.areas).map(|(sum, area)| sum / area).collect::<Vec<f64>>()
     };
-    Balance::new(exchange, mean(&light.emittance), mean(&light.reflectance))
+    let absorptance: Vec<f64> = light.reflectance.iter().map(|rho| 1.0 - rho).collect();
+    Balance::new(exchange, mean(&light.emittance), mean(&absorptance))
 }
 
 /// Solves one band from what x holds; again for the true residual while that helps.

@@ -10,6 +10,8 @@ pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 
 /// From this reflectance of a closed room on, solving for all pieces at once is quicker than shooting.
 const STIFF: f64 = 0.9;
+/// So many columns are found for the closure in any case.
+const FEW: usize = 64;
 
 /// What is solved, and how far it has come.
 pub(super) struct Run<'r> {
@@ -132,7 +134,7 @@ impl<'r> Run<'r> {
 
     /// The solution.
     pub(super) fn finish(mut self, scene: &Scene, converged: bool) -> Result<Solution, Error> {
-        let closure = if converged { Some(self.closure(scene.patches.len())?) } else { None };
+        let closure = if converged { self.closure(scene.patches.len())? } else { None };
         Ok(Solution {
             bands: self.light.bands,
             ledger: Ledger::new(&self.light, &self.shooters),
@@ -149,13 +151,18 @@ impl<'r> Run<'r> {
         })
     }
 
-    /// The largest |ΣF − 1| over the elements, for pieces that cover the patches once.
-    fn closure(&mut self, patches: usize) -> Result<f64, Error> {
+    /// The largest |ΣF − 1| over the elements, for pieces that cover the patches once. Not found where that takes more
+    /// columns than the solution did.
+    fn closure(&mut self, patches: usize) -> Result<Option<f64>, Error> {
         let mut whole = vec![true; patches];
         let mut pieces: Vec<usize> = self.shooters.front().collect();
         pieces.iter().for_each(|&node| whole[self.factors.subdivision.nodes[node].patch] = false);
         pieces.extend((0..patches).filter(|&patch| whole[patch]));
+        let missing = pieces.iter().filter(|&&node| !self.factors.is_known(node)).count();
+        if missing > (pieces.len() - missing).max(FEW) {
+            return Ok(None);
+        }
         let sums = self.factors.sums(pieces)?;
-        Ok(sums.iter().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max))
+        Ok(Some(sums.iter().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max)))
     }
 }

@@ -1,0 +1,4 @@
+//! What the solver promises, on scenes built here.
+mod build;
+mod extreme;
+mod stiff;
