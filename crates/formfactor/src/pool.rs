@@ -14,7 +14,7 @@ pub(crate) struct Buffers {
 
 /// Idle buffers. They carry nothing from one use to the next but their capacity, so that no result depends on them.
 #[derive(Debug, Default)]
-pub(crate) struct Pool(Mutex<Vec<Buffers>>);
+pub(crate) struct Pool(Mutex<Vec<Box<Buffers>>>);
 
 impl Pool {
     /// Runs `work` with buffers that no one else uses meanwhile.
@@ -25,7 +25,7 @@ impl Pool {
         result
     }
 
-    fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Buffers>> {
+    fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Box<Buffers>>> {
         // A panic elsewhere leaves whole buffers behind.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,6 +1,7 @@
 //! Convex polygons as dA sees them: edges, each with the plane through it and dA.
 use crate::polygon::ROUNDING;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3Swizzles};
+use std::ops::Range;
 
 /// A vertex of a convex polygon, and how far it may lie from where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -19,8 +20,13 @@ pub(super) struct Edge {
     pub(super) along: DVec3,
     /// The normal of its plane through dA, toward the polygon: `along x start`.
     pub(super) inward: DVec3,
-    /// A bound on the error of `inward . p`, per component of p.
+    /// A bound on the error of `inward . p`, per component of p, and the sum over the components.
     pub(super) doubt: DVec3,
+    pub(super) error: f64,
+    /// The larger size of the two ends.
+    reach: f64,
+    /// (|start| + |along|) |along|, in sums of components: no direction turns faster than by this over |inward|.
+    pub(super) spread: f64,
 }
 
 /// A component of `inward` has the terms |along_j start_k| + |along_k start_j|. Rounding of both factors, the product and
@@ -43,7 +49,31 @@ impl Edge {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
         let doubt = ERROR * terms;
-        Self { start, end, along, inward: along.cross(start), doubt }
+        let reach = size(start).max(size(end));
+        let spread = (size(start) + size(along)) * size(along);
+        Self {
+            start,
+            end,
+            along,
+            inward: along.cross(start),
+            doubt,
+            error: doubt.element_sum(),
+            reach,
+            spread,
+        }
+    }
+
+    /// Whether both ends of an edge lie on one side for certain, by a coarser bound: which one.
+    pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
+        let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
+        let doubt = self.error * edge.reach + UNDERFLOW;
+        if start > doubt && end > doubt {
+            Some(Place::Inside)
+        } else if start < -doubt && end < -doubt {
+            Some(Place::Outside)
+        } else {
+            None
+        }
     }
 
     /// How far inside a point is, relative to dA, and a bound on the error of that.
@@ -74,11 +104,13 @@ pub(super) fn size(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// What the slopes of directions are measured by: a depth along one vector, and two axes.
+/// What the slopes of directions are measured by: a depth along one vector, and two axes of three.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    pub(super) forward: DVec3,
-    pub(super) axes: [usize; 3],
+    forward: DVec3,
+    /// The sum of the magnitudes of its components.
+    size: f64,
+    dropped: usize,
 }
 
 /// A rectangle of slopes.
@@ -108,41 +140,51 @@ impl Extent {
 }
 
 impl Frame {
+    /// Slopes by the depth along `forward`, the axis `dropped` left out.
+    pub(super) fn new(forward: DVec3, dropped: usize) -> Self {
+        Self { forward, size: size(forward), dropped }
+    }
+
     /// A little around the slopes of a direction; everything where it does not lead forward well enough.
     ///
     /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
     /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
     fn slopes(&self, toward: DVec3) -> Extent {
-        let (depth, size) = (self.forward.dot(toward), size(self.forward));
-        if depth < 1e-3 * size * toward.abs().max_element() {
+        let depth = self.forward.dot(toward);
+        if depth < 1e-3 * self.size * toward.abs().max_element() {
             return Extent::ALL;
         }
-        let [u, v, _] = self.axes;
-        let slopes = DVec2::new(toward[u], toward[v]) / depth;
-        let margin = DVec2::splat(1e-6 / size);
+        let kept = match self.dropped {
+            0 => toward.yz(),
+            1 => toward.xz(),
+            _ => toward.xy(),
+        };
+        let (slopes, margin) = (kept / depth, DVec2::splat(1e-6 / self.size));
         Extent { low: slopes - margin, high: slopes + margin }
+    }
+
+    /// Around the slopes of each edge.
+    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Extent>) {
+        let Some(last) = edges.last() else { return };
+        let mut around = self.slopes(last.end);
+        for edge in edges {
+            let next = self.slopes(edge.end);
+            extents.push(around.join(next));
+            around = next;
+        }
     }
 }
 
-/// Adds the edges of a convex polygon whose corners are counter-clockwise as `origin` sees them, and what is around each.
-pub(super) fn faces(
-    origin: DVec3,
-    frame: &Frame,
-    corners: &[Corner],
-    edges: &mut Vec<Edge>,
-    extents: &mut Vec<Extent>,
-) {
+/// Adds the edges of a convex polygon whose corners are counter-clockwise as `origin` sees them.
+pub(super) fn faces(origin: DVec3, corners: &[Corner], edges: &mut Vec<Edge>) {
     let Some(last) = corners.last() else { return };
     let (mut before, mut start) = (last.at, last.at - origin);
-    let mut around = frame.slopes(start);
     for corner in corners {
         let end = corner.at - origin;
-        let slopes = frame.slopes(end);
         if corner.at != before {
             edges.push(Edge::new(start, end, corner.at - before));
-            extents.push(around.join(slopes));
         }
-        (before, start, around) = (corner.at, end, slopes);
+        (before, start) = (corner.at, end);
     }
 }
 
@@ -150,34 +192,43 @@ pub(super) fn faces(
 #[derive(Debug, Default)]
 pub(super) struct Cones {
     edges: Vec<Edge>,
-    edge_extents: Vec<Extent>,
     ends: Vec<usize>,
+    edge_extents: Vec<Extent>,
     extents: Vec<Extent>,
 }
 
 impl Cones {
     pub(super) fn clear(&mut self) {
         self.edges.clear();
-        self.edge_extents.clear();
         self.ends.clear();
+        self.edge_extents.clear();
         self.extents.clear();
     }
 
     /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them: its edges.
-    pub(super) fn push(&mut self, origin: DVec3, frame: &Frame, corners: &[Corner]) -> &[Edge] {
+    pub(super) fn push(&mut self, origin: DVec3, corners: &[Corner]) -> &[Edge] {
         let first = self.edges.len();
-        faces(origin, frame, corners, &mut self.edges, &mut self.edge_extents);
-        let extent = self.edge_extents[first..].iter().copied().reduce(Extent::join);
-        self.extents.push(extent.unwrap_or(Extent::ALL));
+        faces(origin, corners, &mut self.edges);
         self.ends.push(self.edges.len());
         &self.edges[first..]
+    }
+
+    /// Finds what is around every edge and every cone.
+    pub(super) fn measure(&mut self, frame: &Frame) {
+        let mut start = 0;
+        for end in &self.ends {
+            frame.measure(&self.edges[start..*end], &mut self.edge_extents);
+            let extent = self.edge_extents[start..].iter().copied().reduce(Extent::join);
+            self.extents.push(extent.unwrap_or(Extent::ALL));
+            start = *end;
+        }
     }
 
     pub(super) fn len(&self) -> usize {
         self.ends.len()
     }
 
-    fn range(&self, cone: usize) -> std::ops::Range<usize> {
+    fn range(&self, cone: usize) -> Range<usize> {
         let start = if cone == 0 { 0 } else { self.ends[cone - 1] };
         start..self.ends[cone]
     }

@@ -1,5 +1,5 @@
 //! Lambert's sum in plain doubles, with a bound.
-use super::cone::{Edge, size};
+use super::cone::{ERROR, Edge, size};
 use super::span::Span;
 use crate::polygon::ROUNDING;
 use crate::predicates::place;
@@ -29,11 +29,10 @@ pub(crate) fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> Option<
         if place(from.given_normal(), origin, point) == Ordering::Less {
             return None;
         }
-        let end = point - origin;
+        let (end, along) = (point - origin, point - before);
         if point != before {
-            let edge = Edge::new(start, end, point - before);
-            let line = sum.along(&edge, 1.0);
-            sum.add(&edge, &line, Span::WHOLE);
+            let line = sum.line(along.cross(start), ERROR * size(along) * size(start));
+            sum.add_angle(&line, line.sine.atan2(start.dot(end)), 0.0);
         }
         (before, start) = (point, end);
     }
@@ -54,25 +53,25 @@ pub(super) struct Sum {
 /// What the pieces of an edge have in common.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
-    /// |along x start|, and its relative error.
+    /// |along x start|, its inverse, and its relative error.
     sine: f64,
+    inverse: f64,
     turned: f64,
     /// The cosine between dA's normal and that of the plane.
-    cosine: f64,
+    pub(super) cosine: f64,
 }
 
 impl Line {
-    /// A bound on the angle by which the direction to `end` turns when its parameter errs by `error`.
+    /// A bound on the angle by which the directions to two ends turn in all when their parameters err by so much.
     ///
-    /// Per unit of the parameter it turns by sine / |end|^2, which is below `stretch` everywhere and known to a few
-    /// hundredths where the error itself turns it by no more than a hundredth.
-    fn turn(&self, end: DVec3, error: f64, stretch: f64) -> f64 {
-        if error == 0.0 {
-            0.0
-        } else if error * stretch < 0.01 {
-            1.05 * error * self.sine / end.length_squared()
+    /// Per unit of the parameter the direction to an end turns by sine / |end|^2, which is below `stretch` everywhere
+    /// and known to a few hundredths where the error itself turns it by no more than a hundredth.
+    fn turns(&self, [start, end]: [DVec3; 2], [first, last]: [f64; 2], stretch: f64) -> f64 {
+        if (first + last) * stretch < 0.01 {
+            let (near, far) = (start.length_squared(), end.length_squared());
+            1.05 * self.sine * (first * far + last * near) / (near * far)
         } else {
-            error * stretch
+            (first + last) * stretch
         }
     }
 }
@@ -82,30 +81,28 @@ impl Sum {
         Self { normal, value: 0.0, error: 0.0, terms: 0.0, count: 0.0 }
     }
 
-    /// Prepares an edge whose pieces count with this sign.
-    pub(super) fn along(&self, edge: &Edge, sign: f64) -> Line {
-        let sine = edge.inward.length();
-        Line {
-            sine,
-            turned: edge.doubt.element_sum() / sine,
-            cosine: sign * self.normal.dot(edge.inward) / sine,
-        }
+    /// What the parts of an edge in a plane with this normal have in common, the sum of whose components' errors is
+    /// within `doubt`.
+    pub(super) fn line(&self, inward: DVec3, doubt: f64) -> Line {
+        let sine = inward.length();
+        let inverse = 1.0 / sine;
+        Line { sine, inverse, turned: doubt * inverse, cosine: self.normal.dot(inward) * inverse }
+    }
+
+    /// A whole edge.
+    pub(super) fn add_whole(&mut self, edge: &Edge, line: &Line) {
+        self.add_angle(line, line.sine.atan2(edge.start.dot(edge.end)), 0.0);
     }
 
     /// A part of an edge, and what is not known about its ends.
-    pub(super) fn add(&mut self, edge: &Edge, line: &Line, part: Span) {
-        if part == Span::WHOLE {
-            self.add_angle(line, line.sine.atan2(edge.start.dot(edge.end)), 0.0);
-            return;
-        }
-        let stretch = (size(edge.start) + size(edge.along)) * size(edge.along) / line.sine;
-        let [start, end] = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
+    pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Span) {
+        let stretch = edge.spread * line.inverse;
+        let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
         if part.low.at < part.high.at {
-            let angle = ((part.high.at - part.low.at) * line.sine).atan2(start.dot(end));
+            let angle = ((part.high.at - part.low.at) * line.sine).atan2(ends[0].dot(ends[1]));
             self.add_angle(line, angle, 6.0 * ROUNDING * stretch * stretch);
         }
-        self.error +=
-            line.turn(start, part.low.error(), stretch) + line.turn(end, part.high.error(), stretch);
+        self.error += line.turns(ends, [part.low.error(), part.high.error()], stretch);
     }
 
     /// An angle spanned on a line. It and the cosine err by no more than 4.1/9 of `turned` each and some roundings; the

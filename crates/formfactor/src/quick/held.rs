@@ -1,5 +1,5 @@
 //! What a cone holds of an edge.
-use super::cone::Edge;
+use super::cone::{Edge, Place};
 use super::span::{Mark, Span};
 use crate::polygon::ROUNDING;
 
@@ -20,10 +20,16 @@ const CLEAR: f64 = 16.0;
 ///
 /// The parameter t = s / (s - e) of a crossing, from the depths s and e of start and end, errs by at most the larger one
 /// of their errors by |s - e|, 1.2 times since s - e itself is known to a sixteenth only, and by the roundings of t.
+#[inline(always)]
 pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
     let mut span = Span::WHOLE;
     let mut open = None;
     for plane in planes {
+        match plane.side_of(edge) {
+            Some(Place::Inside) => continue,
+            Some(_) => return Some(None),
+            None => (),
+        }
         let (start, start_doubt) = plane.depth(edge.start);
         let (end, end_doubt) = plane.depth(edge.end);
         if start > start_doubt && end > end_doubt {

@@ -23,15 +23,15 @@ pub(crate) use sieve::Target;
 
 use crate::stats::Stats;
 use crate::{DifferentialArea, FormFactor, PlanarPolygon};
-use cone::{Cones, Corner, Edge, Extent};
-use sieve::Sieved;
+use cone::{Cones, Corner, Edge};
+use sieve::{Side, Sieved};
 
 /// Buffers, to be used again.
 #[derive(Debug, Default)]
 pub(crate) struct Buffers {
     corners: [Vec<Corner>; 2],
     edges: Vec<Edge>,
-    extents: Vec<Extent>,
+    sides: Vec<Side>,
     cones: Cones,
     trace: trace::Buffers,
 }
@@ -47,8 +47,8 @@ pub(crate) fn form_factor<'a, I>(
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
-    let Buffers { corners, edges, extents, cones, trace } = buffers;
-    let target = Target::new(from, to, corners, edges, extents)?;
+    let Buffers { corners, edges, sides, cones, trace } = buffers;
+    let target = Target::new(from, to, corners, edges, sides)?;
     let mut error = target.error;
     cones.clear();
     for occluder in occluders(&target) {

@@ -1,6 +1,6 @@
 //! Which occluders can matter, as far as doubles decide it.
 use super::clip::clip;
-use super::cone::{Cones, Corner, ERROR, Edge, Extent, Frame, Place, UNDERFLOW, faces, size};
+use super::cone::{Cones, Corner, ERROR, Edge, Place, UNDERFLOW, faces, size};
 use crate::lambert::{Sight, swept};
 use crate::polygon::ROUNDING;
 use crate::predicates::{over_horizon, place, turn};
@@ -15,19 +15,42 @@ pub(crate) struct Target<'a> {
     pub(super) from: &'a DifferentialArea,
     pub(super) to: &'a PlanarPolygon,
     pub(super) edges: &'a [Edge],
-    pub(super) edge_extents: &'a [Extent],
-    pub(super) frame: Frame,
+    /// The half-spaces in which what hides must be.
+    sides: &'a [Side],
     /// What its vertices' roundings leave open.
     pub(super) error: f64,
 }
 
-/// A half-space around dA: normal . p + shift >= 0, each side of it known within `doubt` per component of p, and `least`.
+/// A half-space around dA: normal . p + shift >= 0, known within `doubt` by the size of p, and `least`.
 #[derive(Clone, Copy, Debug)]
-struct Side {
+pub(super) struct Side {
     normal: DVec3,
     shift: f64,
-    doubt: DVec3,
+    doubt: f64,
     least: f64,
+}
+
+impl Side {
+    /// The side of a target's plane that it faces.
+    fn before(to: &PlanarPolygon, origin: DVec3) -> Self {
+        let (normal, anchor) = (to.plane().rounded(), to.plane().corners[0] - origin);
+        let doubt = ERROR * normal.abs().max_element();
+        Self { normal, shift: -normal.dot(anchor), doubt, least: doubt * size(anchor) + UNDERFLOW }
+    }
+
+    fn above(from: &DifferentialArea) -> Self {
+        let normal = from.given_normal();
+        Self { normal, shift: 0.0, doubt: ERROR * normal.abs().max_element(), least: UNDERFLOW }
+    }
+
+    fn within(edge: &Edge) -> Self {
+        Self { normal: edge.inward, shift: 0.0, doubt: edge.doubt.max_element(), least: UNDERFLOW }
+    }
+
+    /// Whether a point is outside for certain, from the product with the normal and its size.
+    fn is_out(&self, product: f64, size: f64) -> bool {
+        product + self.shift < -self.doubt * size - self.least
+    }
 }
 
 /// What an occluder is found to be.
@@ -48,7 +71,7 @@ impl<'a> Target<'a> {
         to: &'a PlanarPolygon,
         [corners, spare]: &mut [Vec<Corner>; 2],
         edges: &'a mut Vec<Edge>,
-        extents: &'a mut Vec<Extent>,
+        sides: &'a mut Vec<Side>,
     ) -> Option<Self> {
         let (origin, normal) = (from.position(), from.given_normal());
         if !to.is_convex() || to.plane().quick_side(origin) != Some(Ordering::Greater) {
@@ -63,13 +86,13 @@ impl<'a> Target<'a> {
         if corners.iter().all(|c| height(c) != Ordering::Greater) {
             return None;
         }
-        let frame = Frame { forward: -to.plane().rounded(), axes: to.axes() };
         edges.clear();
-        extents.clear();
-        faces(origin, &frame, corners, edges, extents);
-        let blurred = blurred(origin, corners, edges)?;
-        let error = blurred + doubt::of_facing(origin, to);
-        Some(Self { from, to, edges, edge_extents: extents, frame, error })
+        faces(origin, corners, edges);
+        let error = blurred(origin, corners, edges)? + doubt::of_facing(origin, to);
+        sides.clear();
+        sides.extend([Side::before(to, origin), Side::above(from)]);
+        sides.extend(edges.iter().map(Side::within));
+        Some(Self { from, to, edges, sides, error })
     }
 
     /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons
@@ -77,37 +100,18 @@ impl<'a> Target<'a> {
     pub(crate) fn misses_box(&self, extent: &Box3, slack: f64) -> bool {
         let origin = self.from.position();
         let (low, high) = (extent.low - origin, extent.high - origin);
-        let size = low.abs().max(high.abs()) + slack * INVERSE;
-        let is_out = |side: &Side| {
-            (side.normal * low).max(side.normal * high).element_sum() + side.shift
-                < -side.doubt.dot(size) - side.least
-        };
-        self.sides().any(|side| is_out(&side))
+        let size = size(low.abs().max(high.abs())) + slack * INVERSE;
+        self.sides.iter().any(|side| {
+            let innermost = (side.normal * low).max(side.normal * high).element_sum();
+            side.is_out(innermost, size)
+        })
     }
 
     /// Whether a polygon is.
     fn misses(&self, occluder: &PlanarPolygon) -> bool {
-        let (origin, slack) = (self.from.position(), DVec3::splat(occluder.deviation() * INVERSE));
-        let is_out = |side: &Side, p: DVec3| {
-            side.normal.dot(p) + side.shift < -side.doubt.dot(p.abs() + slack) - side.least
-        };
-        self.sides().any(|side| occluder.points().iter().all(|p| is_out(&side, *p - origin)))
-    }
-
-    /// The half-spaces in which what hides must be.
-    fn sides(&self) -> impl Iterator<Item = Side> + '_ {
-        let (near, horizon) = (self.to.plane().rounded(), self.from.given_normal());
-        let anchor = self.to.plane().corners[0] - self.from.position();
-        let doubt = |normal: DVec3| ERROR * normal.abs();
-        let near = Side {
-            normal: near,
-            shift: -near.dot(anchor),
-            doubt: doubt(near),
-            least: doubt(near).dot(anchor.abs()) + UNDERFLOW,
-        };
-        let horizon = Side { normal: horizon, shift: 0.0, doubt: doubt(horizon), least: UNDERFLOW };
-        let edge = |e: &Edge| Side { normal: e.inward, shift: 0.0, doubt: e.doubt, least: UNDERFLOW };
-        [near, horizon].into_iter().chain(self.edges.iter().map(edge))
+        let (origin, slack) = (self.from.position(), occluder.deviation() * INVERSE);
+        let is_out = |side: &Side, p: DVec3| side.is_out(side.normal.dot(p), size(p) + slack);
+        self.sides.iter().any(|side| occluder.points().iter().all(|p| is_out(side, *p - origin)))
     }
 
     /// A side that a polygon touches from outside, at most.
@@ -134,8 +138,9 @@ impl<'a> Target<'a> {
     }
 }
 
-/// What turns a distance to the size of a vector that errs as much.
-const INVERSE: f64 = 1.0 / ERROR;
+/// What turns a distance to the size of a vector that errs as much, and more than the sum of a vector's components is
+/// longer than their largest.
+const INVERSE: f64 = 3.0 / ERROR;
 
 /// Sorts out an occluder; `None` where doubles leave open what it is.
 pub(super) fn sieve(
@@ -157,6 +162,7 @@ pub(super) fn sieve(
     let (origin, plane) = (target.from.position(), target.to.plane());
     let facing = occluder.plane().side_of(origin);
     let sides = || occluder.points().iter().map(|p| plane.side_of(*p));
+    let is_clipped = sides().any(|side| side == Ordering::Less);
     if slack > 0.0 {
         let is_clear = |p: &DVec3| {
             plane.quick_side(*p) == Some(Ordering::Greater)
@@ -166,15 +172,14 @@ pub(super) fn sieve(
             return None;
         }
     }
-    if facing == Ordering::Equal || sides().all(|side| side != Ordering::Greater) {
+    if facing == Ordering::Equal || !sides().any(|side| side == Ordering::Greater) {
         return Some(Sieved::Misses(0.0));
     }
     copy(occluder, facing == Ordering::Less, corners);
-    let is_clipped = sides().any(|side| side == Ordering::Less);
     if is_clipped {
         clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
     }
-    let edges = cones.push(origin, &target.frame, corners);
+    let edges = cones.push(origin, corners);
     let doubt = blurred(origin, corners, edges)?;
     if doubt == 0.0
         && edges.iter().all(|edge| target.edges.iter().all(|t| edge.place(t.start) == Place::Inside))

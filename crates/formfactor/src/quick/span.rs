@@ -19,25 +19,34 @@ impl Mark {
     /// The one of two that comes first, as far as they are known.
     pub(super) fn first(self, other: Self) -> Self {
         Self {
-            at: self.at.min(other.at),
-            least: self.least.min(other.least),
-            most: self.most.min(other.most),
+            at: lesser(self.at, other.at),
+            least: lesser(self.least, other.least),
+            most: lesser(self.most, other.most),
         }
     }
 
     /// The one of two that comes last.
     pub(super) fn last(self, other: Self) -> Self {
         Self {
-            at: self.at.max(other.at),
-            least: self.least.max(other.least),
-            most: self.most.max(other.most),
+            at: greater(self.at, other.at),
+            least: greater(self.least, other.least),
+            most: greater(self.most, other.most),
         }
     }
 
     /// How far it may be from `at`.
     pub(super) fn error(&self) -> f64 {
-        (self.at - self.least).max(self.most - self.at)
+        greater(self.at - self.least, self.most - self.at)
     }
+}
+
+// `f64::min` and `max` look for NaN, which no mark is, at a cost.
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// A part of an edge; nothing where `high` comes before `low`.

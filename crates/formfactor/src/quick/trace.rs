@@ -1,5 +1,5 @@
 //! What is left of every edge: the visible boundary, piece by piece.
-use super::cone::{Cones, Edge};
+use super::cone::{Cones, Edge, Extent, Frame};
 use super::contour::Sum;
 use super::held::{Held, held};
 use super::near::Neighbours;
@@ -14,6 +14,7 @@ use crate::stats::Stats;
 pub(super) struct Buffers {
     neighbours: Neighbours,
     spans: Vec<Span>,
+    extents: Vec<Extent>,
 }
 
 /// A bound on the error that is taken as it is, by the angle that the target's boundary spans: 2^-40.
@@ -22,14 +23,23 @@ const FINE: f64 = 8192.0 * ROUNDING;
 /// Lambert's sum over the visible boundary of the target behind the cones; `None` where doubles leave it open.
 pub(super) fn sum(
     target: &Target,
-    cones: &Cones,
+    cones: &mut Cones,
     error: f64,
-    Buffers { neighbours, spans }: &mut Buffers,
+    Buffers { neighbours, spans, extents }: &mut Buffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
-    neighbours.find(cones);
     let mut sum = Sum::new(target.from.normal());
-    for (edge, extent) in target.edges.iter().zip(target.edge_extents) {
+    if cones.len() == 0 {
+        stats.none += 1;
+        target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.error)));
+        return sum.fine(error);
+    }
+    let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
+    cones.measure(&frame);
+    extents.clear();
+    frame.measure(target.edges, extents);
+    neighbours.find(cones);
+    for (edge, extent) in target.edges.iter().zip(extents) {
         let near = neighbours.shown().filter(|other| cones.extent(*other).meets(extent));
         trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
     }
@@ -39,10 +49,6 @@ pub(super) fn sum(
             let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
             trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
         }
-    }
-    if cones.len() == 0 {
-        stats.none += 1;
-        return sum.fine(error);
     }
     stats.hidden += neighbours.hidden();
     stats.partial += 1;
@@ -91,8 +97,15 @@ fn trace(
             _ => (),
         }
     }
-    let sign = if owner == Owner::Target { 1.0 } else { -1.0 };
-    let line = sum.along(edge, sign);
-    for_each_gap(whole, spans, |gap| sum.add(edge, &line, gap));
+    let mut line = sum.line(edge.inward, edge.error);
+    if owner != Owner::Target {
+        // What is seen is on the other side.
+        line.cosine = -line.cosine;
+    }
+    if spans.is_empty() && whole == Span::WHOLE {
+        sum.add_whole(edge, &line);
+    } else {
+        for_each_gap(whole, spans, |gap| sum.add_part(edge, &line, gap));
+    }
     Some(())
 }
