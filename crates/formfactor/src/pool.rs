@@ -14,6 +14,7 @@ pub(crate) struct Buffers {
 
 /// Idle buffers. They carry nothing from one use to the next but their capacity, so that no result depends on them.
 #[derive(Debug, Default)]
+#[allow(clippy::vec_box, reason = "large buffers go in and out with every form factor")]
 pub(crate) struct Pool(Mutex<Vec<Box<Buffers>>>);
 
 impl Pool {
@@ -25,6 +26,7 @@ impl Pool {
         result
     }
 
+    #[allow(clippy::vec_box, reason = "as it is kept")]
     fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Box<Buffers>>> {
         // A panic elsewhere leaves whole buffers behind.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)

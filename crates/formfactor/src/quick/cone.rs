@@ -63,6 +63,11 @@ impl Edge {
         }
     }
 
+    /// A bound on the error of `inward` that costs less.
+    pub(super) fn coarse_error(&self) -> f64 {
+        coarse_error(self.along, self.start)
+    }
+
     /// Whether both ends of an edge lie on one side for certain, by a coarser bound: which one.
     pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
         let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
@@ -97,6 +102,11 @@ impl Edge {
             Place::Open
         }
     }
+}
+
+/// A bound on the error of `along x start`, summed over its components.
+pub(super) fn coarse_error(along: DVec3, start: DVec3) -> f64 {
+    ERROR * size(along) * size(start)
 }
 
 /// The sum of the magnitudes of a vector's components.

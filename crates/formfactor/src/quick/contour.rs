@@ -1,5 +1,5 @@
 //! Lambert's sum in plain doubles, with a bound.
-use super::cone::{ERROR, Edge, size};
+use super::cone::{Edge, coarse_error};
 use super::span::Span;
 use crate::polygon::ROUNDING;
 use crate::predicates::place;
@@ -31,7 +31,7 @@ pub(crate) fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> Option<
         }
         let (end, along) = (point - origin, point - before);
         if point != before {
-            let line = sum.line(along.cross(start), ERROR * size(along) * size(start));
+            let line = sum.line(along.cross(start), coarse_error(along, start));
             sum.add_angle(&line, line.sine.atan2(start.dot(end)), 0.0);
         }
         (before, start) = (point, end);

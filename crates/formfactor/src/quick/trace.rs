@@ -31,7 +31,7 @@ pub(super) fn sum(
     let mut sum = Sum::new(target.from.normal());
     if cones.len() == 0 {
         stats.none += 1;
-        target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.error)));
+        target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
         return sum.fine(error);
     }
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
