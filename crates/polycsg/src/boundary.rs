@@ -5,10 +5,13 @@ use crate::edges::Edges;
 use crate::select::Selection;
 use glam::DVec2;
 
-/// A directed edge of a boundary, the interior to its left.
+/// A directed edge of a boundary, the interior to its left, and where it comes from.
+///
+/// It is a piece of one input edge, or all of it, and may run against it: what is subtracted bounds from outside. Of
+/// input edges that coincide, one is named.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundaryEdge {
-    /// Where it starts.
+    /// Where it starts: an input vertex, or a crossing rounded to nearest.
     pub start: DVec2,
     /// Where it ends.
     pub end: DVec2,
@@ -33,7 +36,7 @@ impl<'s> Boundary<'s> {
         Boundary { selection, edges }
     }
 
-    /// The edges; those that rounding shrank to a point are left out.
+    /// The edges; those that rounding shrank to a point are left out. The order is the same from run to run.
     pub fn edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + use<'s> {
         let Boundary { selection, edges } = *self;
         selection
@@ -53,7 +56,7 @@ impl<'s> Boundary<'s> {
         self.selection.pieces().is_empty()
     }
 
-    /// The enclosed area; infinite when it exceeds the largest `f64`.
+    /// The enclosed area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
     pub fn area(&self) -> f64 {
         enclosed_area(std::iter::once(self.edges().map(|edge| [edge.start, edge.end])))
     }
