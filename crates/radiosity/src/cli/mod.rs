@@ -7,15 +7,18 @@ mod factors;
 mod failure;
 mod input;
 mod json;
+mod lasting;
 mod output;
 mod progress;
 mod scene;
 mod solve;
+mod steps;
 
 /// Diffuse light of a scene by progressive radiosity with exact form factors.
 ///
 /// Data goes to stdout, all else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
-/// 3 bad scene, 4 stopped before the tolerance (the result is written).
+/// 3 bad scene, 4 stopped before the tolerance (the result is written), 130 stopped by Ctrl-C (result and state are
+/// written).
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 110)]
 pub(crate) struct Arguments {

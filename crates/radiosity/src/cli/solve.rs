@@ -1,9 +1,10 @@
 //! `radiosity solve`
-use super::{Failure, input, json, output, progress};
+use super::{Failure, input, json, lasting, output};
 use clap::{Args, ValueEnum};
+use lasting::Follower;
 use output::{Findings, Output};
-use radiosity::{Options, Scene, Solution};
-use std::{ops::ControlFlow, path::PathBuf, process::ExitCode};
+use radiosity::{Options, Scene, Solution, io};
+use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity solve`
 #[derive(Args, Debug)]
@@ -34,6 +35,15 @@ pub(super) struct Solve {
     /// Stop after so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = super::positive)]
     pub(super) time: Option<f64>,
+    /// Go on from the state that a stopped run of the same scene wrote
+    #[arg(long, value_name = "FILE")]
+    pub(super) resume: Option<PathBuf>,
+    /// Write the outputs as they stand so often, and the state beside the first of them
+    #[arg(long, value_name = "SECONDS", value_parser = super::positive, requires = "output")]
+    pub(super) snapshot_every: Option<f64>,
+    /// Write the bound and the ledger of every step as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(super) steps: Option<PathBuf>,
     /// The picture's brightness: intensity is 1 - exp(-K B) [default: chosen from the scene]
     #[arg(short = 'K', long, value_name = "K", value_parser = super::positive)]
     pub(super) exposure: Option<f64>,
@@ -58,6 +68,8 @@ pub(super) enum Method {
 }
 
 /// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
+///
+/// Ctrl-C stops the run: what was found so far is written, and the state. A second Ctrl-C ends the program at once.
 pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("no result is asked for; give -o FILE, or --json"));
@@ -65,25 +77,41 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
     warn_of_darkness(&scene);
-    let bar = progress::Bar::new(arguments.tolerance);
-    let solution = radiosity::solve(&scene, &options(arguments), |progress| {
-        bar.show(progress.shots, progress.unshot);
-        ControlFlow::Continue(())
-    });
-    bar.clear();
+    let mut state = lasting::resume(arguments.resume.as_deref())?;
+    let desk = Desk { arguments, outputs: &outputs, source: &source, scene: &scene };
+    let mut follower = Follower::new(&desk)?;
+    let solution =
+        radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
+    let converged = solution.as_ref().is_ok_and(|solution| solution.converged);
+    follower.end(&state, converged)?;
     let solution = solution?;
-    let name = arguments.scene.display().to_string();
-    let figures = json::line(&json::Figures::new(&name, &scene, &solution));
-    let findings =
-        Findings { arguments, source: &source, scene: &scene, solution: &solution, figures: &figures };
-    for output in outputs {
-        output.write(&findings)?;
-    }
+    let figures = desk.write(&solution)?;
     if arguments.json {
         output::print(&figures)?;
     }
     report(&solution);
-    Ok(if solution.converged { ExitCode::SUCCESS } else { stopped(solution.shots) })
+    Ok(follower.code(&solution))
+}
+
+/// What results are written with.
+#[derive(Debug)]
+pub(super) struct Desk<'s> {
+    pub(super) arguments: &'s Solve,
+    outputs: &'s [Output],
+    source: &'s io::Source,
+    scene: &'s Scene,
+}
+
+impl Desk<'_> {
+    /// Writes every output; gives the figures.
+    pub(super) fn write(&self, solution: &Solution) -> Result<String, Failure> {
+        let &Desk { arguments, outputs, source, scene } = self;
+        let name = arguments.scene.display().to_string();
+        let figures = json::line(&json::Figures::new(&name, scene, solution));
+        let findings = Findings { arguments, source, scene, solution, figures: &figures };
+        outputs.iter().try_for_each(|output| output.write(&findings))?;
+        Ok(figures)
+    }
 }
 
 /// One line for people.
@@ -117,12 +145,4 @@ fn warn_of_darkness(scene: &Scene) {
     if scene.patches.iter().all(|patch| patch.emission.iter().all(|&radiance| radiance == 0.0)) {
         eprintln!("warning: no patch emits light, so all is dark; give a material an <emission> above 0");
     }
-}
-
-/// The result is written, but not within the tolerance.
-fn stopped(shots: usize) -> ExitCode {
-    eprintln!(
-        "warning: stopped after {shots} shots, before the tolerance was reached; raise the limit or the tolerance"
-    );
-    ExitCode::from(4)
 }

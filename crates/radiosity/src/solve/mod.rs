@@ -226,8 +226,9 @@ pub fn solve_from(
     let subdivision = Subdivision::new(scene, options.elements)?;
     let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
     let converged = match run.choose(scene)? {
-        Method::Auto | Method::Shoot => shoot::shoot(&mut run)?,
-        method => relax::relax(&mut run, method)?,
+        None => false,
+        Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
+        Some(method) => relax::relax(&mut run, method)?,
     };
     run.finish(scene, converged)
 }

@@ -1,5 +1,5 @@
 //! Which patches light can reach, and which of them close rooms.
-use super::{factors::Factors, light::Light};
+use super::{light::Light, run::Run};
 use crate::{Error, Scene, groups::Groups};
 
 /// At what deviation of ΣF from 1 a room counts as closed: a gap of a billionth of the view loses less than a room with
@@ -30,18 +30,21 @@ pub(super) struct Rooms {
 
 impl Rooms {
     /// Follows the light from the lamps. What no light reaches is left out, and no factor to it is found; what only
-    /// receives is lit but sends the light no further.
-    pub(super) fn follow(scene: &Scene, factors: &mut Factors<'_>, light: &Light) -> Result<Rooms, Error> {
+    /// receives is lit but sends the light no further. Nothing when the watcher wants to stop.
+    pub(super) fn follow(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Rooms>, Error> {
         let patches = scene.patches.len();
-        let patch_of: Vec<usize> =
-            factors.subdivision.mesh.elements.iter().map(|element| element.patch).collect();
-        let sends = senders(scene, light, &patch_of);
+        let elements = &run.factors.subdivision.mesh.elements;
+        let patch_of: Vec<usize> = elements.iter().map(|element| element.patch).collect();
+        let sends = senders(scene, &run.light, &patch_of);
         let mut lit: Vec<bool> = scene.patches.iter().map(crate::Patch::emits).collect();
         let mut open: Vec<usize> = (0..patches).filter(|&patch| lit[patch]).collect();
         let mut sums = vec![0.0; patch_of.len()];
         let mut groups = Groups::new(patches);
         while let Some(sender) = open.pop() {
-            for (element, factor) in factors.column(sender)?.iter() {
+            if run.report().is_break() {
+                return Ok(None);
+            }
+            for (element, factor) in run.factors.column(sender)?.iter() {
                 let receiver = patch_of[element];
                 sums[element] += factor;
                 if !sends[sender] {
@@ -55,8 +58,8 @@ impl Rooms {
             }
         }
         let mut rooms = Rooms { rooms: Vec::new(), sums, patches };
-        rooms.collect(&lit, &mut groups, &patch_of, light);
-        Ok(rooms)
+        rooms.collect(&lit, &mut groups, &patch_of, &run.light);
+        Ok(Some(rooms))
     }
 
     /// Collects the lit patches of each group.

@@ -68,15 +68,16 @@ impl<'r> Run<'r> {
     }
 
     /// Chooses how to solve; follows the light through the rooms where that decides, and refuses what has no solution.
-    pub(super) fn choose(&mut self, scene: &Scene) -> Result<Method, Error> {
+    /// Nothing when the watcher wants to stop.
+    pub(super) fn choose(&mut self, scene: &Scene) -> Result<Option<Method>, Error> {
         let asked = self.options.method;
         let largest = (0..self.light.areas.len()).map(|element| self.light.largest_reflectance(element));
         let largest = largest.fold(0.0, f64::max);
         let auto = asked == Method::Auto;
         if largest < 1.0 && (asked == Method::Shoot || (auto && largest < STIFF)) {
-            return Ok(Method::Shoot);
+            return Ok(Some(Method::Shoot));
         }
-        let rooms = Rooms::follow(scene, &mut self.factors, &self.light)?;
+        let Some(rooms) = Rooms::follow(scene, self)? else { return Ok(None) };
         rooms.check(scene)?;
         self.gaps = ledger::gaps(&self.light, Some(&rooms.sums));
         let stiff = rooms.closed_reflectance() >= STIFF;
@@ -85,11 +86,11 @@ impl<'r> Run<'r> {
             self.shooters = Shooters::new(lit, self.factors.subdivision, &self.light);
         }
         self.rooms = Some(rooms);
-        Ok(match (auto, stiff) {
+        Ok(Some(match (auto, stiff) {
             (true, true) => Method::Cg,
             (true, false) => Method::Shoot,
             (false, _) => asked,
-        })
+        }))
     }
 
     /// Weighs what the pieces have yet to shoot; tells whether light and bound are within the tolerance.

@@ -5,7 +5,8 @@ use std::{f64::consts::PI, ops::ControlFlow};
 
 /// A polygon of one loop.
 pub(crate) fn polygon(corners: &[[f64; 3]]) -> PlanarPolygon {
-    PlanarPolygon::new([corners.iter().map(|&corner| DVec3::from(corner)).collect::<Vec<_>>()]).unwrap()
+    PlanarPolygon::new([corners.iter().map(|&corner| DVec3::from(corner)).collect::<Vec<_>>()])
+        .expect("planar")
 }
 
 /// A patch of one band; `emittance` is E, in W/m².

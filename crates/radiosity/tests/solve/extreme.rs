@@ -22,7 +22,7 @@ fn moved(scene: &Scene, place: impl Fn(DVec3) -> DVec3) -> Scene {
     let mut moved = scene.clone();
     for patch in &mut moved.patches {
         let loops = patch.polygon.loops().map(|points| points.iter().map(|&p| place(p)).collect::<Vec<_>>());
-        patch.polygon = PlanarPolygon::new(loops.collect::<Vec<_>>()).unwrap();
+        patch.polygon = PlanarPolygon::new(loops.collect::<Vec<_>>()).expect("planar");
     }
     moved
 }
