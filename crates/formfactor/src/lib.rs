@@ -73,6 +73,7 @@ pub use glam::DVec3;
 pub mod approx;
 
 mod complement;
+mod cubature;
 mod cull;
 mod differential_area;
 mod doubt;
