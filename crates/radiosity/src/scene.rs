@@ -23,6 +23,16 @@ pub struct Scene {
     pub asset: Asset,
 }
 
+impl Scene {
+    /// The corners of the box around all patches; those of the unit box where there are none.
+    #[must_use]
+    pub fn extent(&self) -> [DVec3; 2] {
+        let points = self.patches.iter().flat_map(|patch| patch.polygon.loops()).flatten();
+        let boxes = points.map(|point| [*point, *point]);
+        boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([DVec3::ZERO, DVec3::ONE])
+    }
+}
+
 /// What the coordinates of a scene mean; they stay as the file has them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asset {

@@ -100,3 +100,8 @@ impl<'s> Rows<'s> {
 pub(super) fn line(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain numbers and names can be written") + "\n"
 }
+
+/// The word that stands for a plain value in JSON.
+pub(super) fn word(value: &impl Serialize) -> String {
+    line(value).trim().trim_matches('"').to_owned()
+}

@@ -6,6 +6,7 @@ use std::{path::PathBuf, process::ExitCode};
 mod factors;
 mod failure;
 mod input;
+mod inspect;
 mod json;
 mod lasting;
 mod output;
@@ -36,6 +37,8 @@ enum Command {
     Solve(solve::Solve),
     /// Form factors from a point to every patch of a scene
     Factors(Factors),
+    /// Tell what a scene is and what about it will trouble a solution
+    Inspect(inspect::Inspect),
     /// Write one of the built-in scenes
     Scene(Scene),
 }
@@ -43,7 +46,7 @@ enum Command {
 /// `radiosity factors`
 #[derive(Args, Debug)]
 struct Factors {
-    /// The scene: a COLLADA file
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
     scene: PathBuf,
     /// The point and the normal there, in the file's units and axes
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = point_and_normal, allow_hyphen_values = true)]
@@ -73,6 +76,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     pool.install(|| match arguments.command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Factors(arguments) => factors::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Scene(arguments) => scene::run(&arguments),
     })
 }

@@ -3,9 +3,10 @@
 //! A surface is a one-sided patch that reflects 1 − its emittance and gives no light of its own. A surface with a base
 //! surface is cut out of it, and so is a null surface, which is nothing but a hole; an obstruction only blocks.
 use super::{Error, Fault};
+use crate::plane::Plane;
 use crate::{Origin, Patch, Scene};
 use formfactor::PlanarPolygon;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use polycsg::{Csg, FillRule, Region};
 use std::collections::HashSet;
 use std::path::Path;
@@ -214,27 +215,12 @@ fn shape(surface: &Row, parts: &[&Row], vertices: &[DVec3]) -> Result<Vec<Planar
     if parts.is_empty() {
         return Ok(vec![whole]);
     }
-    // In the two axes that the plane is seen best along, ordered so that the front stays counter-clockwise.
-    let normal = whole.normal();
-    let dropped = normal.abs().max_position();
-    let (u, v) = ((dropped + 1) % 3, (dropped + 2) % 3);
-    let [u, v] = if normal[dropped] > 0.0 { [u, v] } else { [v, u] };
-    let flat = |row: &Row| points(row).into_iter().map(|p| DVec2::new(p[u], p[v])).collect::<Vec<_>>();
-    let region = |row: &Row| Region::from_rings([flat(row)], FillRule::NonZero).unwrap_or_default();
+    let plane = Plane::of(&whole);
+    let region = |row: &Row| {
+        let flat: Vec<_> = points(row).into_iter().map(|point| plane.flatten(point)).collect();
+        Region::from_rings([flat], FillRule::NonZero).unwrap_or_default()
+    };
     let holes: Vec<Region> = parts.iter().map(|part| region(part)).collect();
     let rest = (Csg::from(&region(surface)) - Csg::union(&holes)).evaluate();
-    let lift = |ring: &[DVec2]| ring.iter().map(|p| raise(*p, [u, v, dropped], &whole)).collect::<Vec<_>>();
-    let polygons = rest.polygons();
-    polygons
-        .map(|polygon| PlanarPolygon::new(std::iter::once(polygon.outer()).chain(polygon.holes()).map(lift)))
-        .collect()
-}
-
-/// The point of the plane above a point of the two axes.
-fn raise(flat: DVec2, [u, v, w]: [usize; 3], plane: &PlanarPolygon) -> DVec3 {
-    let (origin, normal) = (plane.loops().next().map_or(DVec3::ZERO, |points| points[0]), plane.normal());
-    let mut point = DVec3::ZERO;
-    (point[u], point[v]) = (flat.x, flat.y);
-    point[w] = origin[w] - (normal[u] * (flat.x - origin[u]) + normal[v] * (flat.y - origin[v])) / normal[w];
-    point
+    Ok(plane.lift(&rest, &[&whole]))
 }
