@@ -13,31 +13,13 @@
 //! 64/15 rho^-2n / (1 - rho^-2) of the largest value in an ellipse with semi-axes that add to rho [Trefethen 2013, theorem
 //! 19.3]; here rho >= 1.99 R. Relatively, that is below 64 (1 + R)^2 rho^-2n. Triangles are halved until they are no longer
 //! than a tenth of their distance; then R >= 10, and 8 nodes err by 2e-17. At a hundredth R >= 100, and 5 nodes err by 7e-18.
+use crate::gauss::{RULE_5, RULE_8};
 use crate::polygon::ROUNDING;
 use crate::twofold::{Offset, Twofold, accurate_dot, sizes};
 use crate::view::View;
 use crate::{DifferentialArea, FormFactor};
 use glam::DVec3;
 use std::f64::consts::PI;
-
-/// Nodes and weights of Gauss's rules on [0, 1].
-const FINE: [[f64; 2]; 8] = [
-    [0.019_855_071_751_231_884, 0.050_614_268_145_188_13],
-    [0.101_666_761_293_186_63, 0.111_190_517_226_687_24],
-    [0.237_233_795_041_835_5, 0.156_853_322_938_943_64],
-    [0.408_282_678_752_175_1, 0.181_341_891_689_181],
-    [0.591_717_321_247_825, 0.181_341_891_689_181],
-    [0.762_766_204_958_164_5, 0.156_853_322_938_943_64],
-    [0.898_333_238_706_813_4, 0.111_190_517_226_687_24],
-    [0.980_144_928_248_768_1, 0.050_614_268_145_188_13],
-];
-const COARSE: [[f64; 2]; 5] = [
-    [0.046_910_077_030_668, 0.118_463_442_528_094_54],
-    [0.230_765_344_947_158_45, 0.239_314_335_249_683_23],
-    [0.5, 0.284_444_444_444_444_44],
-    [0.769_234_655_052_841_5, 0.239_314_335_249_683_23],
-    [0.953_089_922_969_332, 0.118_463_442_528_094_54],
-];
 
 /// Length by distance up to which the rules are used.
 const SMALL: f64 = 0.1;
@@ -133,9 +115,9 @@ impl Triangle {
         let longest = (b - a).length().max((c - a).length()).max((c - b).length());
         let nearest = a.length().min(b.length()).min(c.length()) - longest;
         if longest <= TINY * nearest {
-            Some(self.by_rule(&COARSE))
+            Some(self.by_rule(&RULE_5))
         } else if longest <= SMALL * nearest {
-            Some(self.by_rule(&FINE))
+            Some(self.by_rule(&RULE_8))
         } else {
             None
         }

@@ -1,10 +1,12 @@
 //! Many polygons that see and hide each other.
+use crate::area::shaft::Shaft;
 use crate::cull::Pyramid;
 use crate::exact::{by_csg, unseen};
 use crate::pool::{Buffers, Pool};
 use crate::quick::{self, Target};
 use crate::tree::Tree;
 use crate::{DifferentialArea, FormFactor, PlanarPolygon, Stats};
+use glam::DVec3;
 use std::cmp::Ordering;
 
 /// A set of polygons, each of which is a target and hides the others.
@@ -85,6 +87,59 @@ impl Enclosure {
                 by_csg(from, part, near, scratch, stats)
             });
             (found, *stats)
+        })
+    }
+
+    /// The form factors from many points to polygon `id`, each as [`Self::form_factor`] gives it within the bounds. What can
+    /// stand between the points and the polygon is found once for all: the vertices of an element, the points of a patch.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factors(&self, points: &[DifferentialArea], id: usize) -> Vec<FormFactor> {
+        let positions: Vec<DVec3> = points.iter().map(DifferentialArea::position).collect();
+        let near = self.in_shaft(&positions, id);
+        points.iter().map(|from| self.past(from, id, &near)).collect()
+    }
+
+    /// The polygons that can stand between points and polygon `id`.
+    fn in_shaft(&self, points: &[DVec3], id: usize) -> Vec<usize> {
+        let shaft = Shaft::between(points, &self.polygons[id]);
+        let behind = |i: usize| {
+            let plane = self.polygons[id].plane();
+            self.polygons[i].points().iter().all(|p| plane.side_of(*p) != Ordering::Greater)
+        };
+        let mut found = self.tree.find(|extent| shaft.misses_box(extent, self.deviation));
+        found.retain(|i| {
+            *i != id && !shaft.misses(&self.polygons[*i]) && !(self.deviation == 0.0 && behind(*i))
+        });
+        found
+    }
+
+    /// The polygons that can stand between polygons `source` and `target`.
+    pub(crate) fn between(&self, source: usize, target: usize) -> Vec<usize> {
+        let from = &self.polygons[source];
+        let mut found = self.in_shaft(from.points(), target);
+        let is_below = |i: usize| {
+            self.polygons[i].points().iter().all(|p| from.plane().side_of(*p) != Ordering::Greater)
+        };
+        found.retain(|i| *i != source && !(self.polygons[*i].lies_in_plane_of(from) || is_below(*i)));
+        found
+    }
+
+    /// The form factor to polygon `id` past those that can stand in between.
+    pub(crate) fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
+        if self.is_edge_on(from, id) {
+            return FormFactor::default();
+        }
+        let to = &self.polygons[id];
+        if to.plane().side_of(from.position()) != Ordering::Greater {
+            return unseen(from, to);
+        }
+        self.pool.lend(|Buffers { quick, scratch, stats }| {
+            let others = || near.iter().filter(|i| !self.is_edge_on(from, **i)).map(|i| &self.polygons[*i]);
+            quick::form_factor(from, to, |_| others(), quick, stats)
+                .unwrap_or_else(|| by_csg(from, to, |_| others(), scratch, stats))
         })
     }
 

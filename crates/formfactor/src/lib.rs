@@ -72,6 +72,7 @@ pub use glam::DVec3;
 
 pub mod approx;
 
+mod area;
 mod complement;
 mod cubature;
 mod cull;
@@ -80,6 +81,7 @@ mod doubt;
 mod enclosure;
 mod error;
 mod exact;
+mod gauss;
 mod hierarchy;
 mod horizon;
 mod lambert;
@@ -95,6 +97,7 @@ mod twofold;
 mod view;
 mod visible;
 
+pub use area::{AreaFormFactor, Row};
 pub use complement::unoccluded_complement;
 pub use differential_area::DifferentialArea;
 pub use enclosure::Enclosure;
