@@ -18,12 +18,18 @@ mod mend;
 mod mesh;
 pub mod picture;
 mod plane;
+mod record;
 mod scene;
 pub mod scenes;
 mod solve;
+mod table;
+
+pub mod viewer;
 
 pub use error::Error;
 pub use mend::mend;
 pub use mesh::{Element, Mesh};
+pub use record::{PatchRecord, Record};
 pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
 pub use solve::{Ledger, Method, Options, Progress, Solution, State, StateError, solve, solve_from};
+pub use table::{element_table, patch_table};

@@ -5,6 +5,7 @@ pub use texture::{Image, Texture};
 
 use formfactor::PlanarPolygon;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Surfaces, cameras, and what the reader had to say about the file.
 ///
@@ -34,7 +35,7 @@ impl Scene {
 }
 
 /// What the coordinates of a scene mean; they stay as the file has them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Asset {
     /// The axis that points up; y where the file says nothing.
     pub up: DVec3,
@@ -125,7 +126,7 @@ pub struct Origin {
 }
 
 /// A pinhole camera.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Camera {
     /// The camera's name in the file.
     pub name: String,
@@ -139,4 +140,13 @@ pub struct Camera {
     pub vertical_fov: f64,
     /// Width over height of the picture.
     pub aspect: f64,
+}
+
+impl Camera {
+    /// Whether its numbers make a view.
+    pub(crate) fn is_sound(&self) -> bool {
+        let upright = self.direction.cross(self.up).try_normalize().is_some();
+        let open = self.vertical_fov > 0.0 && self.vertical_fov < std::f64::consts::PI;
+        upright && open && self.position.is_finite() && self.aspect.is_normal() && self.aspect > 0.0
+    }
 }

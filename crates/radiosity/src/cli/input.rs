@@ -1,6 +1,7 @@
 //! Scenes from files.
 use super::Failure;
-use radiosity::{Scene, io::Source};
+use radiosity::{Record, Scene, io::Source};
+use serde::Deserialize;
 use std::path::Path;
 
 /// Reads a scene and its file; prints what the reader had to say on stderr.
@@ -16,4 +17,22 @@ pub(super) fn read(path: &Path) -> Result<(Scene, Source), Failure> {
 pub(super) fn read_quietly(path: &Path) -> Result<(Scene, Source), Failure> {
     let source = Source::open(path)?;
     Ok((source.scene()?, source))
+}
+
+/// A solution's file as `solve` writes it; its other fields are for people and programs.
+#[derive(Deserialize)]
+struct Written {
+    light: Record,
+}
+
+/// Reads a written solution.
+pub(super) fn solution(path: &Path) -> Result<Record, Failure> {
+    let name = path.display();
+    let text = std::fs::read(path)
+        .map_err(|error| Failure::internal(format!("{name}: cannot be read: {error}; check its name")))?;
+    let written: Written = serde_json::from_slice(&text).map_err(|error| {
+        Failure::scene(format!("{name}: not a solution: {error}; write one: solve -o {name}"))
+    })?;
+    written.light.check().map_err(|reason| Failure::scene(format!("{name}: {reason}; solve again")))?;
+    Ok(written.light)
 }

@@ -1,6 +1,6 @@
 //! What `--json` prints.
 use formfactor::FormFactor;
-use radiosity::{Scene, Solution};
+use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
 /// The figures of a solution.
@@ -14,6 +14,14 @@ pub(super) struct Figures<'s> {
     closure: Option<f64>,
     energy: Energy<'s>,
     patches: Vec<PatchFigures<'s>>,
+}
+
+/// A `.json` file: the figures and the light itself.
+#[derive(Debug, Serialize)]
+pub(super) struct Written<'s> {
+    #[serde(flatten)]
+    pub(super) figures: Option<&'s Figures<'s>>,
+    pub(super) light: &'s Record,
 }
 
 /// The ledger.

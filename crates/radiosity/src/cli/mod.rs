@@ -3,17 +3,20 @@ use clap::{Args, Parser, Subcommand};
 use failure::Failure;
 use std::{path::PathBuf, process::ExitCode};
 
+mod expose;
 mod factors;
 mod failure;
 mod input;
 mod inspect;
 mod json;
 mod lasting;
+mod look;
 mod output;
 mod progress;
 mod scene;
 mod solve;
 mod steps;
+mod view;
 
 /// Diffuse light of a scene by progressive radiosity with exact form factors.
 ///
@@ -35,6 +38,10 @@ pub(crate) struct Arguments {
 enum Command {
     /// Solve a scene's light and write it as a picture, a scene, or numbers
     Solve(solve::Solve),
+    /// Turn a written solution to colours that a screen can show
+    Expose(expose::Expose),
+    /// Write a page that shows a solution in a browser
+    View(view::View),
     /// Form factors from a point to every patch of a scene
     Factors(Factors),
     /// Tell what a scene is and what about it will trouble a solution
@@ -75,6 +82,8 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
     pool.install(|| match arguments.command {
         Command::Solve(arguments) => solve::run(&arguments),
+        Command::Expose(arguments) => expose::run(&arguments),
+        Command::View(arguments) => view::run(&arguments),
         Command::Factors(arguments) => factors::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Scene(arguments) => scene::run(&arguments),

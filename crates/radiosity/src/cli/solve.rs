@@ -1,17 +1,18 @@
 //! `radiosity solve`
-use super::{Failure, input, json, lasting, output};
+use super::{Failure, input, json, lasting, look::Look, output};
 use clap::{Args, ValueEnum};
 use lasting::Follower;
 use output::{Findings, Output};
-use radiosity::{Options, Scene, Solution, io};
+use radiosity::{Options, Record, Scene, Solution, io};
 use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity solve`
 #[derive(Args, Debug)]
 pub(super) struct Solve {
-    /// The scene: a COLLADA file
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
     pub(super) scene: PathBuf,
-    /// Where to write the result, by extension: .png, .dae, .glb or .json; may be given several times
+    /// Where to write the result, by extension: a picture (.png), a scene (.dae, .glb), a page (.html), all of it (.json),
+    /// a table of patches (.csv) or of elements (.elements.csv); may be given several times
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Print the result's figures on stdout as JSON
@@ -44,12 +45,8 @@ pub(super) struct Solve {
     /// Write the bound and the ledger of every step as CSV
     #[arg(long, value_name = "FILE")]
     pub(super) steps: Option<PathBuf>,
-    /// The picture's brightness: intensity is 1 - exp(-K B) [default: chosen from the scene]
-    #[arg(short = 'K', long, value_name = "K", value_parser = super::positive)]
-    pub(super) exposure: Option<f64>,
-    /// The picture's width in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=16384))]
-    pub(super) width: u32,
+    #[command(flatten)]
+    pub(super) look: Look,
 }
 
 /// `--method`
@@ -107,10 +104,13 @@ impl Desk<'_> {
     pub(super) fn write(&self, solution: &Solution) -> Result<String, Failure> {
         let &Desk { arguments, outputs, source, scene } = self;
         let name = arguments.scene.display().to_string();
-        let figures = json::line(&json::Figures::new(&name, scene, solution));
-        let findings = Findings { arguments, source, scene, solution, figures: &figures };
-        outputs.iter().try_for_each(|output| output.write(&findings))?;
-        Ok(figures)
+        let figures = json::Figures::new(&name, scene, solution);
+        if !outputs.is_empty() {
+            let (look, record) = (&arguments.look, &Record::new(&name, scene, solution));
+            let findings = Findings { look, record, source: Some((source, scene)), figures: Some(&figures) };
+            outputs.iter().try_for_each(|output| output.write(&findings))?;
+        }
+        Ok(json::line(&figures))
     }
 }
 

@@ -177,9 +177,8 @@ fn a_written_file_has_the_same_areas() {
     let before = scenes::scene("cornell-box").unwrap();
     let options = radiosity::Options { elements: 100, max_shots: 1, ..Default::default() };
     let solution = radiosity::solve(&before, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
-    let light = vec![[0.0; 3]; solution.mesh.vertices.len()];
-    let exposure = radiosity::expose::Exposure::new(1.0).unwrap();
-    let bytes = radiosity::io::gltf::glb(&before, &solution.mesh, &light, exposure).unwrap();
+    let record = radiosity::Record::new("box", &before, &solution);
+    let bytes = radiosity::io::gltf::glb(&record, record.exposure()).unwrap();
     let after = Gltf::from_bytes("box.glb", bytes).scene().unwrap();
     assert!(after.warnings.is_empty(), "{:?}", after.warnings);
     let area = |scene: &Scene| scene.patches.iter().map(|patch| patch.polygon.area()).sum::<f64>();

@@ -5,11 +5,15 @@
 //! radiance, perspective cameras. A double-sided material makes two patches of each polygon, the second one named
 //! `.back`. What is left out draws a warning. Lengths are metres, y is up.
 mod accessor;
+mod buffer;
 mod document;
+mod exposed;
+mod lit;
 mod material;
 mod read;
 mod write;
 
+pub use exposed::exposed;
 pub use write::glb;
 
 use super::Error;

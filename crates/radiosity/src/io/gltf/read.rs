@@ -183,20 +183,16 @@ impl Reader<'_> {
         };
         let turned = |axis| world.transform_vector3(axis).try_normalize();
         let (fov, aspect) = (f64::from(lens.yfov()), f64::from(lens.aspect_ratio().unwrap_or(4.0 / 3.0)));
-        let sound = fov > 0.0 && fov < std::f64::consts::PI && aspect.is_normal() && aspect > 0.0;
-        match (turned(DVec3::NEG_Z), turned(DVec3::Y)) {
-            (Some(direction), Some(up)) if sound && direction.cross(up).try_normalize().is_some() => {
-                let position = world.w_axis.truncate();
-                self.cameras.push(Camera {
-                    name: name.into(),
-                    position,
-                    direction,
-                    up,
-                    vertical_fov: fov,
-                    aspect,
-                });
-            }
-            _ => self.warnings.push(format!("{name}: the camera has no view; it is left out")),
+        let (Some(direction), Some(up)) = (turned(DVec3::NEG_Z), turned(DVec3::Y)) else {
+            self.warnings.push(format!("{name}: the camera has no view; it is left out"));
+            return;
+        };
+        let position = world.w_axis.truncate();
+        let camera = Camera { name: name.into(), position, direction, up, vertical_fov: fov, aspect };
+        if camera.is_sound() {
+            self.cameras.push(camera);
+        } else {
+            self.warnings.push(format!("{name}: the camera has no view; it is left out"));
         }
     }
 
