@@ -31,5 +31,7 @@ pub use mend::mend;
 pub use mesh::{Element, Mesh};
 pub use record::{PatchRecord, Record};
 pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
-pub use solve::{Ledger, Method, Options, Progress, Solution, State, StateError, solve, solve_from};
+pub use solve::{
+    Ledger, Method, Norm, Options, Progress, Quality, Solution, State, StateError, solve, solve_from,
+};
 pub use table::{element_table, patch_table};

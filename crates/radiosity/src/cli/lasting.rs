@@ -49,7 +49,7 @@ impl<'d> Follower<'d> {
             .map_err(|error| Failure::internal(format!("Ctrl-C cannot be taken over: {error}")))?;
         Ok(Follower {
             desk,
-            bar: Bar::new(desk.arguments.tolerance),
+            bar: Bar::new(super::solve::options(desk.arguments).tolerance),
             steps: Steps::new(desk.arguments.steps.as_deref()),
             state: desk.arguments.output.first().map(|path| {
                 let mut name = path.clone().into_os_string();

@@ -64,7 +64,7 @@ impl<'s> Factors<'s> {
 
     /// Finds the form factors from all elements to one piece: each by itself, so threads change nothing.
     fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
-        let Subdivision { mesh, nodes, flat } = self.subdivision;
+        let Subdivision { mesh, nodes, flat, .. } = self.subdivision;
         let patch = nodes[node].patch;
         if node == patch {
             let whole = |from| self.enclosure.form_factor(from, patch).value;

@@ -17,7 +17,10 @@
 //! from element i to piece j, and P takes the mean of B over each piece (Barreto, Equations 2.5 and A.15). Conjugate
 //! gradients solve the symmetric system of the pieces' mean factors instead, in which the power adds up in both
 //! directions.
-use crate::{Error, Mesh, Scene, mesh::Subdivision};
+use crate::{
+    Error, Mesh, Scene,
+    mesh::{LEVELS, Plan, Subdivision, shadows},
+};
 use factors::Factors;
 use light::Light;
 use run::Run;
@@ -26,6 +29,7 @@ use std::{ops::ControlFlow, time::Instant};
 mod balance;
 mod cg;
 mod check;
+mod estimate;
 mod exchange;
 mod factors;
 mod fingerprint;
@@ -35,6 +39,7 @@ mod gmres;
 mod ledger;
 mod light;
 mod overlap;
+mod quality;
 mod relax;
 mod rooms;
 mod run;
@@ -42,7 +47,9 @@ mod shoot;
 mod shooters;
 mod state;
 
+pub use estimate::Norm;
 pub use ledger::Ledger;
+pub use quality::Quality;
 pub use state::{State, StateError};
 
 /// How the light is found.
@@ -70,6 +77,12 @@ pub struct Options {
     pub method: Method,
     /// About how many elements to cut the scene into.
     pub elements: usize,
+    /// How often to solve, look where the light is not resolved, and cut the scene anew, finer there.
+    pub passes: usize,
+    /// What tells where the light is not resolved.
+    pub norm: Norm,
+    /// Of so many of the strongest lamps the edges of shadows become edges of elements.
+    pub shadows: usize,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
@@ -88,6 +101,9 @@ impl Default for Options {
         Options {
             method: Method::Auto,
             elements: 6000,
+            passes: 0,
+            norm: Norm::L2,
+            shadows: 0,
             tolerance: 1e-3,
             spread: 2e-4,
             max_shots: 1_000_000,
@@ -223,14 +239,31 @@ pub fn solve_from(
     let start = Instant::now();
     check::check(scene)?;
     overlap::check(scene)?;
-    let subdivision = Subdivision::new(scene, options.elements)?;
-    let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
-    let converged = match run.choose(scene)? {
-        None => false,
-        Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
-        Some(method) => relax::relax(&mut run, method)?,
-    };
-    run.finish(scene, converged)
+    // Each pass has twice the elements of the one before.
+    let mut plan = Plan::even(scene, options.elements >> options.passes.min(LEVELS.into()));
+    if options.shadows > 0 {
+        plan.shadows = shadows(scene, options.shadows);
+    }
+    let mut passes_left = options.passes;
+    loop {
+        let subdivision = Subdivision::new(scene, &plan)?;
+        let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
+        if passes_left == options.passes {
+            run.recognise()?;
+        }
+        let converged = match run.choose(scene)? {
+            None => false,
+            Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
+            Some(method) => relax::relax(&mut run, method)?,
+        };
+        let solution = run.finish(scene, converged)?;
+        if !converged || passes_left == 0 {
+            return Ok(solution);
+        }
+        passes_left -= 1;
+        plan =
+            estimate::refine(&plan, &subdivision, &solution, options.norm, options.elements >> passes_left);
+    }
 }
 
 #[cfg(test)]

@@ -47,9 +47,6 @@ impl<'r> Run<'r> {
     ) -> Result<Run<'r>, Error> {
         let light = Light::new(scene, &subdivision.mesh);
         let factors = Factors::new(scene, subdivision, state)?;
-        if !factors.state.is_empty() && !factors.are_known() {
-            return Err(Error::Foreign);
-        }
         Ok(Run {
             options,
             start,
@@ -65,6 +62,12 @@ impl<'r> Run<'r> {
             unshot: 1.0,
             watch,
         })
+    }
+
+    /// Refuses a state of another scene or mesh.
+    pub(super) fn recognise(&self) -> Result<(), Error> {
+        let foreign = !self.factors.state.is_empty() && !self.factors.are_known();
+        if foreign { Err(Error::Foreign) } else { Ok(()) }
     }
 
     /// Chooses how to solve; follows the light through the rooms where that decides, and refuses what has no solution.
