@@ -75,6 +75,22 @@ fn perforated() -> Region {
     (Csg::from(&square) - Csg::union(&rectangles)).evaluate_in(&mut scratch)
 }
 
+/// Needles through nearly one point: nearly all crossings round to the same few points, and most results are repaired.
+fn needles(count: u32) -> Vec<[DVec2; 3]> {
+    let center = DVec2::new(0.3, 0.7);
+    let needle = |i: u32| {
+        let to = DVec2::from_angle(f64::from(i) / f64::from(count) * TAU / 2.0);
+        [center - to, center + to, center + to + DVec2::new(1e-3, 2e-3)]
+    };
+    (0..count).map(needle).collect()
+}
+
+/// Triangles that share one corner exactly.
+fn fan(count: u32) -> Vec<[DVec2; 3]> {
+    let corner = |i: u32| DVec2::from_angle(f64::from(i) / f64::from(2 * count) * TAU);
+    (0..count).map(|i| [DVec2::ZERO, corner(2 * i), corner(2 * i + 1)]).collect()
+}
+
 type Difference = (Region, Vec<Region>, Scratch);
 
 #[library_benchmark]
@@ -119,6 +135,13 @@ fn intersection_of([a, b]: [Region; 2]) -> [Region; 3] {
 }
 
 #[library_benchmark]
+#[bench::needles(needles(30))]
+#[bench::fan(fan(300))]
+fn triangles_through_a_point(rings: Vec<[DVec2; 3]>) -> (Result<Region, Error>, Vec<[DVec2; 3]>) {
+    (Region::from_rings(&rings, FillRule::NonZero), rings)
+}
+
+#[library_benchmark]
 #[bench::perforated(perforated())]
 fn validate(region: Region) -> (bool, Region) {
     (region.validate().is_ok(), region)
@@ -144,6 +167,7 @@ library_benchmark_group!(
         boundary_of_the_same,
         union_of,
         intersection_of,
+        triangles_through_a_point,
         validate,
         locate,
         classify_a_diagonal,
