@@ -72,7 +72,6 @@ impl Record {
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
         let means = irradiance.into_iter().zip(radiosity);
         let patches = scene.patches.iter().zip(means).enumerate();
-        let interpolated = Solution { radiosity: solution.irradiance.clone(), ..solution.clone() };
         Record {
             scene: name.into(),
             asset: scene.asset,
@@ -92,7 +91,7 @@ impl Record {
                 .collect(),
             vertices: mesh.vertices.clone(),
             vertex_radiosity: solution.vertex_radiosity(),
-            vertex_irradiance: interpolated.vertex_radiosity(),
+            vertex_irradiance: solution.vertex_irradiance(),
             places: if pictures.is_empty() { Vec::new() } else { places(scene, mesh) },
             elements: mesh.elements.iter().map(|element| indices(*element)).collect(),
             radiosity: solution.radiosity.clone(),

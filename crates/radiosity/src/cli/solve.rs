@@ -188,6 +188,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         shadows: arguments.shadows.map_or(given.shadows, usize::from),
         tolerance: arguments.tolerance.unwrap_or(given.tolerance),
         spread: arguments.spread.unwrap_or(given.spread),
+        gather: given.gather,
         max_shots: arguments.max_shots,
         max_seconds: arguments.time,
     }

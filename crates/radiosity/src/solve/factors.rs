@@ -62,6 +62,11 @@ impl<'s> Factors<'s> {
         Ok(column)
     }
 
+    /// The form factor from any point to a whole patch.
+    pub(super) fn seen_from(&self, from: &DifferentialArea, patch: usize) -> f64 {
+        self.enclosure.form_factor(from, patch).value
+    }
+
     /// Finds the form factors from all elements to one piece: each by itself, so threads change nothing.
     fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
         let Subdivision { mesh, nodes, flat, .. } = self.subdivision;

@@ -19,6 +19,7 @@
 //! directions.
 use crate::{
     Error, Mesh, Scene,
+    interpolate::Direct,
     mesh::{LEVELS, Plan, Subdivision, shadows},
 };
 use factors::Factors;
@@ -29,6 +30,7 @@ use std::{ops::ControlFlow, time::Instant};
 mod balance;
 mod cg;
 mod check;
+mod direct;
 mod estimate;
 mod exchange;
 mod factors;
@@ -83,6 +85,8 @@ pub struct Options {
     pub norm: Norm,
     /// Of so many of the strongest lamps the edges of shadows become edges of elements.
     pub shadows: usize,
+    /// In the end, find the light straight from the lamps exactly at every vertex.
+    pub gather: bool,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
@@ -104,6 +108,7 @@ impl Default for Options {
             passes: 0,
             norm: Norm::L2,
             shadows: 0,
+            gather: false,
             tolerance: 1e-3,
             spread: 2e-4,
             max_shots: 1_000_000,
@@ -130,6 +135,7 @@ pub struct Progress<'p> {
     light: &'p Light,
     scaling: Option<f64>,
     factors: &'p Factors<'p>,
+    welds: &'p [usize],
 }
 
 impl Progress<'_> {
@@ -140,6 +146,9 @@ impl Progress<'_> {
             bands: self.light.bands,
             radiosity: self.light.radiosity.clone(),
             irradiance: self.light.irradiance.clone(),
+            reflectance: self.light.reflectance.clone(),
+            direct: None,
+            welds: self.welds.to_vec(),
             ledger: self.ledger.clone(),
             bound: self.bound.to_vec(),
             closure: None,
@@ -189,6 +198,12 @@ pub struct Solution {
     pub converged: bool,
     /// How long it took.
     pub seconds: f64,
+    /// Reflectance of every element, elements × bands.
+    pub(crate) reflectance: Vec<f64>,
+    /// Light straight from the lamps, where it was gathered.
+    pub(crate) direct: Option<Direct>,
+    /// For each vertex the first one that it shares its light with.
+    pub(crate) welds: Vec<usize>,
 }
 
 impl Solution {
@@ -256,7 +271,7 @@ pub fn solve_from(
             Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
             Some(method) => relax::relax(&mut run, method)?,
         };
-        let solution = run.finish(scene, converged)?;
+        let solution = run.finish(scene, converged, passes_left == 0)?;
         if !converged || passes_left == 0 {
             return Ok(solution);
         }

@@ -1,8 +1,10 @@
 //! A run of the solver: all that its steps share.
 use super::factors::Factors;
 use super::rooms::Rooms;
-use super::{Ledger, Method, Options, Progress, Solution, State, ledger, light::Light, shooters::Shooters};
-use crate::{Error, Scene, mesh::Subdivision};
+use super::{
+    Ledger, Method, Options, Progress, Solution, State, direct, ledger, light::Light, shooters::Shooters,
+};
+use crate::{Error, Scene, interpolate, mesh::Subdivision};
 use std::{ops::ControlFlow, time::Instant};
 
 /// Whoever follows a run.
@@ -32,6 +34,8 @@ pub(super) struct Run<'r> {
     /// Σ|AΔB| over the emitted power, the worst band.
     pub(super) unshot: f64,
     gaps: Vec<f64>,
+    /// See [`interpolate::welds`].
+    welds: Vec<usize>,
     watch: Watch<'r>,
 }
 
@@ -53,6 +57,7 @@ impl<'r> Run<'r> {
             factors,
             shooters: Shooters::new(0..scene.patches.len(), subdivision, &light),
             gaps: ledger::gaps(&light, None),
+            welds: interpolate::welds(scene, &subdivision.mesh),
             bound: vec![f64::INFINITY; light.bands],
             ledger: Ledger::dark(&light),
             light,
@@ -124,6 +129,7 @@ impl<'r> Run<'r> {
             light: &self.light,
             scaling: self.scaling,
             factors: &self.factors,
+            welds: &self.welds,
         })?;
         let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
         if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -136,15 +142,23 @@ impl<'r> Run<'r> {
         self.unshot <= self.options.tolerance && self.light.live().all(within)
     }
 
-    /// The solution.
-    pub(super) fn finish(mut self, scene: &Scene, converged: bool) -> Result<Solution, Error> {
+    /// The solution; direct light is gathered for the last mesh only.
+    pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
         let closure = if converged { self.closure(scene.patches.len())? } else { None };
+        let direct = if converged && last && self.options.gather {
+            Some(direct::gather(scene, &mut self)?)
+        } else {
+            None
+        };
         Ok(Solution {
             bands: self.light.bands,
             ledger: Ledger::new(&self.light, &self.shooters),
             mesh: self.factors.subdivision.mesh.clone(),
             radiosity: self.light.radiosity,
             irradiance: self.light.irradiance,
+            reflectance: self.light.reflectance,
+            direct,
+            welds: self.welds,
             bound: self.bound,
             closure,
             scaling: self.scaling,
