@@ -34,4 +34,4 @@ pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
 pub use solve::{
     Ledger, Method, Norm, Options, Progress, Quality, Solution, State, StateError, solve, solve_from,
 };
-pub use table::{element_table, patch_table};
+pub use table::{element_table, patch_table, table};

@@ -1,4 +1,5 @@
 //! What is lit: patches, what they reflect and emit, and who looks at them.
+mod middle;
 mod texture;
 
 pub use texture::{Image, Texture};

@@ -37,11 +37,15 @@ fn columns(names: &[&str], bands: usize) -> impl Iterator<Item = String> {
     names.iter().flat_map(move |name| (0..bands).map(move |band| format!("{name}.{band}")))
 }
 
-/// The text; names are quoted where they must be.
-pub(crate) fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> String {
+/// Comma-separated values: a header and rows of the same length; what needs quotes gets them.
+///
+/// # Panics
+/// When a row has another length than the header.
+#[must_use]
+pub fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in std::iter::once(header).chain(rows) {
-        writer.write_record(&row).expect("rows of one length are written to memory");
+        writer.write_record(&row).expect("rows have the header's length, and memory takes them");
     }
     let bytes = writer.into_inner().expect("memory takes what is written");
     String::from_utf8(bytes).expect("names and numbers are UTF-8")

@@ -1,5 +1,4 @@
 //! What `--json` prints.
-use formfactor::FormFactor;
 use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
@@ -73,34 +72,6 @@ impl<'s> Figures<'s> {
                 })
                 .collect(),
         }
-    }
-}
-
-/// Form factors from one point.
-#[derive(Debug, Serialize)]
-pub(super) struct Rows<'s> {
-    pub(super) rows: Vec<Row<'s>>,
-    pub(super) sum: f64,
-}
-
-/// The form factor to one patch.
-#[derive(Debug, Serialize)]
-pub(super) struct Row<'s> {
-    pub(super) name: &'s str,
-    pub(super) form_factor: f64,
-    pub(super) error_bound: f64,
-}
-
-impl<'s> Rows<'s> {
-    /// Names the form factors to the patches of `scene`, given in their order.
-    pub(super) fn new(scene: &'s Scene, factors: &[FormFactor]) -> Rows<'s> {
-        let row = |(patch, factor): (&'s radiosity::Patch, &FormFactor)| Row {
-            name: &patch.name,
-            form_factor: factor.value,
-            error_bound: factor.error_bound,
-        };
-        let rows = scene.patches.iter().zip(factors).map(row).collect();
-        Rows { rows, sum: factors.iter().map(|factor| factor.value).sum() }
     }
 }
 
