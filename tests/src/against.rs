@@ -98,7 +98,27 @@ pub enum Verdict {
 pub fn check(pair: &Pair, operation: Operation, arrangement: &Arrangement) -> Result<Verdict, String> {
     let outline = arrangement.operation(operation);
     let result = csg(operation, leaf(&pair.a), leaf(&pair.b)).evaluate();
-    check_region(&result, &outline)
+    let verdict = check_region(&result, &outline)?;
+    if verdict == Verdict::Repaired {
+        let operands = [pair.a.clone(), pair.b.clone()];
+        check_set(&result, &operands, |classes| operation.of(classes[0], classes[1]))?;
+        check_vertices(&result, &outline)?;
+    }
+    Ok(verdict)
+}
+
+/// Checks that a repaired region's vertices are the outline's, bit for bit, or cuts at the abscissa of one of them: an
+/// input vertex is kept as it is or vanishes with what rounding closed, and is moved never.
+fn check_vertices(region: &Region, outline: &Outline<'_>) -> Result<(), String> {
+    let mut ids: Vec<usize> = outline.pieces.iter().flat_map(|p| p.ends).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let known: Vec<DVec2> = ids.into_iter().map(|v| outline.vertex(v).point).collect();
+    let is_cut = |p: DVec2| known.iter().any(|v| v.x == p.x);
+    match region.rings().flatten().find(|&&p| !known.contains(&p) && !is_cut(p)) {
+        Some(new) => Err(format!("{new} is no vertex of the exact set and no cut above or below one")),
+        None => Ok(()),
+    }
 }
 
 /// Checks a region against the exact outline that it stands for.
@@ -117,6 +137,34 @@ fn check_area(region: &Region, outline: &Outline<'_>) -> Result<(), String> {
     let error = (twice_area(region) - &outline.twice_area).abs() / BigInt::from(2);
     let reach = outline.area_of_one_ulp();
     if error > reach { Err(format!("area off by {error}, rounding reaches {reach}")) } else { Ok(()) }
+}
+
+/// The exact area between a region and the set that `combine` makes of the operands, and how much of it rounding each
+/// vertex explains. What is lost, added or misplaced counts, however small the sum of all is.
+pub fn area_between(
+    region: &Region,
+    operands: &[Operand],
+    combine: impl Fn(&[Class]) -> Class,
+) -> [BigRational; 2] {
+    let all: Vec<Operand> = operands.iter().cloned().chain([operand(region)]).collect();
+    let arrangement = Arrangement::of(&all);
+    let given = |classes: &[Class]| combine(&classes[..operands.len()]);
+    let between = arrangement.outline(|classes| given(classes).symmetric_difference(classes[operands.len()]));
+    [between.area(), arrangement.outline(given).area_of_one_ulp()]
+}
+
+/// Checks that a region is the set that `combine` makes of the operands, but for what rounding its vertices can move.
+pub fn check_set(
+    region: &Region,
+    operands: &[Operand],
+    combine: impl Fn(&[Class]) -> Class,
+) -> Result<(), String> {
+    let [between, reach] = area_between(region, operands, combine);
+    if between > reach {
+        Err(format!("{between} lies between it and the exact set, rounding reaches {reach}"))
+    } else {
+        Ok(())
+    }
 }
 
 fn difference(found: &[[DVec2; 2]], expected: &[[DVec2; 2]]) -> String {

@@ -2,7 +2,8 @@
 //!
 //! Nothing here uses `polycsg`'s code: [`oracle`] is the plain algorithm over exact integers and rationals,
 //! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
-//! cases of `tests/corpus`. [`against`] sets a result of `polycsg` beside the oracle's. [`sweep`] is the oracle for form
+//! cases of `tests/corpus`. [`against`] sets a result of `polycsg` beside the oracle's, [`survey`] counts how a kind of
+//! input fares, [`trees`] makes expressions, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
 //! factors, which uses nothing of `formfactor`.
 pub mod against;
 pub mod corpus;
@@ -11,7 +12,10 @@ pub mod exact;
 pub mod generators;
 pub mod oracle;
 pub mod random;
+pub mod survey;
 pub mod sweep;
+pub mod trees;
+pub mod triangles;
 pub mod validity;
 
 use glam::DVec2;

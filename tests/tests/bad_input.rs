@@ -1,6 +1,6 @@
 //! Input that is no polygon: a typed error, or the set that it stands for; never a panic, never a hang.
 use glam::DVec2;
-use polycsg::{Csg, Error, FillRule, Region, classify};
+use polycsg::{Csg, Error, FillRule, Location, Region, classify};
 
 const RULES: [FillRule; 3] = [FillRule::EvenOdd, FillRule::NonZero, FillRule::Positive];
 
@@ -33,6 +33,17 @@ fn a_segment_must_be_finite() {
     for bad in [f64::NAN, f64::INFINITY] {
         assert!(classify([DVec2::new(bad, 0.0), DVec2::ONE], &region).is_err());
         assert!(classify([DVec2::ONE, DVec2::new(0.0, bad)], &region).is_err());
+    }
+}
+
+#[test]
+fn points_that_are_nowhere_lie_outside() {
+    let region = Region::from_rings([square()], FillRule::NonZero).expect("a square");
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for other in [bad, 0.0, 0.5, 1.0] {
+            assert_eq!(region.locate(DVec2::new(bad, other)), Location::Outside);
+            assert_eq!(region.locate(DVec2::new(other, bad)), Location::Outside);
+        }
     }
 }
 

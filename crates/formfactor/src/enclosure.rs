@@ -1,9 +1,12 @@
 //! Many polygons that see and hide each other.
+use crate::area::shaft::Shaft;
 use crate::cull::Pyramid;
-use crate::exact::{form_factor_past, unseen};
-use crate::pool::Pool;
+use crate::exact::{by_csg, unseen};
+use crate::pool::{Buffers, Pool};
+use crate::quick::{self, Target};
 use crate::tree::Tree;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use crate::{DifferentialArea, FormFactor, PlanarPolygon, Stats};
+use glam::DVec3;
 use std::cmp::Ordering;
 
 /// A set of polygons, each of which is a target and hides the others.
@@ -41,7 +44,16 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor(&self, from: &DifferentialArea, id: usize) -> FormFactor {
-        self.form_factor_to_part(from, id, &self.polygons[id])
+        self.find(from, id, &self.polygons[id]).0
+    }
+
+    /// [`Self::form_factor`], and what had to be looked at and what was left out to find it.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factor_with_stats(&self, from: &DifferentialArea, id: usize) -> (FormFactor, Stats) {
+        self.find(from, id, &self.polygons[id])
     }
 
     /// The form factor to `part`, a part of polygon `id` that lies in its plane; that polygon does not hide it.
@@ -52,20 +64,94 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
+        self.find(from, id, part).0
+    }
+
+    fn find(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> (FormFactor, Stats) {
+        let unhidden = Stats { none: 1, ..Stats::default() };
         if self.is_edge_on(from, id) {
-            return FormFactor::default();
+            return (FormFactor::default(), unhidden);
         }
         // Rounding may have put the part a last bit off the polygon's plane, which decides.
         let whole = &self.polygons[id];
         if whole.plane().side_of(from.position()) != Ordering::Greater {
-            return unseen(from, whole);
+            return (unseen(from, whole), unhidden);
         }
-        let slack = self.deviation + part.deviation();
-        let others = |pyramid: &Pyramid| {
-            let found = self.tree.find(|extent| pyramid.misses_box(extent, slack)).into_iter();
-            found.filter(|i| *i != id && !self.is_edge_on(from, *i)).map(|i| &self.polygons[i])
+        self.pool.lend(|Buffers { quick, scratch, stats }| {
+            *stats = Stats::default();
+            let slack = self.deviation;
+            let near = |t: &Target| self.others(from, id, self.tree.find(|e| t.misses_box(e, slack)));
+            let found = quick::form_factor(from, part, near, quick, stats).unwrap_or_else(|| {
+                let slack = self.deviation + part.deviation();
+                let near = |p: &Pyramid| self.others(from, id, self.tree.find(|e| p.misses_box(e, slack)));
+                by_csg(from, part, near, scratch, stats)
+            });
+            (found, *stats)
+        })
+    }
+
+    /// The form factors from many points to polygon `id`, each as [`Self::form_factor`] gives it within the bounds. What can
+    /// stand between the points and the polygon is found once for all: the vertices of an element, the points of a patch.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factors(&self, points: &[DifferentialArea], id: usize) -> Vec<FormFactor> {
+        let positions: Vec<DVec3> = points.iter().map(DifferentialArea::position).collect();
+        let near = self.in_shaft(&positions, id);
+        points.iter().map(|from| self.past(from, id, &near)).collect()
+    }
+
+    /// The polygons that can stand between points and polygon `id`.
+    fn in_shaft(&self, points: &[DVec3], id: usize) -> Vec<usize> {
+        let shaft = Shaft::between(points, &self.polygons[id]);
+        let behind = |i: usize| {
+            let plane = self.polygons[id].plane();
+            self.polygons[i].points().iter().all(|p| plane.side_of(*p) != Ordering::Greater)
         };
-        self.pool.lend(|scratch| form_factor_past(from, part, others, scratch))
+        let mut found = self.tree.find(|extent| shaft.misses_box(extent, self.deviation));
+        found.retain(|i| {
+            *i != id && !shaft.misses(&self.polygons[*i]) && !(self.deviation == 0.0 && behind(*i))
+        });
+        found
+    }
+
+    /// The polygons that can stand between polygons `source` and `target`.
+    pub(crate) fn between(&self, source: usize, target: usize) -> Vec<usize> {
+        let from = &self.polygons[source];
+        let mut found = self.in_shaft(from.points(), target);
+        let is_below = |i: usize| {
+            self.polygons[i].points().iter().all(|p| from.plane().side_of(*p) != Ordering::Greater)
+        };
+        found.retain(|i| *i != source && !(self.polygons[*i].lies_in_plane_of(from) || is_below(*i)));
+        found
+    }
+
+    /// The form factor to polygon `id` past those that can stand in between.
+    pub(crate) fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
+        if self.is_edge_on(from, id) {
+            return FormFactor::default();
+        }
+        let to = &self.polygons[id];
+        if to.plane().side_of(from.position()) != Ordering::Greater {
+            return unseen(from, to);
+        }
+        self.pool.lend(|Buffers { quick, scratch, stats }| {
+            let others = || near.iter().filter(|i| !self.is_edge_on(from, **i)).map(|i| &self.polygons[*i]);
+            quick::form_factor(from, to, |_| others(), quick, stats)
+                .unwrap_or_else(|| by_csg(from, to, |_| others(), scratch, stats))
+        })
+    }
+
+    /// Those of the polygons that can hide polygon `id`.
+    fn others(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        found: Vec<usize>,
+    ) -> impl Iterator<Item = &PlanarPolygon> {
+        let found = found.into_iter();
+        found.filter(move |i| *i != id && !self.is_edge_on(from, *i)).map(|i| &self.polygons[i])
     }
 
     /// Whether polygon `id` owns `from` or lies in the plane of the one that does.

@@ -9,6 +9,8 @@ pub enum Error {
     BadPoint,
     /// The normal has no direction: it is zero, or its length is outside 2^-200 to 2^200.
     BadNormal,
+    /// A tolerance that is not positive, or NaN.
+    BadTolerance,
     /// A polygon without loops.
     NoLoops,
     /// A loop with fewer than three vertices.
@@ -50,6 +52,7 @@ impl fmt::Display for Error {
             Error::BadNormal => {
                 write!(f, "the normal has no direction; give a finite vector that is not zero")
             }
+            Error::BadTolerance => write!(f, "the tolerance is not positive; give a number like 1e-6"),
             Error::NoLoops => write!(f, "the polygon has no loops; give at least its outer loop"),
             Error::TooFewVertices { loop_index, count } => {
                 write!(f, "loop {loop_index} has {count} vertices; a loop needs at least three")

@@ -5,7 +5,7 @@ use crate::polygon::ROUNDING;
 use crate::region::leaf;
 use crate::view::View;
 use crate::visible::union;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use crate::{DifferentialArea, FormFactor, PlanarPolygon, Stats};
 use glam::DVec2;
 use polycsg::Region;
 
@@ -22,7 +22,7 @@ pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pl
         return unseen(from, to);
     };
     let whole = of_region(&view, &leaf(&view.flat).evaluate());
-    let (hidden, error) = match shadows(&view, occluders) {
+    let (hidden, error) = match shadows(&view, occluders, &mut Stats::default()) {
         Shadows::Total => (whole, 0.0),
         Shadows::Some(shadows, error) => {
             let region = (leaf(&view.flat) & union(&shadows)).evaluate();

@@ -72,13 +72,16 @@ pub use glam::DVec3;
 
 pub mod approx;
 
+mod area;
 mod complement;
+mod cubature;
 mod cull;
 mod differential_area;
 mod doubt;
 mod enclosure;
 mod error;
 mod exact;
+mod gauss;
 mod hierarchy;
 mod horizon;
 mod lambert;
@@ -86,12 +89,15 @@ mod polygon;
 mod pool;
 mod predicates;
 mod project;
+mod quick;
 mod region;
+mod stats;
 mod tree;
 mod twofold;
 mod view;
 mod visible;
 
+pub use area::{AreaFormFactor, Row};
 pub use complement::unoccluded_complement;
 pub use differential_area::DifferentialArea;
 pub use enclosure::Enclosure;
@@ -99,4 +105,5 @@ pub use error::Error;
 pub use exact::{FormFactor, form_factor, unoccluded};
 pub use hierarchy::by_hierarchy;
 pub use polygon::PlanarPolygon;
+pub use stats::Stats;
 pub use visible::{VisiblePart, visible_part};

@@ -1,21 +1,33 @@
 //! Buffers that are used again, by whichever thread comes next.
+use crate::quick;
+use crate::stats::Stats;
 use polycsg::Scratch;
 use std::sync::{Mutex, PoisonError};
 
+/// What one form factor needs, and what it counts.
+#[derive(Debug, Default)]
+pub(crate) struct Buffers {
+    pub(crate) scratch: Scratch,
+    pub(crate) quick: quick::Buffers,
+    pub(crate) stats: Stats,
+}
+
 /// Idle buffers. They carry nothing from one use to the next but their capacity, so that no result depends on them.
 #[derive(Debug, Default)]
-pub(crate) struct Pool(Mutex<Vec<Scratch>>);
+#[allow(clippy::vec_box, reason = "large buffers go in and out with every form factor")]
+pub(crate) struct Pool(Mutex<Vec<Box<Buffers>>>);
 
 impl Pool {
     /// Runs `work` with buffers that no one else uses meanwhile.
-    pub(crate) fn lend<T>(&self, work: impl FnOnce(&mut Scratch) -> T) -> T {
-        let mut scratch = self.idle().pop().unwrap_or_default();
-        let result = work(&mut scratch);
-        self.idle().push(scratch);
+    pub(crate) fn lend<T>(&self, work: impl FnOnce(&mut Buffers) -> T) -> T {
+        let mut buffers = self.idle().pop().unwrap_or_default();
+        let result = work(&mut buffers);
+        self.idle().push(buffers);
         result
     }
 
-    fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Scratch>> {
+    #[allow(clippy::vec_box, reason = "as it is kept")]
+    fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Box<Buffers>>> {
         // A panic elsewhere leaves whole buffers behind.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

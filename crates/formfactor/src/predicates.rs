@@ -32,6 +32,9 @@ pub(crate) struct Plane {
     pub(crate) normal: Offset,
     /// Sums of magnitudes of the terms of each component of the normal.
     terms: DVec3,
+    /// The normal in doubles, and what its product with a rounded offset errs by, per component of the offset.
+    rounded: DVec3,
+    doubt: DVec3,
 }
 
 impl Plane {
@@ -41,7 +44,9 @@ impl Plane {
         let (normal, terms) = Offset::between(a, b).cross(Offset::between(a, c));
         let certain = |i: usize| normal.0[i].hi.abs() > FILTER * terms[i];
         let spanned = (0..3).any(certain) || exact_cross(corners).iter().any(|c| *c != IBig::ZERO);
-        spanned.then_some(Self { corners, normal, terms })
+        let rounded = normal.round();
+        let doubt = QUICK * rounded.abs() + FILTER * terms;
+        spanned.then_some(Self { corners, normal, terms, rounded, doubt })
     }
 
     /// The normal dotted with `to - from`: positive when the way from `from` to `to` leads to the normal's side.
@@ -59,11 +64,26 @@ impl Plane {
 
     /// On which side of the plane `point` lies: `Greater` on the side of the normal.
     pub(crate) fn side_of(&self, point: DVec3) -> Ordering {
-        let (normal, offset) = (self.normal.round(), point - self.corners[0]);
-        let value = normal.dot(offset);
-        let error =
-            QUICK * normal.abs().dot(offset.abs()) + FILTER * self.terms.dot(offset.abs()) + QUICK_UNDERFLOW;
-        if value.abs() > error { value.total_cmp(&0.0) } else { self.side(point).sign }
+        self.quick_side(point).unwrap_or_else(|| self.side(point).sign)
+    }
+
+    /// The same where doubles decide it; never `Equal`.
+    pub(crate) fn quick_side(&self, point: DVec3) -> Option<Ordering> {
+        let offset = point - self.corners[0];
+        let value = self.rounded.dot(offset);
+        let error = self.doubt.dot(offset.abs()) + QUICK_UNDERFLOW;
+        if value > error {
+            Some(Ordering::Greater)
+        } else if value < -error {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+
+    /// The normal in doubles.
+    pub(crate) fn rounded(&self) -> DVec3 {
+        self.rounded
     }
 
     /// The height of `point` over the plane, with the sign of [`Self::side_of`].

@@ -16,6 +16,8 @@ pub(crate) struct Shadow {
     pub(crate) loops: Vec<Vec<DVec2>>,
     /// A bound on the form factor of the difference between this and the exact shadow.
     pub(crate) error: f64,
+    /// Whether the occluder passes through the target's plane.
+    pub(crate) is_clipped: bool,
 }
 
 /// The shadow of the part of `occluder` between dA and the target's plane, right inside the target; without loops when no
@@ -30,6 +32,7 @@ pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) 
     Shadow {
         loops: spots.iter().map(|l| l.iter().map(|s| s.flat).collect()).collect(),
         error: spots.iter().map(|l| swept(l)).sum(),
+        is_clipped: sides.contains(&Ordering::Less),
     }
 }
 

@@ -12,8 +12,9 @@ pub(crate) struct Extent {
 impl Extent {
     const NOTHING: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
 
-    fn of(polygon: &PlanarPolygon) -> Self {
-        polygon.points().iter().fold(Self::NOTHING, |all, p| all.with(Self { low: *p, high: *p }))
+    /// Around points.
+    pub(crate) fn around(points: &[DVec3]) -> Self {
+        points.iter().fold(Self::NOTHING, |all, p| all.with(Self { low: *p, high: *p }))
     }
 
     fn with(self, other: Self) -> Self {
@@ -35,7 +36,7 @@ const LEAF: usize = 4;
 impl Tree {
     /// Takes O(n log^2 n).
     pub(crate) fn over(polygons: &[PlanarPolygon]) -> Self {
-        let extents: Vec<Extent> = polygons.iter().map(Extent::of).collect();
+        let extents: Vec<Extent> = polygons.iter().map(|polygon| Extent::around(polygon.points())).collect();
         let mut tree = Self { extents: Vec::new(), ids: (0..polygons.len()).collect() };
         let mut open = vec![(0, 0..polygons.len())];
         while let Some((node, range)) = open.pop() {

@@ -111,6 +111,11 @@ impl Offset {
         Self([0, 1, 2].map(|i| Twofold::difference(to[i], from[i])))
     }
 
+    /// The way to another offset.
+    pub(crate) fn to(self, other: Self) -> Self {
+        Self([0, 1, 2].map(|i| other.0[i] - self.0[i]))
+    }
+
     /// The nearest vector of doubles.
     pub(crate) fn round(self) -> DVec3 {
         DVec3::from_array(self.0.map(Twofold::round))

@@ -4,7 +4,7 @@ use crate::lambert::ContourSum;
 use crate::project::Shadow;
 use crate::region::leaf;
 use crate::view::View;
-use crate::{DifferentialArea, PlanarPolygon};
+use crate::{DifferentialArea, PlanarPolygon, Stats};
 use glam::DVec3;
 use polycsg::{Csg, Region, Scratch};
 
@@ -45,7 +45,7 @@ fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Plan
     let Some(view) = View::new(from, to) else {
         return Region::default();
     };
-    match shadows(&view, occluders) {
+    match shadows(&view, occluders, &mut Stats::default()) {
         Shadows::Total => Region::default(),
         Shadows::Some(shadows, _) => (leaf(&view.flat) - union(&shadows)).evaluate(),
     }

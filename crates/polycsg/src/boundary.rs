@@ -6,10 +6,13 @@ use crate::edges::{Edges, Origin};
 use crate::select::{Piece, Selection};
 use glam::DVec2;
 
-/// A directed edge of a boundary, the interior to its left.
+/// A directed edge of a boundary, the interior to its left, and where it comes from.
+///
+/// It is a piece of one input edge, or all of it, and may run against it: what is subtracted bounds from outside. Of
+/// input edges that coincide, one is named.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundaryEdge {
-    /// Where it starts.
+    /// Where it starts: an input vertex, or a crossing rounded to nearest.
     pub start: DVec2,
     /// Where it ends.
     pub end: DVec2,
@@ -35,7 +38,7 @@ impl<'s> Boundary<'s> {
         Boundary { selection, edges, contacts }
     }
 
-    /// The edges; those that rounding shrank to a point are left out.
+    /// The edges; those that rounding shrank to a point are left out. The order is the same from run to run.
     pub fn edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + use<'s> {
         let boundary = *self;
         self.selection.pieces().iter().flat_map(move |&piece| boundary.edges_of(piece))
@@ -62,7 +65,7 @@ impl<'s> Boundary<'s> {
         self.selection.pieces().is_empty()
     }
 
-    /// The enclosed area; infinite when it exceeds the largest `f64`.
+    /// The enclosed area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
     pub fn area(&self) -> f64 {
         let walks = self.selection.pieces().iter().map(|&piece| {
             let points = self.selection.points(self.edges, self.contacts, piece);

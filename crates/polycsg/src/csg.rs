@@ -6,6 +6,30 @@ use glam::DVec2;
 use std::ops::{BitAnd, BitOr, BitXor, Sub};
 
 /// What raw rings mean: which winding numbers are inside.
+///
+/// The winding number of a point is how often the rings run around it counter-clockwise, less how often clockwise.
+/// Take [`EvenOdd`](FillRule::EvenOdd) where holes may run either way (GeoJSON, shapefiles),
+/// [`NonZero`](FillRule::NonZero) for shapes drawn over one another (fonts, SVG's default), and
+/// [`Positive`](FillRule::Positive) where directions are known and a reversed ring must cut, as in a [`Region`].
+///
+/// ```
+/// use polycsg::{FillRule, Region};
+/// let square = |low: f64, high: f64| vec![[low, low], [high, low], [high, high], [low, high]];
+/// let clockwise: Vec<[f64; 2]> = square(1.0, 3.0).into_iter().rev().collect();
+/// let area = |rings: &[Vec<[f64; 2]>], rule| Region::from_rings(rings, rule).map(|region| region.area());
+/// // Nested squares, both counter-clockwise: wound once, and twice in the middle.
+/// let alike = [square(0.0, 4.0), square(1.0, 3.0)];
+/// assert_eq!(area(&alike, FillRule::EvenOdd)?, 12.0);
+/// assert_eq!(area(&alike, FillRule::NonZero)?, 16.0);
+/// assert_eq!(area(&alike, FillRule::Positive)?, 16.0);
+/// // The inner one clockwise and moved half out: wound 0 in the middle, -1 where it stands out.
+/// let out: Vec<[f64; 2]> = clockwise.iter().map(|[x, y]| [x + 2.0, *y]).collect();
+/// let opposed = [square(0.0, 4.0), out];
+/// assert_eq!(area(&opposed, FillRule::EvenOdd)?, 16.0);
+/// assert_eq!(area(&opposed, FillRule::NonZero)?, 16.0);
+/// assert_eq!(area(&opposed, FillRule::Positive)?, 14.0);
+/// # Ok::<(), polycsg::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FillRule {
@@ -49,7 +73,17 @@ impl Token<'_> {
 /// An expression of Booleans: regions and raw rings, combined by `|`, `&`, `-`, `^` or by the n-ary constructors.
 ///
 /// All operands enter one arrangement and every vertex of the result is rounded once, so that a nested expression
-/// has no rounding in between. Operands count in their order of appearance, from 0; see [`BoundaryEdge::operand`].
+/// has no rounding in between, and a union of 100 000 operands is one call. Building an expression copies nothing but raw
+/// rings; nesting of any depth is fine. Operands count in their order of appearance, from 0; see [`BoundaryEdge::operand`].
+///
+/// | | operators, of two | n-ary |
+/// | --- | --- | --- |
+/// | in any | `a \| b` | [`Csg::union`] |
+/// | in all | `a & b` | [`Csg::intersection`] |
+/// | in an odd number | `a ^ b` | [`Csg::symmetric_difference`] |
+/// | in the first only | `a - b` | `a - Csg::union(others)` |
+///
+/// The n-ary constructors take whatever yields `&Region` or `Csg`.
 ///
 /// [`BoundaryEdge::operand`]: crate::BoundaryEdge::operand
 ///
@@ -78,6 +112,9 @@ impl<'a> From<&'a Region> for Csg<'a> {
 
 impl<'a> Csg<'a> {
     /// Raw rings as an operand: self-intersecting, nested, touching, any direction, as `rule` reads them.
+    ///
+    /// They take part as they are: making a [`Region`] of them first costs a call more and rounds their crossings once more.
+    /// See [`Region::from_rings`] for what `rings` may be.
     ///
     /// # Errors
     /// [`Error::NonFinite`] names the first ring and vertex with a NaN or an infinity.
@@ -147,6 +184,8 @@ impl<'a> Csg<'a> {
             postfix.append(&mut operand.into().postfix);
             count += 1;
         }
+        // Nothing combines to the empty set, which as an operand is not the same as no operand at all.
+        let operator = if count == 0 { Operator::Union } else { operator };
         postfix.push(Token::Operator(operator, count));
         Csg { postfix }
     }
@@ -157,19 +196,37 @@ impl<'a> Csg<'a> {
         self
     }
 
-    /// The set as a valid [`Region`]. Expected O(n log n + k) for n edges with k contacts.
+    /// The set as a valid [`Region`]. Expected O((n + k) log n) for n edges with k contacts.
+    ///
+    /// # Panics
+    /// Beyond 2^32 − 2 edges and contacts, which take hundreds of gigabytes; nothing else panics.
     pub fn evaluate(&self) -> Region {
         self.evaluate_in(&mut Scratch::default())
     }
 
-    /// As [`evaluate`](Csg::evaluate), in buffers that the caller keeps from call to call.
+    /// As [`evaluate`](Csg::evaluate), in buffers that the caller keeps from call to call: for many small jobs.
     pub fn evaluate_in(&self, scratch: &mut Scratch) -> Region {
         pipeline::region(self, scratch)
     }
 
     /// The directed edges that bound the set, interior to the left, each vertex rounded once.
     ///
-    /// Stops before the check for rounding, the rings and the nesting: for whoever sums over edges.
+    /// Stops before the check for rounding, the rings and the nesting: for whoever sums over edges, asks for the area
+    /// alone or whether anything is left, or wants to know which operand an edge comes from.
+    ///
+    /// ```
+    /// use polycsg::{Csg, FillRule, Region, Scratch};
+    /// let square = |x: f64| [[x, 0.0], [x + 2.0, 0.0], [x + 2.0, 2.0], [x, 2.0]];
+    /// let (a, b) = (Region::from_rings([square(0.0)], FillRule::NonZero)?, Region::from_rings([square(1.0)], FillRule::NonZero)?);
+    /// let mut scratch = Scratch::default();
+    /// let rest = Csg::from(&a) - Csg::from(&b);
+    /// let boundary = rest.boundary(&mut scratch);
+    /// assert_eq!((boundary.is_empty(), boundary.area()), (false, 2.0));
+    /// // On the right it is bounded by operand 1, by the edge from that one's point 3 to its point 0.
+    /// let right = boundary.edges().find(|edge| edge.start.x == 1.0 && edge.end.x == 1.0).expect("an edge");
+    /// assert_eq!((right.operand, right.edge), (1, 3));
+    /// # Ok::<(), polycsg::Error>(())
+    /// ```
     pub fn boundary<'s>(&self, scratch: &'s mut Scratch) -> Boundary<'s> {
         pipeline::boundary(self, scratch)
     }

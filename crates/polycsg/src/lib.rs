@@ -36,6 +36,22 @@
 //! # Ok::<(), polycsg::Error>(())
 //! ```
 //!
+//! # Which call
+//!
+//! | for | call |
+//! | --- | --- |
+//! | raw rings, made valid | [`Region::from_rings`] |
+//! | two regions | [`Region::union`], [`intersection`](Region::intersection), [`difference`](Region::difference), [`symmetric_difference`](Region::symmetric_difference) |
+//! | many operands, nested expressions, raw rings as operands | [`Csg`], then [`evaluate`](Csg::evaluate) |
+//! | many small jobs | [`Csg::evaluate_in`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
+//! | the area alone, or whether anything is left; which operand an edge comes from | [`Csg::boundary`] |
+//! | where a point lies, how a segment lies | [`Region::locate`], [`classify`] |
+//! | moved, turned, scaled, mirrored | [`Region::map_affine`] |
+//! | triangles | `Region::triangulate` |
+//! | files and other crates | the features `serde` and `geo-types` |
+//!
+//! Not here: tolerances that clean dirty input, curves, offsets.
+//!
 //! # How it works
 //!
 #![doc = include_str!("../docs/stages.svg")]
@@ -55,7 +71,7 @@
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!
-//! Points are [`glam::DVec2`], re-exported here: glam's version is part of this crate's.
+//! None is on by default. Points are [`glam::DVec2`], re-exported here: glam's version is part of this crate's.
 
 pub use glam;
 pub use glam::DVec2;

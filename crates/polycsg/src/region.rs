@@ -12,8 +12,13 @@ use std::ops::Range;
 ///
 /// Always valid: rings are simple and meet one another in common vertices only; outer rings run counter-clockwise,
 /// holes clockwise, so that the interior is on the left of every edge; the interior of each polygon is connected.
+/// (With y upwards. Where y points downwards, as on screens, read clockwise for counter-clockwise; nothing else changes.)
+///
 /// Always canonical: each ring starts at its leftmost (then lowest) vertex, polygons are sorted by depth and then by
 /// that vertex, the holes of each by theirs. Equal sets with equal vertices are equal values.
+///
+/// Input vertices on the boundary are kept, also in the middle of a straight edge. Coordinates are in any unit; areas are in
+/// its square. The default is the empty set.
 ///
 /// ```
 /// use polycsg::{FillRule, Location, Region, DVec2};
@@ -41,7 +46,9 @@ struct Span {
     depth: usize,
 }
 
-/// One polygon of a [`Region`]: an outer ring and its holes.
+/// One polygon of a [`Region`]: an outer ring and its holes, borrowed.
+///
+/// Its holes may touch the outer ring and one another in single vertices; an island in a hole is a polygon of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Polygon<'r> {
     rings: &'r Rings,
@@ -51,12 +58,12 @@ pub struct Polygon<'r> {
 }
 
 impl<'r> Polygon<'r> {
-    /// The outer ring, counter-clockwise, the first point not repeated.
+    /// The outer ring, counter-clockwise, three points or more, the first not repeated.
     pub fn outer(&self) -> &'r [DVec2] {
         self.rings.ring(self.first)
     }
 
-    /// The holes, each clockwise.
+    /// The holes, each clockwise, the first point not repeated.
     pub fn holes(&self) -> impl Iterator<Item = &'r [DVec2]> + use<'r> {
         let rings = self.rings;
         (self.first + 1..self.end).map(move |ring| rings.ring(ring))
@@ -68,7 +75,7 @@ impl<'r> Polygon<'r> {
     }
 }
 
-/// Where a point lies.
+/// Where a point lies; see [`Region::locate`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Location {
@@ -83,8 +90,21 @@ pub enum Location {
 impl Region {
     /// The set that raw rings mean under a fill rule.
     ///
-    /// The rings may intersect themselves and one another, nest, touch, overlap, have spikes and repeated points; rings
-    /// without area add nothing. Anything that yields slices of points (`Vec<Vec<DVec2>>`, `[[f64; 2]; n]`, …) will do.
+    /// The rings may intersect themselves and one another, nest, touch, overlap, have spikes and repeated points (the
+    /// first may be repeated as the last, as in GeoJSON); rings without area add nothing. Anything that yields slices of
+    /// points will do, a point being a `DVec2`, an `[f64; 2]` or an `(f64, f64)`: `Vec<Vec<[f64; 2]>>`, `&[Vec<DVec2>]`,
+    /// `[&[(f64, f64)]; 1]`, … Expected O((n + k) log n) for n edges with k contacts.
+    ///
+    /// ```
+    /// use polycsg::{FillRule, Region};
+    /// // A pentagram crosses itself five times: even-odd leaves its middle out.
+    /// let star = [(0.0, 3.0), (-1.8, -2.4), (2.9, 0.9), (-2.9, 0.9), (1.8, -2.4)];
+    /// let points = Region::from_rings([&star[..]], FillRule::EvenOdd)?;
+    /// assert_eq!(points.polygons().count(), 5);
+    /// let filled = Region::from_rings([&star[..]], FillRule::NonZero)?;
+    /// assert_eq!(filled.polygons().next().expect("a star").outer().len(), 10);
+    /// # Ok::<(), polycsg::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::NonFinite`] names the first ring and vertex with a NaN or an infinity.
@@ -97,7 +117,18 @@ impl Region {
         Ok(Csg::rings(rings, rule)?.evaluate())
     }
 
-    /// A ∪ B.
+    /// A ∪ B. For more than two, see [`Csg::union`]: one call is faster than a chain, and rounds once.
+    ///
+    /// ```
+    /// use polycsg::{FillRule, Region};
+    /// let square = |x: f64| Region::from_rings([[[x, 0.0], [x + 2.0, 0.0], [x + 2.0, 2.0], [x, 2.0]]], FillRule::NonZero);
+    /// let (a, b) = (square(0.0)?, square(1.0)?);
+    /// assert_eq!(a.union(&b).area(), 6.0);
+    /// assert_eq!(a.intersection(&b).area(), 2.0);
+    /// assert_eq!(a.difference(&b).area(), 2.0);
+    /// assert_eq!(a.symmetric_difference(&b).area(), 4.0);
+    /// # Ok::<(), polycsg::Error>(())
+    /// ```
     pub fn union(&self, other: &Region) -> Region {
         (Csg::from(self) | Csg::from(other)).evaluate()
     }
@@ -117,7 +148,7 @@ impl Region {
         (Csg::from(self) ^ Csg::from(other)).evaluate()
     }
 
-    /// The polygons, outermost first.
+    /// The polygons, outermost first: by depth, then from left to right.
     pub fn polygons(&self) -> impl Iterator<Item = Polygon<'_>> {
         (0..self.polygons.len()).map(|i| {
             let rings = self.rings_of_polygon(i);
@@ -136,12 +167,27 @@ impl Region {
     }
 
     /// The area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
+    ///
+    /// Summed with 106 bits from the rings as they are: the relative error stays below 2^-52 as long as no ring has more
+    /// vertices, times the area of the box around it, than 10^12 times the area.
     pub fn area(&self) -> f64 {
         enclosed_area(self.rings().map(ring_edges))
     }
 
-    /// Where a finite point lies, exactly. O(n).
+    /// Where a point lies, exactly; a point that is not finite lies outside. O(n).
+    ///
+    /// ```
+    /// use polycsg::{DVec2, FillRule, Location, Region};
+    /// let triangle = Region::from_rings([[[0.0, 0.0], [3.0, 1.0], [0.0, 2.0]]], FillRule::NonZero)?;
+    /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5)), Location::Boundary);
+    /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5_f64.next_up())), Location::Inside);
+    /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5_f64.next_down())), Location::Outside);
+    /// # Ok::<(), polycsg::Error>(())
+    /// ```
     pub fn locate(&self, point: DVec2) -> Location {
+        if !point.is_finite() {
+            return Location::Outside;
+        }
         let mut above = false;
         for edge in self.rings().flat_map(ring_edges) {
             match look_down(edge, point) {

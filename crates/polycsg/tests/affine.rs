@@ -50,8 +50,10 @@ proptest! {
         let turned = |r: &Region| map(r, matrix(QUARTER_TURN));
         prop_assert_eq!(&turned(&turned(&turned(&turned(&region)))), &region);
         prop_assert_eq!(&map(&map(&region, matrix(MIRROR)), matrix(MIRROR)), &region);
-        prop_assert_eq!(turned(&region).area(), region.area());
-        prop_assert_eq!(map(&region, matrix(MIRROR)).area(), region.area());
+        // The sum starts elsewhere: its rounding may fall on the other side.
+        for image in [turned(&region), map(&region, matrix(MIRROR))] {
+            prop_assert!((image.area() - region.area()).abs() <= f64::EPSILON * region.area());
+        }
     }
 
     #[test]
@@ -62,7 +64,7 @@ proptest! {
         prop_assert_eq!(map(&a.union(&b), by), map(&a, by).union(&map(&b, by)));
         prop_assert_eq!(map(&a.intersection(&b), by), map(&a, by).intersection(&map(&b, by)));
         prop_assert_eq!(map(&a.difference(&b), by), map(&a, by).difference(&map(&b, by)));
-        prop_assert_eq!(map(&a, by).area(), a.area()); // all have determinant ±1
+        prop_assert_eq!(map(&a, by).area(), a.area()); // an integer, and all have determinant ±1
     }
 
     #[test]

@@ -8,9 +8,9 @@ pub enum Error {
     /// There is nothing to solve.
     #[error("the scene has no patches; give it at least one polygon")]
     NoPatches,
-    /// A patch's reflectance is not in [0, 1).
+    /// A patch's reflectance is not in [0, 1].
     #[error(
-        "patch {patch}: reflectance {value} in band {band} is not in [0, 1); a surface cannot reflect all light"
+        "patch {patch}: reflectance {value} in band {band} is not in [0, 1]; a surface cannot reflect more than it receives"
     )]
     Reflectance {
         /// The patch's name.
@@ -20,6 +20,28 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
+    /// Light that is sent into a closed room with such a patch may never be absorbed.
+    #[error(
+        "the room of patch {room} ({patches} patches) is closed and lit, and patch {patch} in it reflects all light: \
+         give it a reflectance below 1"
+    )]
+    Endless {
+        /// The room's first patch.
+        room: String,
+        /// How many patches form the room.
+        patches: usize,
+        /// The patch that reflects all light.
+        patch: String,
+    },
+    /// The pieces are too many for a matrix.
+    #[error("{pieces} pieces are too many for a matrix; solve by shooting, or with fewer elements")]
+    Size {
+        /// How many pieces exchange light.
+        pieces: usize,
+    },
+    /// The state is of another scene, or of another mesh of it.
+    #[error("the state is of another scene, or of another number of elements; start the run anew")]
+    Foreign,
     /// A patch's emission is negative or not finite.
     #[error(
         "patch {patch}: emission {value} in band {band} is negative or not finite; give a radiance of 0 or more"
@@ -43,6 +65,19 @@ pub enum Error {
         found: usize,
         /// How many the scene has.
         expected: usize,
+    },
+    /// Two patches lie on each other, facing the same way: which one light meets is not said.
+    #[error(
+        "patches {first} and {second} overlap in one plane, {share:.3} of the smaller one; let `inspect --mend` cut one, \
+         or remove it"
+    )]
+    Overlap {
+        /// The one's name.
+        first: String,
+        /// The other's.
+        second: String,
+        /// Which part of the smaller patch lies on the larger one.
+        share: f64,
     },
     /// A patch could not be cut into triangles.
     #[error("patch {patch}: no triangles: {reason}; simplify or remove the polygon")]

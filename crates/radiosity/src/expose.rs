@@ -23,8 +23,17 @@ impl Exposure {
     /// takes the luminance (Rec. 709). Where nothing but lamps is lit, the lamps count; where nothing is lit, K is 1.
     #[must_use]
     pub fn automatic(scene: &Scene, solution: &Solution) -> Self {
-        let dark = |patch: usize| scene.patches[patch].emission.iter().all(|band| *band == 0.0);
-        let mean = mean_luminance(solution, dark).or_else(|| mean_luminance(solution, |_| true));
+        let mesh = &solution.mesh;
+        let colours = rgb(&solution.radiosity, solution.bands).into_iter().enumerate();
+        Self::of(colours.map(|(index, colour)| {
+            (colour, mesh.area(index), scene.patches[mesh.elements[index].patch].emits())
+        }))
+    }
+
+    /// The same from colours with the area that each covers and whether it is a lamp's.
+    pub(crate) fn of(lit: impl Iterator<Item = ([f64; 3], f64, bool)> + Clone) -> Self {
+        let others = lit.clone().filter(|(_, _, lamp)| !lamp);
+        let mean = mean_luminance(others).or_else(|| mean_luminance(lit));
         let k = mean.map(|luminance| -(-MID_GREY).ln_1p() / luminance);
         k.and_then(Self::new).unwrap_or(Self { k: 1.0 })
     }
@@ -55,14 +64,12 @@ pub fn srgb(intensity: f64) -> f64 {
     if intensity <= 0.003_130_8 { 12.92 * intensity } else { 1.055 * intensity.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// The geometric mean, weighted by area, over lit elements of the chosen patches.
-fn mean_luminance(solution: &Solution, chosen: impl Fn(usize) -> bool) -> Option<f64> {
-    let mesh = &solution.mesh;
+/// The geometric mean, weighted by area, over what is lit.
+fn mean_luminance(lit: impl Iterator<Item = ([f64; 3], f64, bool)>) -> Option<f64> {
     let (mut sum, mut weight) = (0.0, 0.0);
-    for (index, colour) in rgb(&solution.radiosity, solution.bands).into_iter().enumerate() {
+    for (colour, area, _) in lit {
         let luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
-        if luminance > 0.0 && chosen(mesh.elements[index].patch) {
-            let area = mesh.area(index);
+        if luminance > 0.0 {
             sum += area * luminance.ln();
             weight += area;
         }

@@ -9,15 +9,29 @@ pub use glam;
 
 mod error;
 pub mod expose;
+mod extent;
+mod groups;
+pub mod inspect;
 mod interpolate;
 pub mod io;
+mod mend;
 mod mesh;
 pub mod picture;
+mod plane;
+mod record;
 mod scene;
 pub mod scenes;
 mod solve;
+mod table;
+
+pub mod viewer;
 
 pub use error::Error;
+pub use mend::mend;
 pub use mesh::{Element, Mesh};
+pub use record::{PatchRecord, Record};
 pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
-pub use solve::{Ledger, Options, Progress, Solution, solve};
+pub use solve::{
+    Ledger, Method, Norm, Options, Progress, Quality, Solution, State, StateError, solve, solve_from,
+};
+pub use table::{element_table, patch_table, table};

@@ -1,10 +1,12 @@
 //! What is lit: patches, what they reflect and emit, and who looks at them.
+mod middle;
 mod texture;
 
 pub use texture::{Image, Texture};
 
 use formfactor::PlanarPolygon;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Surfaces, cameras, and what the reader had to say about the file.
 ///
@@ -23,8 +25,18 @@ pub struct Scene {
     pub asset: Asset,
 }
 
+impl Scene {
+    /// The corners of the box around all patches; those of the unit box where there are none.
+    #[must_use]
+    pub fn extent(&self) -> [DVec3; 2] {
+        let points = self.patches.iter().flat_map(|patch| patch.polygon.loops()).flatten();
+        let boxes = points.map(|point| [*point, *point]);
+        boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([DVec3::ZERO, DVec3::ONE])
+    }
+}
+
 /// What the coordinates of a scene mean; they stay as the file has them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Asset {
     /// The axis that points up; y where the file says nothing.
     pub up: DVec3,
@@ -55,6 +67,8 @@ pub struct Patch {
     /// Patches of one object with the same number are facets of one curved surface; none for a facet that is meant
     /// flat.
     pub smoothing: Option<usize>,
+    /// Whether it only stands in the way of light, and has no part in it otherwise.
+    pub only_blocks: bool,
     /// Where in the file it stands.
     pub origin: Origin,
 }
@@ -77,8 +91,9 @@ impl Patch {
         reflectance: Vec<f64>,
         emission: Vec<f64>,
     ) -> Patch {
-        let (name, texture, smoothing, origin) = (name.into(), None, None, Origin::default());
-        Patch { name, polygon, reflectance, emission, texture, smoothing, origin }
+        let name = name.into();
+        let (texture, smoothing, only_blocks, origin) = (None, None, false, Origin::default());
+        Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, origin }
     }
 
     /// The reflectance per band of a triangle on the patch: its own, or the mean of its texture there.
@@ -112,7 +127,7 @@ pub struct Origin {
 }
 
 /// A pinhole camera.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Camera {
     /// The camera's name in the file.
     pub name: String,
@@ -126,4 +141,13 @@ pub struct Camera {
     pub vertical_fov: f64,
     /// Width over height of the picture.
     pub aspect: f64,
+}
+
+impl Camera {
+    /// Whether its numbers make a view.
+    pub(crate) fn is_sound(&self) -> bool {
+        let upright = self.direction.cross(self.up).try_normalize().is_some();
+        let open = self.vertical_fov > 0.0 && self.vertical_fov < std::f64::consts::PI;
+        upright && open && self.position.is_finite() && self.aspect.is_normal() && self.aspect > 0.0
+    }
 }

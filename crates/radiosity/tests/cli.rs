@@ -64,7 +64,9 @@ fn text_of(path: &Path) -> String {
 #[test]
 fn solve_prints_the_figures_and_writes_every_kind_of_file() {
     let folder = Folder::new();
-    let files: Vec<String> = ["a.png", "a.dae", "a.glb", "a.json"].map(|n| text_of(&folder.path(n))).to_vec();
+    let files: Vec<String> = ["a.png", "a.dae", "a.glb", "a.json", "a.csv", "a.elements.csv", "a.html"]
+        .map(|n| text_of(&folder.path(n)))
+        .to_vec();
     let mut arguments = SOLVE.to_vec();
     for file in &files {
         arguments.extend(["-o", file]);
@@ -72,10 +74,14 @@ fn solve_prints_the_figures_and_writes_every_kind_of_file() {
     arguments.extend(["--json", "-j", "2"]);
     let output = radiosity(&arguments);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert_eq!(folder.names(), ["a.dae", "a.glb", "a.json", "a.png"]);
+    assert_eq!(folder.names(), ["a.csv", "a.dae", "a.elements.csv", "a.glb", "a.html", "a.json", "a.png"]);
     assert!(std::fs::read(&files[0]).expect("a picture").starts_with(b"\x89PNG\r\n\x1a\n"));
     assert!(std::fs::read(&files[2]).expect("a GLB").starts_with(b"glTF"));
-    assert_eq!(std::fs::read(&files[3]).expect("figures"), output.stdout);
+    let mut written: Value =
+        serde_json::from_slice(&std::fs::read(&files[3]).expect("a solution")).expect("JSON");
+    let light = written.as_object_mut().expect("an object").remove("light").expect("the light");
+    assert_eq!(written, json(&output), "the figures stand beside the light");
+    assert_eq!(light["elements"].as_array().expect("elements").len(), written["elements"]);
 
     let figures = json(&output);
     for key in ["scene", "elements", "shots", "seconds", "bound", "closure", "energy", "patches"] {
@@ -94,6 +100,146 @@ fn solve_prints_the_figures_and_writes_every_kind_of_file() {
     let expected = "floor ceiling back right left.1 left.2 light short-top short-1 short-2 short-3 short-4 \
                     tall-top tall-1 tall-2 tall-3 tall-4";
     assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
+}
+
+/// A solution in every kind of file.
+fn solved(folder: &Folder, kinds: &[&str]) -> Vec<String> {
+    let files: Vec<String> = kinds.iter().map(|kind| text_of(&folder.path(kind))).collect();
+    let mut arguments = SOLVE.to_vec();
+    files.iter().for_each(|file| arguments.extend(["-o", file]));
+    let output = radiosity(&arguments);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    files
+}
+
+#[test]
+fn tables_have_a_row_for_each_patch_and_element() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.csv", "a.elements.csv", "a.json"]);
+    let [patches, elements] = [0, 1].map(|i| std::fs::read_to_string(&files[i]).expect("a table"));
+    assert!(patches.starts_with("patch,area,reflectance.0,"));
+    assert!(elements.starts_with("element,patch,x,y,z,area,irradiance.0,"));
+    let written: Value =
+        serde_json::from_slice(&std::fs::read(&files[2]).expect("a solution")).expect("JSON");
+    assert_eq!(patches.lines().count(), 1 + 17);
+    assert_eq!(elements.lines().count() as u64, 1 + written["elements"].as_u64().expect("a number"));
+    let floor: Vec<&str> = patches.lines().nth(1).expect("the floor").split(',').collect();
+    assert_eq!(floor[0], "floor");
+    let mean = written["patches"][0]["radiosity"][0].as_f64().expect("a number");
+    assert_eq!(floor[floor.len() - 3].parse::<f64>().expect("a number"), mean);
+}
+
+#[test]
+fn expose_on_a_written_solution_gives_what_solve_gives() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json", "a.png", "a.glb", "a.dae"]);
+    let out = |name: &str| text_of(&folder.path(name));
+    let expose = |from: &str, to: &str, more: &[&str]| {
+        let output = radiosity(&[&["expose", from, "-o", to], more].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        std::fs::read(to).expect("an exposed solution")
+    };
+    let read = |file: &str| std::fs::read(file).expect("a file");
+    assert_eq!(expose(&files[0], &out("b.png"), &["--auto"]), read(&files[1]));
+    assert_eq!(expose(&files[0], &out("b.glb"), &[]), read(&files[2]));
+    assert_ne!(expose(&files[0], &out("b.png"), &["-k", "0.01"]), read(&files[1]));
+    // Exposed in place or from the solution: the same colours.
+    let direct = expose(&files[0], &out("c.glb"), &["-k", "0.05"]);
+    let in_place = expose(&files[2], &out("d.glb"), &["-k", "0.05"]);
+    assert_eq!(direct.len(), in_place.len());
+    let colours = expose(&files[3], &out("b.dae"), &["-k", "0.05"]);
+    let (before, after) = (String::from_utf8(read(&files[3])), String::from_utf8(colours));
+    assert_exposed(&before.expect("text"), &after.expect("text"));
+}
+
+/// Every vertex colour is 1 - exp(-0.05 B); all else is as it was.
+fn assert_exposed(before: &str, after: &str) {
+    let is_colour = |line: &str| line.starts_with("<float_array") && line.contains("lit-colours");
+    let numbers = |line: &str| -> Vec<f64> {
+        let text = line.split(['<', '>']).nth(2).expect("the element's text");
+        text.split(' ').map(|number| number.parse().expect("a number")).collect()
+    };
+    let mut colours = 0;
+    for (old, new) in before.lines().zip(after.lines()) {
+        if !is_colour(old) {
+            assert_eq!(old, new);
+            continue;
+        }
+        colours += 1;
+        for (light, colour) in numbers(old).into_iter().zip(numbers(new)) {
+            assert!((colour - (1.0 - (-0.05 * light).exp())).abs() < 1e-14);
+        }
+    }
+    assert_eq!((before.lines().count(), colours), (after.lines().count(), 16));
+}
+
+#[test]
+fn a_camera_may_be_named_or_given() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json", "a.png"]);
+    let picture = |camera: &str| {
+        let path = text_of(&folder.path("b.png"));
+        let output = radiosity(&["expose", &files[0], "-o", &path, "--camera", camera]);
+        (code(&output), std::fs::read(&path).unwrap_or_default(), stderr(&output))
+    };
+    assert_eq!(picture("camera").1, std::fs::read(&files[1]).expect("a picture"));
+    let given = picture("278,273,-400,278,273,0,60");
+    assert!(given.0 == 0 && given.1 != picture("camera").1);
+    let unknown = picture("no-such-camera");
+    assert!(unknown.0 == 2 && unknown.2.contains("the scene has camera"), "{}", unknown.2);
+    assert_eq!(picture("0,0,0,0,1,0").0, 2, "straight up");
+}
+
+#[test]
+fn inspect_tells_and_mends() {
+    let folder = Folder::new();
+    let scene = String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text");
+    // The ceiling without its hole: the lamp lies in it.
+    let (start, end) = (scene.find("<h>").expect("a hole"), scene.find("</h>").expect("a hole"));
+    let closed = folder.put("closed.dae", &format!("{}{}", &scene[..start], &scene[end + 4..]));
+    let mended = text_of(&folder.path("mended.dae"));
+    let output = radiosity(&["inspect", &closed, "--json", "--mend", "-o", &mended]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let findings = json(&output)["findings"].clone();
+    assert_eq!(findings.as_array().expect("findings").len(), 1);
+    assert_eq!((&findings[0]["kind"], &findings[0]["patches"][1]), (&"lamp-in-face".into(), &"light".into()));
+    let again = json(&radiosity(&["inspect", &mended, "--json"]));
+    assert_eq!(again["findings"].as_array().expect("findings").len(), 0);
+    let ceiling =
+        |file: &str| json(&radiosity(&["inspect", file, "--json"]))["area"].as_f64().expect("an area");
+    assert!((ceiling(&closed) - ceiling(&mended) - 130.0 * 105.0).abs() < 1e-6);
+}
+
+#[test]
+fn view_writes_one_page_without_addresses() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json"]);
+    let output = radiosity(&["view", &files[0]]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let page = std::fs::read_to_string(folder.path("a.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.contains("short-top"));
+    for address in ["http://", "https://", "src=", "@import"] {
+        assert!(!page.contains(address), "{address}");
+    }
+}
+
+#[test]
+fn what_is_no_solution_is_refused() {
+    let folder = Folder::new();
+    let page = text_of(&folder.path("a.png"));
+    let files = solved(&folder, &["good.json"]);
+    let good = std::fs::read_to_string(&files[0]).expect("a solution");
+    let cases = [
+        folder.put("text.json", "no JSON"),
+        folder.put("other.json", "{}"),
+        folder.put("cut.json", &good[..good.len() / 2]),
+        folder.put("short.json", &good.replacen("\"bands\":3", "\"bands\":2", 1)),
+        folder.put("index.json", &good.replacen("\"elements\":[[0,", "\"elements\":[[99,", 1)),
+    ];
+    for file in cases {
+        let output = radiosity(&["expose", &file, "-o", &page]);
+        assert_eq!(code(&output), 3, "{file}: {}", stderr(&output));
+    }
 }
 
 #[test]

@@ -20,6 +20,11 @@ impl Failure {
         Failure { code: 2, message: message.to_string() }
     }
 
+    /// A scene or solution that makes no sense: exit code 3.
+    pub(super) fn scene(message: impl ToString) -> Failure {
+        Failure { code: 3, message: message.to_string() }
+    }
+
     /// The threads could not be started.
     pub(super) fn threads(error: impl ToString) -> Failure {
         Failure::internal(format!("the threads cannot be started: {}; try -j 1", error.to_string()))
@@ -40,9 +45,14 @@ impl From<radiosity::Error> for Failure {
 }
 
 impl From<io::Error> for Failure {
-    /// A file that cannot be read or written is exit code 1, a file that makes no sense 3.
+    /// A file that cannot be read or written is exit code 1, an unknown kind of file 2, one
+    /// that makes no sense 3.
     fn from(error: io::Error) -> Failure {
-        let code = if matches!(error, io::Error::Read { .. } | io::Error::Write { .. }) { 1 } else { 3 };
+        let code = match error {
+            io::Error::Read { .. } | io::Error::Write { .. } | io::Error::Size { .. } => 1,
+            io::Error::Unknown { .. } => 2,
+            _ => 3,
+        };
         Failure { code, message: error.to_string() }
     }
 }

@@ -1,6 +1,5 @@
 //! What `--json` prints.
-use formfactor::FormFactor;
-use radiosity::{Scene, Solution};
+use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
 /// The figures of a solution.
@@ -14,6 +13,14 @@ pub(super) struct Figures<'s> {
     closure: Option<f64>,
     energy: Energy<'s>,
     patches: Vec<PatchFigures<'s>>,
+}
+
+/// A `.json` file: the figures and the light itself.
+#[derive(Debug, Serialize)]
+pub(super) struct Written<'s> {
+    #[serde(flatten)]
+    pub(super) figures: Option<&'s Figures<'s>>,
+    pub(super) light: &'s Record,
 }
 
 /// The ledger.
@@ -68,35 +75,12 @@ impl<'s> Figures<'s> {
     }
 }
 
-/// Form factors from one point.
-#[derive(Debug, Serialize)]
-pub(super) struct Rows<'s> {
-    pub(super) rows: Vec<Row<'s>>,
-    pub(super) sum: f64,
-}
-
-/// The form factor to one patch.
-#[derive(Debug, Serialize)]
-pub(super) struct Row<'s> {
-    pub(super) name: &'s str,
-    pub(super) form_factor: f64,
-    pub(super) error_bound: f64,
-}
-
-impl<'s> Rows<'s> {
-    /// Names the form factors to the patches of `scene`, given in their order.
-    pub(super) fn new(scene: &'s Scene, factors: &[FormFactor]) -> Rows<'s> {
-        let row = |(patch, factor): (&'s radiosity::Patch, &FormFactor)| Row {
-            name: &patch.name,
-            form_factor: factor.value,
-            error_bound: factor.error_bound,
-        };
-        let rows = scene.patches.iter().zip(factors).map(row).collect();
-        Rows { rows, sum: factors.iter().map(|factor| factor.value).sum() }
-    }
-}
-
 /// One line of JSON, ended by a newline.
 pub(super) fn line(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain numbers and names can be written") + "\n"
+}
+
+/// The word that stands for a plain value in JSON.
+pub(super) fn word(value: &impl Serialize) -> String {
+    line(value).trim().trim_matches('"').to_owned()
 }

@@ -1,15 +1,9 @@
 //! Results to files, by extension, and data to stdout.
-use super::{Failure, solve::Solve};
-use radiosity::{
-    Scene, Solution,
-    expose::{self, Exposure},
-    io::{self, collada::Collada, glb},
-    picture,
-};
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use super::{Failure, json, look::Look};
+use radiosity::io::{self, Source, gltf};
+use radiosity::{Record, Scene, element_table, patch_table, picture, viewer};
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// A file that a result can be written to.
 #[derive(Debug)]
@@ -25,33 +19,42 @@ enum Kind {
     Collada,
     Glb,
     Json,
+    Page,
+    Patches,
+    Elements,
 }
+
+/// By the end of the file's name.
+const KINDS: [(&str, Kind); 7] = [
+    (".elements.csv", Kind::Elements),
+    (".csv", Kind::Patches),
+    (".png", Kind::Picture),
+    (".dae", Kind::Collada),
+    (".glb", Kind::Glb),
+    (".json", Kind::Json),
+    (".html", Kind::Page),
+];
 
 /// What was found, and what it was found from.
 #[derive(Debug)]
 pub(super) struct Findings<'s> {
-    pub(super) arguments: &'s Solve,
-    pub(super) source: &'s Collada,
-    pub(super) scene: &'s Scene,
-    pub(super) solution: &'s Solution,
-    pub(super) figures: &'s str,
+    pub(super) look: &'s Look,
+    pub(super) record: &'s Record,
+    /// The scene and its file, where they are at hand.
+    pub(super) source: Option<(&'s Source, &'s Scene)>,
+    /// The solver's figures, where it has just run.
+    pub(super) figures: Option<&'s json::Figures<'s>>,
 }
 
 impl Output {
     /// An output file: its extension must be known, and its folder must take new files, before anything is solved.
     pub(super) fn new(path: &Path) -> Result<Output, Failure> {
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        let kind = match extension.as_deref() {
-            Some("png") => Kind::Picture,
-            Some("dae") => Kind::Collada,
-            Some("glb") => Kind::Glb,
-            Some("json") => Kind::Json,
-            _ => {
-                let message =
-                    format!("{}: unknown kind of file; name it .png, .dae, .glb or .json", path.display());
-                return Err(Failure::usage(message));
-            }
-        };
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let found = KINDS.iter().find(|(end, _)| name.ends_with(end));
+        let (_, kind) = *found.ok_or_else(|| {
+            let ends: Vec<&str> = KINDS.iter().map(|(end, _)| *end).collect();
+            Failure::usage(format!("{}: unknown kind of file; name it {}", path.display(), ends.join(", ")))
+        })?;
         probe(path)?;
         Ok(Output { path: path.to_owned(), kind })
     }
@@ -62,39 +65,41 @@ impl Output {
             Kind::Picture => findings.picture()?,
             Kind::Collada => findings.collada()?,
             Kind::Glb => findings.glb()?,
-            Kind::Json => findings.figures.as_bytes().to_vec(),
+            Kind::Json => findings.json().into_bytes(),
+            Kind::Page => viewer::page(findings.record, findings.look.exposure(findings.record)).into_bytes(),
+            Kind::Patches => patch_table(findings.record).into_bytes(),
+            Kind::Elements => element_table(findings.record).into_bytes(),
         };
         Ok(io::save(&self.path, &bytes)?)
     }
 }
 
 impl Findings<'_> {
-    /// PNG of the scene from its first camera, or from a stated view when it has none.
+    /// PNG as the camera sees it.
     fn picture(&self) -> Result<Vec<u8>, Failure> {
-        let camera = self.scene.cameras.first().cloned().unwrap_or_else(|| picture::framing(self.scene));
-        let width = self.arguments.width;
-        Ok(picture::draw(&self.solution.mesh, &self.colours(), &camera, self.exposure(), width))
+        let (record, look) = (self.record, self.look);
+        let camera = look.camera(record)?;
+        Ok(picture::draw(&record.mesh(), &record.colours(), &camera, look.exposure(record), look.width))
     }
 
     /// The scene's own COLLADA with the unscaled radiosity at the vertices.
     fn collada(&self) -> Result<Vec<u8>, Failure> {
-        Ok(self.source.with_light(self.scene, &self.solution.mesh, &self.colours())?.into_bytes())
+        let (source, scene) = self.source.ok_or_else(|| {
+            Failure::usage(
+                "COLLADA is written by solve, into the scene's own file; expose turns that to colours",
+            )
+        })?;
+        Ok(source.with_light(scene, &self.record.mesh(), &self.record.colours())?.into_bytes())
     }
 
     /// glTF binary.
     fn glb(&self) -> Result<Vec<u8>, Failure> {
-        Ok(glb::glb(self.scene, &self.solution.mesh, &self.colours(), self.exposure())?)
+        Ok(gltf::glb(self.record, self.look.exposure(self.record))?)
     }
 
-    /// Red, green and blue radiosity at the vertices.
-    fn colours(&self) -> Vec<[f64; 3]> {
-        expose::rgb(&self.solution.vertex_radiosity(), self.solution.bands)
-    }
-
-    /// As asked, or chosen from the light.
-    fn exposure(&self) -> Exposure {
-        let asked = self.arguments.exposure.and_then(Exposure::new);
-        asked.unwrap_or_else(|| Exposure::automatic(self.scene, self.solution))
+    /// The figures and the light.
+    fn json(&self) -> String {
+        json::line(&json::Written { figures: self.figures, light: self.record })
     }
 }
 

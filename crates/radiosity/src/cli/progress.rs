@@ -20,12 +20,24 @@ impl Bar {
         Bar { bar: ProgressBar::new(STEPS).with_style(style), tolerance }
     }
 
-    /// Shows where the solver stands.
+    /// Shows where the solver stands: what is unshot, the bound and the ledger, each of the worst band.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the bar's steps")]
-    pub(super) fn show(&self, progress: Progress) {
+    pub(super) fn show(&self, progress: &Progress<'_>) {
         let done = progress.unshot.log10() / self.tolerance.log10();
         self.bar.set_position((done.clamp(0.0, 1.0) * STEPS as f64) as u64);
-        self.bar.set_message(format!("{} shots, {:.2e} unshot", progress.shots, progress.unshot));
+        let ledger = progress.ledger;
+        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let share = |values: &[f64]| {
+            let shares = values.iter().zip(&ledger.emitted).filter(|(_, emitted)| **emitted > 0.0);
+            100.0 * shares.map(|(value, emitted)| value / emitted).fold(0.0, f64::max)
+        };
+        let Progress { shots, products, unshot, bound, .. } = progress;
+        self.bar.set_message(format!(
+            "{shots} shots, {products} products, {unshot:.1e} unshot, bound {:.1e}, {:.0} % absorbed, {:.0} % escaped",
+            largest(bound),
+            share(&ledger.absorbed),
+            share(&ledger.escaped),
+        ));
     }
 
     /// Takes the bar off the screen.

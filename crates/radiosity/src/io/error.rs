@@ -44,6 +44,40 @@ pub enum Error {
         /// What the parser says.
         source: roxmltree::Error,
     },
+    /// The bytes are not glTF 2.0.
+    #[error("{file}: not glTF 2.0: {source}; export the file again")]
+    Gltf {
+        /// The file.
+        file: String,
+        /// What the parser says.
+        source: Box<gltf::Error>,
+    },
+    /// A part of a glTF file cannot be taken.
+    #[error("{file}: {part}: {fault}")]
+    Part {
+        /// The file.
+        file: String,
+        /// Which part: `accessor 3`, `mesh 0, primitive 1`.
+        part: String,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+    /// A line of a text file cannot be taken.
+    #[error("{file}:{line}: {fault}")]
+    Line {
+        /// The file.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+    /// The file is of no kind that is read.
+    #[error("{file}: unknown kind of scene; give a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file")]
+    Unknown {
+        /// The file.
+        file: String,
+    },
     /// An element of the file cannot be taken.
     #[error("{file}:{line}:{column}: <{element}>: {fault}")]
     Scene {
@@ -146,6 +180,20 @@ pub enum Fault {
         what: &'static str,
         /// The limit.
         limit: usize,
+    },
+    /// Bytes that are not there.
+    #[error("its bytes cannot be had: {0}; put them beside the scene or into it")]
+    Missing(String),
+    /// Rows of another width than needed.
+    #[error("it has another number of {0} than its use needs; export the file again")]
+    Kind(&'static str),
+    /// A word where another is needed.
+    #[error("{found:?} stands where {wanted} is needed; correct the line")]
+    Word {
+        /// What stands there.
+        found: String,
+        /// What is needed.
+        wanted: &'static str,
     },
     /// A polygon that the form factors refuse.
     #[error("polygon {polygon}: {source}")]

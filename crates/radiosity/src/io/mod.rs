@@ -1,8 +1,13 @@
-//! Scene files in, results out: COLLADA, glTF binary, whole files only.
+//! Scene files in, results out: COLLADA, glTF, View3D's format; whole files only.
 pub mod collada;
 mod error;
-pub mod glb;
+pub mod gltf;
+mod image;
 mod save;
+mod source;
+mod surface;
+pub mod vs3;
 
 pub use error::{Error, Fault};
 pub use save::save;
+pub use source::Source;

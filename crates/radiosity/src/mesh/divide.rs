@@ -26,6 +26,8 @@ pub(super) struct Points {
     pub(super) boundary: Vec<SubEdge>,
     /// Pieces of the contact lines inside; none crosses the boundary.
     pub(super) contacts: Vec<[usize; 2]>,
+    /// The same of the lines where shadows begin and end.
+    pub(super) shadows: Vec<[usize; 2]>,
     /// The lattice that the interior points are from.
     pub(super) lattice: Lattice,
 }
@@ -43,21 +45,41 @@ struct Ground<'g> {
     contacts: Vec<[DVec2; 2]>,
     /// Side of a cell, in the frame's unit.
     spacing: f64,
+    lattice: Lattice,
+    /// How often each cell of the lattice is halved; empty when none is.
+    levels: &'g [u8],
 }
 
-/// Finds the points of a patch for cells of side `spacing`, with points along the contact lines.
+/// What a patch is divided by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Division<'d> {
+    /// Lines on which other patches touch it.
+    pub(super) contacts: &'d [[DVec3; 2]],
+    /// Lines where shadows begin and end.
+    pub(super) shadows: &'d [[DVec3; 2]],
+    /// Side of a cell.
+    pub(super) spacing: f64,
+    /// How often each cell of the lattice is halved; empty when none is.
+    pub(super) levels: &'d [u8],
+}
+
+/// Finds the points of a patch, with points along its contact lines and the edges of its shadows.
 pub(super) fn divide(
     polygon: &PlanarPolygon,
-    contacts: &[[DVec3; 2]],
+    division: &Division<'_>,
     frame: &Frame,
-    spacing: f64,
 ) -> Result<Points, Refusal> {
-    let ground = Ground::new(polygon, contacts, frame, spacing)?;
-    let mut points = Points { lattice: Lattice::over(&ground.region, ground.spacing), ..Points::default() };
+    let ground = Ground::new(polygon, division, frame)?;
+    let mut points = Points { lattice: ground.lattice, ..Points::default() };
     points.divide_boundary(&ground);
     let mut lines = points.lines(points.boundary.iter().map(|piece| piece.ends));
     for &contact in &ground.contacts {
-        points.divide_contact(contact, &ground, &mut lines);
+        let pieces = points.divide_line(contact, &ground, &mut lines);
+        points.contacts.extend(pieces);
+    }
+    for shadow in division.shadows.iter().filter_map(|ends| ground.clip(ends.map(|end| frame.flatten(end)))) {
+        let pieces = points.divide_line(shadow, &ground, &mut lines);
+        points.shadows.extend(pieces);
     }
     points.fill_inside(&ground, &lines);
     Ok(points)
@@ -71,7 +93,7 @@ impl Points {
             let chain: Vec<_> = ground
                 .stops(start, end)
                 .windows(2)
-                .flat_map(|ends| pieces([ends[0], ends[1]], ground.spacing))
+                .flat_map(|ends| ground.pieces([ends[0], ends[1]]))
                 .map(|(flat, place)| *known.entry(key(flat)).or_insert_with(|| self.push(flat, place)))
                 .collect();
             let pairs = chain.windows(2).filter(|ends| ends[0] != ends[1]);
@@ -79,34 +101,41 @@ impl Points {
         }
     }
 
-    /// Appends the part of a contact line that lies inside the region and keeps a quarter of a step from the
-    /// boundary and from the contact lines before it, but for the points that it shares with them.
-    fn divide_contact(&mut self, ends: [DVec2; 2], ground: &Ground<'_>, lines: &mut Vec<[DVec2; 2]>) {
-        let clearance = self.lattice.step.min_element() / 4.0;
-        let chain: Vec<Option<usize>> = pieces(ends.map(|end| (end, ground.frame.lift(end))), ground.spacing)
+    /// Appends the points of the part of a line that lies inside the region and keeps a quarter of a step from the
+    /// boundary and from the lines before it, but for the points that it shares with them; gives its pieces.
+    fn divide_line(
+        &mut self,
+        ends: [DVec2; 2],
+        ground: &Ground<'_>,
+        lines: &mut Vec<[DVec2; 2]>,
+    ) -> Vec<[usize; 2]> {
+        let chain: Vec<Option<usize>> = ground
+            .pieces(ends.map(|end| (end, ground.frame.lift(end))))
+            .into_iter()
             .map(|(flat, place)| match self.known(flat, ground.near()) {
-                None if ground.inside_and_clear(flat, lines, clearance) => Some(self.push(flat, place)),
+                None if ground.inside_and_clear(flat, lines, ground.step(flat) / 4.0) => {
+                    Some(self.push(flat, place))
+                }
                 known => known,
             })
             .collect();
         let whole = chain.windows(2).filter_map(|pair| Some([pair[0]?, pair[1]?]));
         let middle = |[a, b]: [usize; 2]| self.flat[a].midpoint(self.flat[b]);
-        let kept: Vec<_> =
-            whole.filter(|&pair| ground.inside_and_clear(middle(pair), lines, clearance / 4.0)).collect();
+        let clear = |pair: &[usize; 2]| {
+            let middle = middle(*pair);
+            ground.inside_and_clear(middle, lines, ground.step(middle) / 16.0)
+        };
+        let kept: Vec<_> = whole.filter(|pair| pair[0] != pair[1] && clear(pair)).collect();
         lines.extend(self.lines(kept.iter().copied()));
-        self.contacts.extend(kept);
+        kept
     }
 
-    /// Appends the lattice points inside the region that keep half a step from the lines.
+    /// Appends the lattice points inside the region, and those of its halved cells, that keep half a step from the
+    /// lines.
     fn fill_inside(&mut self, ground: &Ground<'_>, lines: &[[DVec2; 2]]) {
-        let lattice = self.lattice;
-        let clearance = lattice.step.min_element() / 2.0;
-        for j in 1..lattice.cells[1] {
-            for i in 1..lattice.cells[0] {
-                let point = lattice.point(i, j);
-                if ground.inside_and_clear(point, lines, clearance) {
-                    self.push(point, ground.frame.lift(point));
-                }
+        for point in self.lattice.points(ground.levels) {
+            if ground.inside_and_clear(point, lines, ground.step(point) / 2.0) {
+                self.push(point, ground.frame.lift(point));
             }
         }
     }
@@ -133,9 +162,8 @@ impl<'g> Ground<'g> {
     /// The patch as a valid region of its frame.
     fn new(
         polygon: &PlanarPolygon,
-        contacts: &[[DVec3; 2]],
+        division: &Division<'g>,
         frame: &'g Frame,
-        spacing: f64,
     ) -> Result<Ground<'g>, Refusal> {
         let flatten = |points: &[DVec3]| points.iter().map(|&p| frame.flatten(p)).collect::<Vec<_>>();
         let region = Region::from_rings(polygon.loops().map(flatten), FillRule::EvenOdd)
@@ -144,8 +172,10 @@ impl<'g> Ground<'g> {
             return Err(Refusal("its area is zero".to_owned()));
         }
         let corners = polygon.loops().flatten().map(|&place| (key(frame.flatten(place)), place)).collect();
-        let contacts = contacts.iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
-        Ok(Ground { frame, region, corners, contacts, spacing: spacing / frame.unit() })
+        let contacts = division.contacts.iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
+        let spacing = division.spacing / frame.unit();
+        let lattice = Lattice::over(&region, spacing);
+        Ok(Ground { frame, region, corners, contacts, spacing, lattice, levels: division.levels })
     }
 
     /// The edges of all rings, in order.
@@ -174,6 +204,46 @@ impl<'g> Ground<'g> {
         self.corners.get(&key(flat)).copied().unwrap_or_else(|| self.frame.lift(flat))
     }
 
+    /// How often the cell of a point is halved.
+    fn level(&self, point: DVec2) -> u8 {
+        self.levels.get(self.lattice.index(point)).copied().unwrap_or(0)
+    }
+
+    /// The lattice's step around a point.
+    fn step(&self, point: DVec2) -> f64 {
+        self.lattice.step.min_element() / f64::from(1u32 << self.level(point))
+    }
+
+    /// The points of a line cut in equal parts near the spacing, both ends included, each part cut again as often as
+    /// the cell to its left is.
+    fn pieces(&self, [start, end]: [Spot; 2]) -> Vec<Spot> {
+        let left = (end.0 - start.0).perp().normalize_or_zero() * self.near();
+        let whole: Vec<Spot> = pieces([start, end], parts(start.0.distance(end.0), self.spacing)).collect();
+        let halved = whole.windows(2).flat_map(|ends| {
+            let level = self.level(ends[0].0.midpoint(ends[1].0) + left);
+            pieces([ends[0], ends[1]], 1 << level).take(1 << level)
+        });
+        halved.chain(whole.last().copied()).collect()
+    }
+
+    /// The part of a line within the lattice.
+    fn clip(&self, [start, end]: [DVec2; 2]) -> Option<[DVec2; 2]> {
+        let [low, high] = self.lattice.bounds();
+        let way = end - start;
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for axis in 0..2 {
+            let mut cuts = [(low[axis] - start[axis]) / way[axis], (high[axis] - start[axis]) / way[axis]];
+            if way[axis] == 0.0 {
+                let inside = (low[axis]..=high[axis]).contains(&start[axis]);
+                cuts = if inside { [0.0, 1.0] } else { [1.0, 0.0] };
+            } else if way[axis] < 0.0 {
+                cuts.reverse();
+            }
+            (from, to) = (from.max(cuts[0]), to.min(cuts[1]));
+        }
+        (from < to).then(|| [start.lerp(end, from), start.lerp(end, to)])
+    }
+
     /// How near counts as the same place for contact lines.
     fn near(&self) -> f64 {
         self.spacing * 1e-3
@@ -198,10 +268,9 @@ fn key(flat: DVec2) -> [u64; 2] {
     [(flat.x + 0.0).to_bits(), (flat.y + 0.0).to_bits()]
 }
 
-/// The points of an edge cut in equal parts near `spacing`, both ends included. In space they depend on the edge
-/// alone, not on its direction, so that patches that share an edge share its points.
-fn pieces([(start, from), (end, to)]: [Spot; 2], spacing: f64) -> impl Iterator<Item = Spot> {
-    let parts = parts(start.distance(end), spacing);
+/// The points of an edge cut in equal parts, both ends included. In space they depend on the edge alone, not on its
+/// direction, so that patches that share an edge share its points.
+fn pieces([(start, from), (end, to)]: [Spot; 2], parts: usize) -> impl Iterator<Item = Spot> {
     let forward = from.to_array() <= to.to_array();
     (0..=parts).map(move |k| match k {
         0 => (start, from),

@@ -3,15 +3,17 @@
 //! ```text
 //! frame        a patch in two dimensions, its longest edge along x
 //! contacts     lines on which other patches touch it: light jumps there
+//! shadows      lines where the light of strong lamps starts or ceases to be hidden
 //! divide       its edges and contacts at a spacing, and the points of a lattice of that spacing inside
 //! triangulate  constrained Delaunay triangles of the points, those outside dropped
 //! sever        vertices that are not shared across contacts, and the zones between contacts
 //! tree         the triangles in the order of a binary tree of zones and lattice cells
 //! outline      the polygon around any node of the tree: what a shooter looks like
 //! ```
-use crate::{Error, Scene};
+use crate::{Error, Scene, extent::Extent};
+use divide::Division;
 use formfactor::PlanarPolygon;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 mod contacts;
 mod divide;
@@ -19,10 +21,13 @@ mod frame;
 mod lattice;
 mod outline;
 mod sever;
+mod shadows;
 mod tree;
 mod triangulate;
 
+pub(crate) use lattice::LEVELS;
 pub(crate) use outline::Flat;
+pub(crate) use shadows::shadows;
 pub(crate) use tree::Node;
 
 /// Triangles over all patches of a scene.
@@ -77,40 +82,64 @@ pub(crate) struct Subdivision {
     pub(crate) nodes: Vec<Node>,
     /// What the outlines need: the vertices in their patches' frames, and the patches' edges.
     pub(crate) flat: Flat,
+    /// The cell of its patch's lattice that each element is in.
+    pub(crate) cells: Vec<usize>,
+    /// How many cells each patch's lattice has.
+    pub(crate) cell_counts: Vec<usize>,
+}
+
+/// How fine to cut what.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Plan {
+    /// Side of a cell, in the scene's unit.
+    pub(crate) spacing: f64,
+    /// For each patch and each cell of its lattice, how often to halve it; empty where nothing is halved.
+    pub(crate) levels: Vec<Vec<u8>>,
+    /// For each patch the lines where shadows begin and end; empty where none are wanted.
+    pub(crate) shadows: Vec<Vec<[DVec3; 2]>>,
+}
+
+impl Plan {
+    /// A plan for about so many triangles of about equal size.
+    pub(crate) fn even(scene: &Scene, elements: usize) -> Plan {
+        let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
+        Plan { spacing: (2.0 * area / elements.max(1) as f64).sqrt(), ..Plan::default() }
+    }
 }
 
 impl Subdivision {
-    /// Cuts the scene into about `elements` triangles of about equal size.
-    pub(crate) fn new(scene: &Scene, elements: usize) -> Result<Subdivision, Error> {
-        let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
-        let spacing = (2.0 * area / elements.max(1) as f64).sqrt();
+    /// Cuts the scene as a plan says.
+    pub(crate) fn new(scene: &Scene, plan: &Plan) -> Result<Subdivision, Error> {
         let mut subdivision =
             Subdivision { nodes: vec![Node::default(); scene.patches.len()], ..Default::default() };
+        let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
         for (index, patch) in scene.patches.iter().enumerate() {
-            let contacts = contacts::contacts(scene, index, spacing);
-            subdivision
-                .add(index, &patch.polygon, &contacts, spacing)
-                .map_err(|source| source.of(&patch.name))?;
+            let division = Division {
+                contacts: &contacts::contacts(scene, &extents, index, plan.spacing),
+                shadows: plan.shadows.get(index).map_or(&[], Vec::as_slice),
+                spacing: plan.spacing,
+                levels: plan.levels.get(index).map_or(&[], Vec::as_slice),
+            };
+            subdivision.add(index, &patch.polygon, &division).map_err(|source| source.of(&patch.name))?;
         }
         Ok(subdivision)
     }
 
     /// Cuts one patch and appends its triangles and pieces.
-    fn add(
-        &mut self,
-        patch: usize,
-        polygon: &PlanarPolygon,
-        contacts: &[[DVec3; 2]],
-        spacing: f64,
-    ) -> Result<(), Refusal> {
+    fn add(&mut self, patch: usize, polygon: &PlanarPolygon, division: &Division<'_>) -> Result<(), Refusal> {
         let frame = frame::Frame::new(polygon);
-        let points = divide::divide(polygon, contacts, &frame, spacing)?;
+        let points = divide::divide(polygon, division, &frame)?;
         let triangles = triangulate::triangulate(&points)?;
         let severed = sever::sever(&triangles, &points);
         let triangles = tree::grow(patch, &severed, &points, self.mesh.elements.len(), &mut self.nodes);
         let base = self.mesh.vertices.len();
         self.flat.append(base, &severed.points, &points);
         self.mesh.vertices.extend(severed.points.iter().map(|&point| points.places[point]));
+        let centroid = |corners: &[usize; 3]| {
+            corners.iter().map(|&corner| points.flat[severed.points[corner]]).sum::<DVec2>() / 3.0
+        };
+        self.cells.extend(triangles.iter().map(|corners| points.lattice.index(centroid(corners))));
+        self.cell_counts.push(points.lattice.cells[0] * points.lattice.cells[1]);
         let element = |corners: [usize; 3]| Element { patch, corners: corners.map(|corner| base + corner) };
         self.mesh.elements.extend(triangles.into_iter().map(element));
         Ok(())

@@ -1,5 +1,6 @@
 //! Vertices that are not shared across contact lines, and the zones that the lines part a patch into.
 use super::divide::Points;
+use crate::groups::Groups;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Triangles whose corners are vertices of the mesh.
@@ -43,45 +44,4 @@ fn side(triangles: &[[usize; 3]], corner: usize) -> [usize; 2] {
 /// The next corner of the same triangle.
 fn after(corner: usize) -> usize {
     corner - corner % 3 + (corner + 1) % 3
-}
-
-/// Disjoint sets: each member points towards the first of its group.
-struct Groups(Vec<usize>);
-
-impl Groups {
-    /// Each by itself.
-    fn new(count: usize) -> Groups {
-        Groups((0..count).collect())
-    }
-
-    /// The first member of a group; the path to it is halved.
-    fn first(&mut self, mut member: usize) -> usize {
-        while self.0[member] != member {
-            self.0[member] = self.0[self.0[member]];
-            member = self.0[member];
-        }
-        member
-    }
-
-    /// Makes one group of two.
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.0[a.max(b)] = a.min(b);
-    }
-
-    /// Numbers the groups in the order of their first members: the number of every member's group, and the first
-    /// member of every group.
-    fn number(mut self) -> (Vec<usize>, Vec<usize>) {
-        let mut numbers = vec![usize::MAX; self.0.len()];
-        let mut firsts = Vec::new();
-        for member in 0..numbers.len() {
-            let first = self.first(member);
-            if first == member {
-                numbers[member] = firsts.len();
-                firsts.push(member);
-            }
-            numbers[member] = numbers[first];
-        }
-        (numbers, firsts)
-    }
 }

@@ -1,8 +1,13 @@
 //! Laws of the mesh.
-use super::Subdivision;
+use super::{Plan, Subdivision};
 use crate::{Patch, Scene};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
+
+/// A scene cut in about so many elements.
+fn even(scene: &Scene, elements: usize) -> Subdivision {
+    Subdivision::new(scene, &Plan::even(scene, elements)).unwrap()
+}
 
 /// A scene of one patch with the given loops.
 fn scene(loops: &[Vec<[f64; 3]>]) -> Scene {
@@ -27,7 +32,7 @@ fn l_with_hole() -> Vec<Vec<[f64; 3]>> {
 
 #[test]
 fn a_rectangle_is_a_regular_grid_of_triangles() {
-    let subdivision = Subdivision::new(&scene(&[rectangle()]), 2 * 6 * 4).unwrap();
+    let subdivision = even(&scene(&[rectangle()]), 2 * 6 * 4);
     let mesh = &subdivision.mesh;
     assert_eq!(mesh.elements.len(), 48);
     assert_eq!(mesh.vertices.len(), 35);
@@ -39,7 +44,7 @@ fn a_rectangle_is_a_regular_grid_of_triangles() {
 #[test]
 fn the_polygon_s_own_vertices_stay_bit_for_bit() {
     for loops in [vec![rectangle()], l_with_hole()] {
-        let mesh = Subdivision::new(&scene(&loops), 200).unwrap().mesh;
+        let mesh = even(&scene(&loops), 200).mesh;
         for vertex in loops.concat() {
             assert!(mesh.vertices.contains(&vertex.into()), "{vertex:?}");
         }
@@ -51,7 +56,7 @@ fn elements_cover_every_patch_once_and_face_its_front() {
     for loops in [vec![rectangle()], l_with_hole(), vec![l_with_hole()[0].clone()]] {
         for target in [1, 30, 1000] {
             let scene = scene(&loops);
-            let mesh = Subdivision::new(&scene, target).unwrap().mesh;
+            let mesh = even(&scene, target).mesh;
             let polygon = &scene.patches[0].polygon;
             let signed: f64 = (0..mesh.elements.len())
                 .map(|element| {
@@ -68,7 +73,7 @@ fn elements_cover_every_patch_once_and_face_its_front() {
 #[test]
 fn outlines_of_the_pieces_tile_the_patch() {
     for loops in [vec![rectangle()], l_with_hole()] {
-        let Subdivision { mesh, nodes, flat } = Subdivision::new(&scene(&loops), 300).unwrap();
+        let Subdivision { mesh, nodes, flat, .. } = even(&scene(&loops), 300);
         let area = |node: usize| {
             let elements = &mesh.elements[nodes[node].elements.clone()];
             flat.outline(&mesh, elements).unwrap().area()
@@ -88,7 +93,7 @@ fn outlines_of_the_pieces_tile_the_patch() {
 
 #[test]
 fn pieces_of_a_rectangle_are_rectangles() {
-    let Subdivision { mesh, nodes, flat } = Subdivision::new(&scene(&[rectangle()]), 48).unwrap();
+    let Subdivision { mesh, nodes, flat, .. } = even(&scene(&[rectangle()]), 48);
     for node in &nodes {
         let outline = flat.outline(&mesh, &mesh.elements[node.elements.clone()]).unwrap();
         assert_eq!(outline.loops().map(<[DVec3]>::len).collect::<Vec<_>>(), [4]);
@@ -101,7 +106,7 @@ fn patches_that_share_an_edge_share_its_points() {
     let second = vec![vec![[5.1, 0.7, 0.], [0.3, 0., 0.], [0.3, 0., -3.], [5.1, 0.7, -3.]]];
     let mut both = scene(&first);
     both.patches.extend(scene(&second).patches);
-    let mesh = Subdivision::new(&both, 200).unwrap().mesh;
+    let mesh = even(&both, 200).mesh;
     let on_edge = |patch: usize| {
         let elements = mesh.elements.iter().filter(|element| element.patch == patch);
         let points = elements.flat_map(|element| element.corners).map(|corner| mesh.vertices[corner]);
@@ -130,7 +135,7 @@ fn floor_under(lines: &[[[f64; 2]; 2]]) -> Scene {
 fn no_element_lies_on_both_sides_of_a_block_s_foot() {
     let feet = [[1.13, 1.02], [2.71, 1.33], [2.6, 2.9], [1.3, 2.4]];
     let lines: Vec<_> = (0..4).map(|k| [feet[k], feet[(k + 1) % 4]]).collect();
-    let Subdivision { mesh, nodes, flat } = Subdivision::new(&floor_under(&lines), 800).unwrap();
+    let Subdivision { mesh, nodes, flat, .. } = even(&floor_under(&lines), 800);
     let beyond =
         |p: DVec3, [[ax, ay], [bx, by]]: [[f64; 2]; 2]| (bx - ax) * (p.y - ay) - (by - ay) * (p.x - ax);
     let depth = |p: DVec3| lines.iter().map(|&line| beyond(p, line)).fold(f64::INFINITY, f64::min);
@@ -155,7 +160,7 @@ fn no_element_lies_on_both_sides_of_a_block_s_foot() {
 
 #[test]
 fn a_thin_wall_parts_the_vertices_along_its_foot_but_not_at_its_end() {
-    let mesh = Subdivision::new(&floor_under(&[[[0., 2.], [2.1, 2.]]]), 200).unwrap().mesh;
+    let mesh = even(&floor_under(&[[[0., 2.], [2.1, 2.]]]), 200).mesh;
     let floor: Vec<_> =
         mesh.elements.iter().filter(|element| element.patch == 0).flat_map(|e| e.corners).collect();
     let at = |x: f64| {
@@ -168,4 +173,47 @@ fn a_thin_wall_parts_the_vertices_along_its_foot_but_not_at_its_end() {
     assert_eq!(at(2.1), 1);
     let inner: Vec<_> = (1..5).map(|k| at(2.1 * f64::from(k) / 5.0)).collect();
     assert_eq!(inner, [2, 2, 2, 2]);
+}
+
+#[test]
+fn halved_cells_are_finer_and_still_cover_the_patch_once() {
+    for loops in [vec![rectangle()], l_with_hole()] {
+        let scene = scene(&loops);
+        let mut plan = Plan::even(&scene, 100);
+        let cells = even(&scene, 100).cell_counts[0];
+        plan.levels = vec![(0..cells).map(|cell| [0, 3, 0, 1, 2][cell % 5]).collect()];
+        let Subdivision { mesh, cells, .. } = Subdivision::new(&scene, &plan).unwrap();
+        let area: f64 = (0..mesh.elements.len()).map(|element| mesh.area(element)).sum();
+        assert!((area / scene.patches[0].polygon.area() - 1.0).abs() < 1e-13);
+        let largest = |level: usize| {
+            let within =
+                (0..mesh.elements.len()).filter(|element| [0, 3, 0, 1, 2][cells[*element] % 5] == level);
+            within.map(|element| mesh.area(element)).fold(0.0, f64::max)
+        };
+        assert!(largest(3) < largest(0) / 8.0, "{} {}", largest(3), largest(0));
+    }
+}
+
+#[test]
+fn edges_of_shadows_are_edges_of_elements() {
+    let scene = scene(&[rectangle()]);
+    let mut plan = Plan::even(&scene, 400);
+    let [a, b] = [0.31, 0.83].map(|t| {
+        let corners: Vec<DVec3> = rectangle().into_iter().map(DVec3::from).collect();
+        corners[0].lerp(corners[1], t).midpoint(corners[3].lerp(corners[2], 1.0 - t))
+    });
+    let line = [a + (a - b) * 9.0, b + (b - a) * 9.0];
+    plan.shadows = vec![vec![line]];
+    let mesh = Subdivision::new(&scene, &plan).unwrap().mesh;
+    let normal = scene.patches[0].polygon.normal();
+    let side = |p: DVec3| (line[1] - line[0]).cross(p - line[0]).dot(normal) / (line[1] - line[0]).length();
+    let across = (0..mesh.elements.len()).filter(|element| {
+        let sides = mesh.triangle(*element).map(side);
+        sides.iter().any(|s| *s > 1e-9) && sides.iter().any(|s| *s < -1e-9)
+    });
+    let crossed: f64 = across.map(|element| mesh.area(element)).sum();
+    assert!(
+        crossed < 0.01 * scene.patches[0].polygon.area(),
+        "but for the ends nothing lies across: {crossed}"
+    );
 }

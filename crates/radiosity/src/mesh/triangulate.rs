@@ -11,8 +11,8 @@ type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 pub(super) fn triangulate(points: &Points) -> Result<Vec<[usize; 3]>, Refusal> {
     let vertices = points.flat.iter().map(|p| Point2::new(normal(p.x), normal(p.y))).collect();
     let boundary: BTreeSet<_> = points.boundary.iter().flat_map(|piece| both_ways(piece.ends)).collect();
-    let edges =
-        points.boundary.iter().map(|piece| piece.ends).chain(points.contacts.iter().copied()).collect();
+    let inner = points.contacts.iter().chain(&points.shadows).copied();
+    let edges = points.boundary.iter().map(|piece| piece.ends).chain(inner).collect();
     let mut broken = false;
     let cdt = Cdt::try_bulk_load_cdt(vertices, edges, |edge| broken |= boundary.contains(&edge))
         .map_err(|error| Refusal(format!("its vertices cannot be triangulated ({error})")))?;

@@ -1,15 +1,13 @@
 //! A camera for scenes that have none.
-use crate::{Camera, Scene};
+use crate::Camera;
 use glam::DVec3;
 
-/// A camera that sees the whole scene, from the front, somewhat from the right and from above.
+/// A camera that sees the whole box between two corners, from the front, somewhat from the right and from above.
 ///
 /// The front is −y where z is up, else +z. The field of view is 40 degrees, the picture
 /// 4:3.
 #[must_use]
-pub fn framing(scene: &Scene) -> Camera {
-    let up = scene.asset.up;
-    let (low, high) = bounds(scene);
+pub fn framing([low, high]: [DVec3; 2], up: DVec3) -> Camera {
     let (centre, radius) = (low.midpoint(high), (high - low).length() / 2.0);
     let front = if up.z > 0.0 { DVec3::NEG_Y } else { DVec3::Z };
     let toward_viewer = (front + 0.5 * up.cross(front) + 0.4 * up).normalize();
@@ -23,12 +21,4 @@ pub fn framing(scene: &Scene) -> Camera {
         vertical_fov,
         aspect: 4.0 / 3.0,
     }
-}
-
-/// The corners of the box around all patches; the unit box where there are none.
-fn bounds(scene: &Scene) -> (DVec3, DVec3) {
-    let loops = scene.patches.iter().flat_map(|patch| patch.polygon.loops());
-    let points = loops.flatten().copied();
-    let around = points.map(|point| (point, point)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-    around.unwrap_or((DVec3::ZERO, DVec3::ONE))
 }

@@ -82,14 +82,26 @@ impl Texture {
         std::array::from_fn(|band| self.factor[band] * sum[band] / samples)
     }
 
-    /// How many cells along a side give each texel its own sample.
+    /// The mean over all that it covers.
+    pub(crate) fn overall(&self) -> [f64; 3] {
+        let (mut sum, mut weight) = ([0.0; 3], 0.0);
+        for corners in self.map.iter().map(|corners| corners.map(|(point, _)| point)) {
+            let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+            let mean = self.mean(corners);
+            sum = std::array::from_fn(|band| sum[band] + area * mean[band]);
+            weight += area;
+        }
+        if weight > 0.0 { sum.map(|band| band / weight) } else { self.factor }
+    }
+
+    /// how many cells along a side give each texel some samples of its own.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     fn cells(&self, [a, b, c]: [DVec2; 3]) -> usize {
         let height = self.image.texels.len() / self.image.width;
         let size = DVec2::new(self.image.width as f64, height as f64);
         let longest =
             [b - a, c - b, a - c].map(|side| (side * size).length()).into_iter().fold(0.0, f64::max);
-        (2.0 * longest).ceil().clamp(1.0, MAX_SAMPLES as f64) as usize
+        (4.0 * longest).ceil().clamp(8.0, MAX_SAMPLES as f64) as usize
     }
 }
 

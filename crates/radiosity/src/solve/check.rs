@@ -1,7 +1,8 @@
 //! Refuses scenes that have no solution.
 use crate::{Error, Patch, Scene};
 
-/// Checks that every patch has the scene's bands, reflects less than it receives, and emits no negative light.
+/// Checks that every patch has the scene's bands, a reflectance of 0 or more, and emits no negative light. Whether a
+/// reflectance of 1 or more is too much depends on what stands around it: see [`super::rooms`].
 pub(super) fn check(scene: &Scene) -> Result<(), Error> {
     if scene.patches.is_empty() {
         return Err(Error::NoPatches);
@@ -17,7 +18,7 @@ fn check_patch(patch: &Patch, expected: usize) -> Result<(), Error> {
         return Err(Error::Bands { patch: name(), found, expected });
     }
     for (band, &value) in patch.reflectance.iter().enumerate() {
-        if !(0.0..1.0).contains(&value) {
+        if !(0.0..=1.0).contains(&value) {
             return Err(Error::Reflectance { patch: name(), band, value });
         }
     }

@@ -1,25 +1,30 @@
 //! Exact form factors from the elements to the pieces.
+use super::fingerprint;
+use super::state::{Column, State};
 use crate::{Error, Scene, mesh::Subdivision};
 use formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;
-use std::{collections::BTreeMap, sync::Arc};
-
-/// How many numbers the kept columns may hold: 1 GiB.
-const KEPT: usize = 1 << 27;
+use std::sync::Arc;
 
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
 #[derive(Debug)]
 pub(super) struct Factors<'s> {
     scene: &'s Scene,
-    subdivision: &'s Subdivision,
+    pub(super) subdivision: &'s Subdivision,
     enclosure: Enclosure,
     receivers: Vec<DifferentialArea>,
-    kept: BTreeMap<usize, Arc<[f64]>>,
+    /// The mesh in `state`.
+    fingerprint: u64,
+    pub(super) state: &'s mut State,
 }
 
 impl<'s> Factors<'s> {
-    /// Puts a receiver on the centroid of every element.
-    pub(super) fn new(scene: &'s Scene, subdivision: &'s Subdivision) -> Result<Factors<'s>, Error> {
+    /// Puts a receiver on the centroid of every element; what `state` knows is not found again.
+    pub(super) fn new(
+        scene: &'s Scene,
+        subdivision: &'s Subdivision,
+        state: &'s mut State,
+    ) -> Result<Factors<'s>, Error> {
         let mesh = &subdivision.mesh;
         let receiver = |(index, element): (usize, &crate::Element)| {
             let patch = &scene.patches[element.patch];
@@ -32,25 +37,39 @@ impl<'s> Factors<'s> {
             subdivision,
             enclosure: Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect()),
             receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
-            kept: BTreeMap::new(),
+            fingerprint: fingerprint::of_mesh(scene, subdivision),
+            state,
         })
     }
 
+    /// Whether the state knows of this scene and mesh.
+    pub(super) fn are_known(&self) -> bool {
+        self.state.knows(self.fingerprint)
+    }
+
+    /// Whether the column of a piece is known.
+    pub(super) fn is_known(&self, node: usize) -> bool {
+        self.state.column(self.fingerprint, node).is_some()
+    }
+
     /// The form factors from all elements to one piece. They never change, so they are kept while memory lasts.
-    pub(super) fn column(&mut self, node: usize) -> Result<Arc<[f64]>, Error> {
-        if let Some(column) = self.kept.get(&node) {
-            return Ok(Arc::clone(column));
+    pub(super) fn column(&mut self, node: usize) -> Result<Arc<Column>, Error> {
+        if let Some(column) = self.state.column(self.fingerprint, node) {
+            return Ok(column);
         }
-        let column = self.find(node)?;
-        if (self.kept.len() + 1) * column.len() <= KEPT {
-            self.kept.insert(node, Arc::clone(&column));
-        }
+        let column = Arc::new(Column::new(&self.find(node)?));
+        self.state.keep(self.fingerprint, node, &column);
         Ok(column)
     }
 
+    /// The form factor from any point to a whole patch.
+    pub(super) fn seen_from(&self, from: &DifferentialArea, patch: usize) -> f64 {
+        self.enclosure.form_factor(from, patch).value
+    }
+
     /// Finds the form factors from all elements to one piece: each by itself, so threads change nothing.
-    fn find(&self, node: usize) -> Result<Arc<[f64]>, Error> {
-        let Subdivision { mesh, nodes, flat } = self.subdivision;
+    fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
+        let Subdivision { mesh, nodes, flat, .. } = self.subdivision;
         let patch = nodes[node].patch;
         if node == patch {
             let whole = |from| self.enclosure.form_factor(from, patch).value;
@@ -63,14 +82,14 @@ impl<'s> Factors<'s> {
         Ok(self.receivers.par_iter().with_min_len(8).map(part).collect())
     }
 
-    /// The largest |ΣF − 1| over the elements, for pieces that cover the patches once.
-    pub(super) fn closure(&mut self, pieces: impl Iterator<Item = usize>) -> Result<f64, Error> {
+    /// The sums of form factors from every element over pieces.
+    pub(super) fn sums(&mut self, pieces: impl IntoIterator<Item = usize>) -> Result<Vec<f64>, Error> {
         let mut sums = vec![0.0; self.receivers.len()];
         for node in pieces {
-            for (sum, factor) in sums.iter_mut().zip(self.column(node)?.iter()) {
-                *sum += factor;
+            for (element, factor) in self.column(node)?.iter() {
+                sums[element] += factor;
             }
         }
-        Ok(sums.iter().map(|sum| (sum - 1.0f64).abs()).fold(0.0, f64::max))
+        Ok(sums)
     }
 }

@@ -23,7 +23,7 @@ impl Ledger {
             light.irradiance.iter().zip(&light.reflectance).map(|(h, rho)| h * (1.0 - rho)).collect();
         let received = light.total(&light.irradiance);
         let mut ledger = Ledger {
-            emitted: shooters.emitted.clone(),
+            emitted: light.emitted.clone(),
             absorbed: light.total(&kept),
             escaped: shooters.sent.iter().zip(&received).map(|(sent, received)| sent - received).collect(),
             unshot: shooters.unshot(),
@@ -33,17 +33,44 @@ impl Ledger {
         ledger
     }
 
+    /// The ledger before anything was shot.
+    pub(super) fn dark(light: &Light) -> Ledger {
+        let none = vec![0.0; light.bands];
+        Ledger {
+            emitted: light.emitted.clone(),
+            absorbed: none.clone(),
+            escaped: none.clone(),
+            unshot: light.emitted.clone(),
+            defect: none,
+        }
+    }
+
     /// What is missing of the emitted power of a band.
-    fn remainder(&self, band: usize) -> f64 {
+    pub(super) fn remainder(&self, band: usize) -> f64 {
         self.emitted[band] - self.absorbed[band] - self.escaped[band] - self.unshot[band]
     }
 }
 
-/// ‖r‖∞ / (1 − max ρ) per band: with B = E + ρFS for what the pieces have shot, S, the residual is ρF(PB − S), at
-/// most max ρ times the largest radiosity still to be shot; ΣF <= 1 in every row.
-pub(super) fn bound(light: &Light, shooters: &Shooters<'_>) -> Vec<f64> {
+/// 1 − max ρΣF per band: the smallest share of the light on an element that is absorbed or leaves. The row sums ΣF
+/// where they are known, and 1 otherwise.
+pub(super) fn gaps(light: &Light, sums: Option<&[f64]>) -> Vec<f64> {
+    let mut gaps = vec![1.0f64; light.bands];
+    for (element, reflectance) in light.reflectance.chunks_exact(light.bands).enumerate() {
+        let missed = sums.map_or(0.0, |sums| (1.0 - sums[element]).max(0.0));
+        gaps.iter_mut().zip(reflectance).for_each(|(gap, rho)| *gap = gap.min(1.0 - rho + rho * missed));
+    }
+    gaps
+}
+
+/// ‖r‖∞ / (1 − max ρΣF) per band: with B = E + ρFS for what the pieces have shot, S, the residual is ρF(PB − S), at
+/// most max ρ times the largest radiosity still to be shot, as ΣF <= 1 in every row. Infinite where a patch reflects
+/// all light; 0 where nothing emits.
+pub(super) fn bound(light: &Light, shooters: &Shooters<'_>, gaps: &[f64]) -> Vec<f64> {
     let reflectance =
         |band| light.reflectance.iter().skip(band).step_by(light.bands).copied().fold(0.0, f64::max);
-    let bound = |(band, peak): (usize, f64)| peak * reflectance(band) / (1.0 - reflectance(band));
+    let bound = |(band, peak): (usize, f64)| {
+        let residual = peak * reflectance(band);
+        if residual == 0.0 { 0.0 } else { residual / gaps[band] }
+    };
     shooters.peak().into_iter().enumerate().map(bound).collect()
 }

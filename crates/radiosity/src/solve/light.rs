@@ -1,9 +1,10 @@
 //! What every element receives and sends.
-use crate::{Mesh, Patch, Scene};
+use super::state::Column;
+use crate::{Mesh, Scene};
 use std::{f64::consts::PI, ops::Range};
 
 /// Radiosity and irradiance, elements × bands, and what they are made of.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Light {
     pub(super) bands: usize,
     pub(super) radiosity: Vec<f64>,
@@ -12,36 +13,57 @@ pub(super) struct Light {
     pub(super) reflectance: Vec<f64>,
     /// Emitted radiosity E = πL.
     pub(super) emittance: Vec<f64>,
+    /// Emitted power per band.
+    pub(super) emitted: Vec<f64>,
 }
 
 impl Light {
     /// Only what the patches emit: B = E.
     pub(super) fn new(scene: &Scene, mesh: &Mesh) -> Light {
-        let spread = |value: fn(&Patch) -> &Vec<f64>| -> Vec<f64> {
-            mesh.elements.iter().flat_map(|element| value(&scene.patches[element.patch])).copied().collect()
-        };
-        let emittance: Vec<_> =
-            spread(|patch| &patch.emission).iter().map(|radiance| PI * radiance).collect();
-        Light {
+        let patch = |element: &crate::Element| &scene.patches[element.patch];
+        let emission = mesh.elements.iter().flat_map(|element| &patch(element).emission);
+        let emittance: Vec<_> = emission.map(|radiance| PI * radiance).collect();
+        let reflectance = |(index, element)| patch(element).reflectance_over(mesh.triangle(index));
+        let mut light = Light {
             bands: scene.bands,
             radiosity: emittance.clone(),
             irradiance: vec![0.0; emittance.len()],
             areas: (0..mesh.elements.len()).map(|element| mesh.area(element)).collect(),
-            reflectance: spread(|patch| &patch.reflectance),
+            reflectance: mesh.elements.iter().enumerate().flat_map(reflectance).collect(),
             emittance,
-        }
+            emitted: Vec::new(),
+        };
+        light.emitted = light.total(&light.emittance);
+        light
+    }
+
+    /// The bands in which something emits: no other needs to be solved.
+    pub(super) fn live(&self) -> impl Iterator<Item = usize> {
+        (0..self.bands).filter(|&band| self.emitted[band] > 0.0)
+    }
+
+    /// The largest reflectance of an element in a band that something emits in.
+    pub(super) fn largest_reflectance(&self, element: usize) -> f64 {
+        self.live().map(|band| self.reflectance[element * self.bands + band]).fold(0.0, f64::max)
     }
 
     /// Adds a shot: H += F ΔB for every element and band, and B = E + ρH.
-    pub(super) fn receive(&mut self, column: &[f64], shot: &[f64]) {
+    pub(super) fn receive(&mut self, column: &Column, shot: &[f64]) {
         let bands = self.bands;
-        for (element, factor) in column.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
-            for (band, power) in shot.iter().enumerate() {
+        for (element, factor) in column.iter() {
+            for (band, power) in shot.iter().enumerate().filter(|(_, power)| **power != 0.0) {
                 let at = element * bands + band;
                 self.irradiance[at] += factor * power;
                 self.radiosity[at] = self.emittance[at] + self.reflectance[at] * self.irradiance[at];
             }
         }
+    }
+
+    /// Takes an irradiance of every element and band; B = E + ρH.
+    pub(super) fn receive_all(&mut self, irradiance: Vec<f64>) {
+        let reflected = irradiance.iter().zip(&self.reflectance).map(|(h, rho)| h * rho);
+        self.radiosity = reflected.zip(&self.emittance).map(|(reflected, e)| e + reflected).collect();
+        self.irradiance = irradiance;
     }
 
     /// Σ A·value over some elements, for each band.
@@ -59,4 +81,31 @@ impl Light {
     pub(super) fn total(&self, values: &[f64]) -> Vec<f64> {
         self.power(values, 0..self.areas.len())
     }
+
+    /// How bright reflected light is, per band: the mean of ρH weighted by the power ρHA itself, so that what lies in
+    /// the dark does not count, however large it is. 0 where nothing is reflected.
+    pub(super) fn brightness(&self) -> Vec<f64> {
+        let reflected: Vec<_> =
+            self.radiosity.iter().zip(&self.emittance).map(|(b, e)| (b - e).abs()).collect();
+        mean_by_itself(&reflected, &self.areas, self.bands)
+    }
+}
+
+/// ΣAR² / ΣAR for each band, 0 where R is 0; scaled by the largest R, so that no square leaves the doubles' range.
+pub(super) fn mean_by_itself(values: &[f64], areas: &[f64], bands: usize) -> Vec<f64> {
+    let mut largest = vec![0.0f64; bands];
+    for value in values.chunks_exact(bands) {
+        largest.iter_mut().zip(value).for_each(|(largest, v)| *largest = largest.max(*v));
+    }
+    let (mut sums, mut squares) = (vec![0.0; bands], vec![0.0; bands]);
+    for (value, area) in values.chunks_exact(bands).zip(areas) {
+        for band in (0..bands).filter(|&band| largest[band] > 0.0) {
+            let share = value[band] / largest[band];
+            sums[band] += area * share;
+            squares[band] += area * share * share;
+        }
+    }
+    let mean =
+        |band: usize| if sums[band] > 0.0 { largest[band] * (squares[band] / sums[band]) } else { 0.0 };
+    (0..bands).map(mean).collect()
 }

@@ -1,41 +1,97 @@
-//! From a scene to its light: progressive refinement with substructuring.
+//! From a scene to its light.
 //!
 //! ```text
-//! check      refuse what has no solution: reflectance 1, negative emission
+//! check      refuse what has no solution: negative emission, reflectance above 1
+//! overlap    refuse patches that lie on each other
 //! mesh       patches into elements; each patch with a binary tree of pieces
-//! factors    column of exact form factors from every element's centroid to one piece, kept for the next shot
+//! factors    column of exact form factors from every element's centroid to one piece; kept in the state
+//! rooms      which patches light reaches, and which of them close a room
 //! shooters   which pieces shoot, how much each has shot, when one is split
+//! shoot      progressive refinement: the brightest piece shoots, again and again
+//! relax      all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! light      radiosity and irradiance of every element
 //! ledger     where the power went, and how far the light is from the solution
 //! ```
 //!
 //! The discrete system is B = E + ρ F P B: elements i receive at their centroids, F_ij is the exact form factor
-//! from element i to piece j, and P takes the mean of B over each piece (Barreto, Equations 2.5 and A.15). A piece
-//! shoots what its mean is ahead of what it has shot. A piece over which B varies too much is split in two, which
-//! inherit what it has shot; their next shots, of either sign, mend what the coarser piece had got wrong.
-use crate::{Error, Mesh, Scene, mesh::Subdivision};
+//! from element i to piece j, and P takes the mean of B over each piece (Barreto, Equations 2.5 and A.15). Conjugate
+//! gradients solve the symmetric system of the pieces' mean factors instead, in which the power adds up in both
+//! directions.
+use crate::{
+    Error, Mesh, Scene,
+    interpolate::Direct,
+    mesh::{LEVELS, Plan, Subdivision, shadows},
+};
 use factors::Factors;
 use light::Light;
-use shooters::Shooters;
+use run::Run;
 use std::{ops::ControlFlow, time::Instant};
 
+mod balance;
+mod cg;
 mod check;
+mod direct;
+mod estimate;
+mod exchange;
 mod factors;
+mod fingerprint;
+mod gather;
+mod gauss;
+mod gmres;
 mod ledger;
 mod light;
+mod overlap;
+mod quality;
+mod relax;
+mod rooms;
+mod run;
+mod shoot;
 mod shooters;
+mod state;
 
+pub use estimate::Norm;
 pub use ledger::Ledger;
+pub use quality::Quality;
+pub use state::{State, StateError};
+
+/// How the light is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// [`Method::Cg`] where a closed room reflects at least 0.9 of its light, else [`Method::Shoot`].
+    #[default]
+    Auto,
+    /// Progressive refinement: the brightest piece shoots its light, again and again. Soon there is something to see;
+    /// needs about 1 / (1 − ρ) rounds.
+    Shoot,
+    /// The full matrix, every piece as small as the mesh's cells, by Gaussian elimination: cubic in the pieces.
+    Matrix,
+    /// Conjugate gradients on symmetric exchange areas, scaled to close: power adds up, and some tens of
+    /// matrix-vector products do at any reflectance below 1.
+    Cg,
+    /// GMRES on the factors as they are, one-sided.
+    Gmres,
+}
 
 /// How fine, how far, how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
+    /// How the light is found.
+    pub method: Method,
     /// About how many elements to cut the scene into.
     pub elements: usize,
-    /// Stop when the unshot power is at most this share of the emitted power, in every band.
+    /// How often to solve, look where the light is not resolved, and cut the scene anew, finer there.
+    pub passes: usize,
+    /// What tells where the light is not resolved.
+    pub norm: Norm,
+    /// Of so many of the strongest lamps the edges of shadows become edges of elements.
+    pub shadows: usize,
+    /// In the end, find the light straight from the lamps exactly at every vertex.
+    pub gather: bool,
+    /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
+    /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
-    /// Split a shooter while its power deviates from that of a uniform piece by more than this share of the
-    /// emitted power.
+    /// Split a shooter while its power deviates from that of a uniform piece by more than this share of the power that
+    /// all send.
     pub spread: f64,
     /// Stop after so many shots.
     pub max_shots: usize,
@@ -46,17 +102,70 @@ pub struct Options {
 impl Default for Options {
     /// About 6000 elements; what is left unshot or unresolved is far below what a mesh of that size resolves.
     fn default() -> Options {
-        Options { elements: 6000, tolerance: 1e-4, spread: 3e-4, max_shots: 200_000, max_seconds: None }
+        Options {
+            method: Method::Auto,
+            elements: 6000,
+            passes: 0,
+            norm: Norm::L2,
+            shadows: 0,
+            gather: false,
+            tolerance: 1e-3,
+            spread: 2e-4,
+            max_shots: 1_000_000,
+            max_seconds: None,
+        }
     }
 }
 
 /// How far the solver has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'p> {
     /// Shots so far.
     pub shots: usize,
+    /// Matrix-vector products so far.
+    pub products: usize,
     /// Unshot power over emitted power, the worst band.
     pub unshot: f64,
+    /// See [`Solution::bound`].
+    pub bound: &'p [f64],
+    /// Where the emitted power is.
+    pub ledger: &'p Ledger,
+    /// Time since the start.
+    pub seconds: f64,
+    light: &'p Light,
+    scaling: Option<f64>,
+    factors: &'p Factors<'p>,
+    welds: &'p [usize],
+}
+
+impl Progress<'_> {
+    /// The light as it is now.
+    #[must_use]
+    pub fn solution(&self) -> Solution {
+        Solution {
+            bands: self.light.bands,
+            radiosity: self.light.radiosity.clone(),
+            irradiance: self.light.irradiance.clone(),
+            reflectance: self.light.reflectance.clone(),
+            direct: None,
+            welds: self.welds.to_vec(),
+            ledger: self.ledger.clone(),
+            bound: self.bound.to_vec(),
+            closure: None,
+            scaling: self.scaling,
+            shots: self.shots,
+            products: self.products,
+            converged: false,
+            mesh: self.factors.subdivision.mesh.clone(),
+            seconds: self.seconds,
+        }
+    }
+
+    /// What can be gone on from.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        self.factors.state
+    }
 }
 
 /// The light of a scene.
@@ -72,18 +181,29 @@ pub struct Solution {
     pub irradiance: Vec<f64>,
     /// Where the emitted power went.
     pub ledger: Ledger,
-    /// Per band, a bound on the algebraic error of every element's radiosity, W/m²: ‖r‖∞ / (1 − max ρ ΣF) with the
-    /// residual r of the discrete system and ΣF <= 1. It says nothing of the discretisation.
+    /// Per band, a bound on the algebraic error of every piece's radiosity, and so of every element's, W/m²:
+    /// ‖r‖∞ / (1 − max ρ ΣF). It is of the discrete system: what the mesh does not resolve is not in it. Infinite where
+    /// there is none: a patch reflects all light.
     pub bound: Vec<f64>,
-    /// The largest |ΣF − 1| over the elements: rounding in a closed scene, the widest opening in another. Nothing
-    /// when the solution was stopped early.
+    /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. Not known for a run that was
+    /// stopped, or where finding it would take longer than the solution.
     pub closure: Option<f64>,
+    /// The largest relative change of a form factor that closure scaling made; none where nothing was scaled.
+    pub scaling: Option<f64>,
     /// How many shots were made.
     pub shots: usize,
+    /// How many matrix-vector products were made.
+    pub products: usize,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// Wall time of the solution.
+    /// How long it took.
     pub seconds: f64,
+    /// Reflectance of every element, elements × bands.
+    pub(crate) reflectance: Vec<f64>,
+    /// Light straight from the lamps, where it was gathered.
+    pub(crate) direct: Option<Direct>,
+    /// For each vertex the first one that it shares its light with.
+    pub(crate) welds: Vec<usize>,
 }
 
 impl Solution {
@@ -103,67 +223,61 @@ impl Solution {
     }
 }
 
-/// Solves the scene by progressive refinement; `watch` is called before every shot and may end it early.
+/// Solves the scene; `watch` is called before every step and may end the run early.
 ///
 /// A scene without emission is solved at once: it is dark. The result does not depend on the number of threads.
-/// Time: (shooting pieces) × (elements) form factors, and O(elements) for each shot.
+/// Time: (pieces) × (elements) form factors, and O(elements) for each shot or O(pieces²) for each product.
 ///
 /// # Errors
-/// A reflectance outside [0, 1), negative emission, a polygon that cannot be cut into triangles: see [`Error`].
+/// A reflectance outside [0, 1], one of 1 in a closed lit room, negative emission, a polygon that cannot be cut into
+/// triangles: see [`Error`].
 pub fn solve(
     scene: &Scene,
     options: &Options,
-    watch: impl FnMut(Progress) -> ControlFlow<()>,
+    watch: impl FnMut(&Progress<'_>) -> ControlFlow<()>,
+) -> Result<Solution, Error> {
+    solve_from(scene, options, &mut State::default(), watch)
+}
+
+/// [`solve()`] that finds in `state` the form factors of an earlier run of the same scene, and leaves there all it knows.
+///
+/// The result has the same bits whatever `state` holds.
+///
+/// # Errors
+/// As [`solve()`], and [`Error::Foreign`] when `state` is of another scene or another number of elements.
+pub fn solve_from(
+    scene: &Scene,
+    options: &Options,
+    state: &mut State,
+    mut watch: impl FnMut(&Progress<'_>) -> ControlFlow<()>,
 ) -> Result<Solution, Error> {
     let start = Instant::now();
     check::check(scene)?;
-    let subdivision = Subdivision::new(scene, options.elements)?;
-    let mut factors = Factors::new(scene, &subdivision)?;
-    let mut light = Light::new(scene, &subdivision.mesh);
-    let mut shooters = Shooters::new(scene.patches.len(), &subdivision, &light);
-    let converged = refine(options, start, &mut factors, &mut light, &mut shooters, watch)?;
-    let closure = if converged { Some(factors.closure(shooters.front())?) } else { None };
-    let ledger = Ledger::new(&light, &shooters);
-    let bound = ledger::bound(&light, &shooters);
-    let shots = shooters.shots;
-    Ok(Solution {
-        bands: scene.bands,
-        radiosity: light.radiosity,
-        irradiance: light.irradiance,
-        ledger,
-        bound,
-        closure,
-        shots,
-        converged,
-        mesh: subdivision.mesh,
-        seconds: start.elapsed().as_secs_f64(),
-    })
-}
-
-/// Shoots until the unshot power is within the tolerance (true), or a limit is met (false).
-fn refine(
-    options: &Options,
-    start: Instant,
-    factors: &mut Factors<'_>,
-    light: &mut Light,
-    shooters: &mut Shooters<'_>,
-    mut watch: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<bool, Error> {
+    overlap::check(scene)?;
+    // Each pass has twice the elements of the one before.
+    let mut plan = Plan::even(scene, options.elements >> options.passes.min(LEVELS.into()));
+    if options.shadows > 0 {
+        plan.shadows = shadows(scene, options.shadows);
+    }
+    let mut passes_left = options.passes;
     loop {
-        let unshot = shooters.weigh(light);
-        if unshot <= options.tolerance {
-            return Ok(true);
+        let subdivision = Subdivision::new(scene, &plan)?;
+        let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
+        if passes_left == options.passes {
+            run.recognise()?;
         }
-        let progress = Progress { shots: shooters.shots, unshot };
-        let late = options.max_seconds.is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
-        if watch(progress).is_break() || late || progress.shots >= options.max_shots {
-            return Ok(false);
+        let converged = match run.choose(scene)? {
+            None => false,
+            Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
+            Some(method) => relax::relax(&mut run, method)?,
+        };
+        let solution = run.finish(scene, converged, passes_left == 0)?;
+        if !converged || passes_left == 0 {
+            return Ok(solution);
         }
-        let brightest = shooters.brightest();
-        if !shooters.split(brightest, light, options.spread) {
-            let column = factors.column(shooters.node(brightest))?;
-            light.receive(&column, &shooters.shoot(brightest));
-        }
+        passes_left -= 1;
+        plan =
+            estimate::refine(&plan, &subdivision, &solution, options.norm, options.elements >> passes_left);
     }
 }
 

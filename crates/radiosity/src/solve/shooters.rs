@@ -13,13 +13,11 @@ struct Shooter {
     unshot: Vec<f64>,
 }
 
-/// The pieces that shoot; together they cover every patch once.
+/// The pieces that shoot; together they cover every patch that may send light once.
 #[derive(Debug)]
 pub(super) struct Shooters<'s> {
     nodes: &'s [Node],
     front: Vec<Shooter>,
-    /// Emitted power per band.
-    pub(super) emitted: Vec<f64>,
     /// Power shot so far, per band.
     pub(super) sent: Vec<f64>,
     /// How many shots were made.
@@ -27,12 +25,16 @@ pub(super) struct Shooters<'s> {
 }
 
 impl<'s> Shooters<'s> {
-    /// Every patch is one shooter and has shot nothing.
-    pub(super) fn new(patches: usize, subdivision: &'s Subdivision, light: &Light) -> Shooters<'s> {
+    /// Each of the patches is one shooter and has shot nothing.
+    pub(super) fn new(
+        patches: impl Iterator<Item = usize>,
+        subdivision: &'s Subdivision,
+        light: &Light,
+    ) -> Shooters<'s> {
         let none = vec![0.0; light.bands];
         let nodes = &subdivision.nodes;
-        let front = (0..patches).map(|node| Shooter::new(node, nodes, &none, light)).collect();
-        Shooters { nodes, front, emitted: light.total(&light.emittance), sent: none, shots: 0 }
+        let front = patches.map(|node| Shooter::new(node, nodes, &none, light)).collect();
+        Shooters { nodes, front, sent: none, shots: 0 }
     }
 
     /// Weighs what every piece has yet to shoot; gives its share of the emitted power in the worst band.
@@ -44,7 +46,7 @@ impl<'s> Shooters<'s> {
             let unshot: f64 = self.front.iter().map(|shooter| shooter.unshot[band].abs()).sum();
             if unshot == 0.0 { 0.0 } else { unshot / emitted }
         };
-        self.emitted.iter().enumerate().map(share).fold(0.0, f64::max)
+        light.emitted.iter().enumerate().map(share).fold(0.0, f64::max)
     }
 
     /// The piece with the most power to shoot, over all bands; of equal ones the first.
@@ -54,14 +56,52 @@ impl<'s> Shooters<'s> {
         (0..self.front.len()).reduce(brighter).unwrap_or(0)
     }
 
-    /// Splits a piece whose power deviates from a uniform piece's by more than `spread` of all emitted power, or at
-    /// all when something stands on it: light must not pass to the other side. Tells whether it did. The halves
-    /// inherit what the piece has shot.
+    /// The power that leaves all pieces, over all bands: of which `spread` is a share.
+    fn flux(&self) -> f64 {
+        let flux = |shooter: &Shooter| {
+            let powers = shooter.shot.iter().zip(&shooter.unshot);
+            powers.map(|(shot, unshot)| (shot * shooter.area + unshot).abs()).sum::<f64>()
+        };
+        self.front.iter().map(flux).sum()
+    }
+
+    /// Splits a piece whose power deviates from a uniform piece's by more than `spread` of all power, or at all when
+    /// something stands on it: light must not pass to the other side. Tells whether it did. The halves inherit what
+    /// the piece has shot.
     pub(super) fn split(&mut self, index: usize, light: &Light, spread: f64) -> bool {
+        let limit = spread * self.flux();
+        self.split_beyond(index, light, limit)
+    }
+
+    /// Splits every piece that [`Shooters::split`] would, and the halves likewise; tells whether there was one.
+    pub(super) fn split_all(&mut self, light: &Light, spread: f64) -> bool {
+        let limit = spread * self.flux();
+        let before = self.front.len();
+        (0..before).for_each(|index| self.split_down(index, light, limit));
+        self.front.len() > before
+    }
+
+    /// Splits a piece as far as the mesh goes.
+    pub(super) fn split_wholly(&mut self, index: usize, light: &Light) {
+        self.split_down(index, light, f64::NEG_INFINITY);
+    }
+
+    /// Splits a piece and its halves while their power deviates by more than `limit`.
+    fn split_down(&mut self, index: usize, light: &Light, limit: f64) {
+        let mut open = vec![index];
+        while let Some(index) = open.pop() {
+            if self.split_beyond(index, light, limit) {
+                open.extend([self.front.len() - 1, index]);
+            }
+        }
+    }
+
+    /// Splits a piece whose power deviates by more than `limit`.
+    fn split_beyond(&mut self, index: usize, light: &Light, limit: f64) -> bool {
         let shooter = &self.front[index];
         let node = &self.nodes[shooter.node];
         let Some(halves) = node.halves else { return false };
-        let limit = if node.parted { 0.0 } else { spread * self.emitted.iter().sum::<f64>() };
+        let limit = if node.parted { limit.min(0.0) } else { limit };
         if shooter.deviation(node, light) <= limit {
             return false;
         }
@@ -83,9 +123,29 @@ impl<'s> Shooters<'s> {
         radiosity
     }
 
+    /// Says what every piece has shot: pieces × bands.
+    pub(super) fn set(&mut self, shot: &[f64]) {
+        let bands = self.sent.len();
+        self.sent.fill(0.0);
+        for (shooter, shot) in self.front.iter_mut().zip(shot.chunks_exact(bands)) {
+            shooter.shot.copy_from_slice(shot);
+            self.sent.iter_mut().zip(shot).for_each(|(sent, shot)| *sent += shot * shooter.area);
+        }
+    }
+
+    /// How many pieces there are.
+    pub(super) fn len(&self) -> usize {
+        self.front.len()
+    }
+
     /// The node of a piece.
     pub(super) fn node(&self, index: usize) -> usize {
         self.front[index].node
+    }
+
+    /// What a piece has shot, per band.
+    pub(super) fn shot(&self, index: usize) -> &[f64] {
+        &self.front[index].shot
     }
 
     /// The nodes of all pieces.
@@ -96,14 +156,14 @@ impl<'s> Shooters<'s> {
     /// Power still to be shot, per band, as weighed last.
     pub(super) fn unshot(&self) -> Vec<f64> {
         let band = |band| self.front.iter().map(|shooter| shooter.unshot[band]).sum();
-        (0..self.emitted.len()).map(band).collect()
+        (0..self.sent.len()).map(band).collect()
     }
 
     /// The largest radiosity still to be shot, per band, as weighed last.
     pub(super) fn peak(&self) -> Vec<f64> {
         let radiosity =
             |band: usize| self.front.iter().map(move |shooter| shooter.unshot[band] / shooter.area);
-        (0..self.emitted.len()).map(|band| radiosity(band).map(f64::abs).fold(0.0, f64::max)).collect()
+        (0..self.sent.len()).map(|band| radiosity(band).map(f64::abs).fold(0.0, f64::max)).collect()
     }
 }
 

@@ -120,7 +120,7 @@ fn east(scene: &Scene) -> &str {
 fn what_has_no_solution_is_refused_by_name() {
     let check = |scene: &Scene| solve(scene, &Options::default(), |_| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(check(&Scene::default()), Error::NoPatches));
-    for reflectance in [1.0, -0.1, f64::NAN] {
+    for reflectance in [1.1, -0.1, f64::NAN] {
         let mut scene = room(0.5, 1.0);
         scene.patches[3].reflectance[0] = reflectance;
         assert!(matches!(check(&scene), Error::Reflectance { patch, .. } if patch == "wall-3"));

@@ -1,7 +1,7 @@
 //! The binary glTF: its layout, and what a viewer finds in it.
-use crate::samples::{fans, file, node, scene};
+use crate::samples::{file, node, record, scene};
 use radiosity::expose::Exposure;
-use radiosity::io::glb::glb;
+use radiosity::io::gltf::glb;
 use radiosity::{Mesh, Scene};
 use serde_json::Value;
 
@@ -53,9 +53,9 @@ impl Parts {
 
 fn written(text: &str, radiosity: f64) -> (Scene, Mesh, Parts) {
     let scene = scene(text);
-    let mesh = fans(&scene);
-    let light = vec![[radiosity, 0.0, 2.0 * radiosity]; mesh.vertices.len()];
-    let bytes = glb(&scene, &mesh, &light, Exposure::new(1.0).unwrap()).unwrap();
+    let record = record(&scene, [radiosity, 0.0, 2.0 * radiosity]);
+    let bytes = glb(&record, Exposure::new(1.0).unwrap()).unwrap();
+    let mesh = record.mesh();
     (scene, mesh, parts(&bytes))
 }
 
@@ -94,4 +94,20 @@ fn light_beyond_single_precision_stays_finite() {
 fn a_scene_without_patches_is_still_a_file() {
     let (_, _, parts) = written(&file("", ""), 1.0);
     assert!(parts.document.get("meshes").is_none() && parts.binary.is_empty());
+}
+
+#[test]
+fn a_textured_patch_shows_its_picture_under_what_falls_on_it() {
+    let scene = radiosity::scenes::scene("chessboard").unwrap();
+    let options = radiosity::Options { elements: 300, max_shots: 3, ..Default::default() };
+    let solution = radiosity::solve(&scene, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
+    let record = radiosity::Record::new("chessboard", &scene, &solution);
+    record.check().unwrap();
+    let document = parts(&glb(&record, record.exposure()).unwrap()).document;
+    let primitives = document["meshes"][0]["primitives"].as_array().unwrap();
+    assert_eq!(primitives.len(), 2);
+    assert!(primitives[0]["attributes"]["TEXCOORD_0"].is_null());
+    assert!(!primitives[1]["attributes"]["TEXCOORD_0"].is_null());
+    let uri = document["images"][0]["uri"].as_str().unwrap();
+    assert!(uri.starts_with("data:image/png;base64,iVBORw0KGgo"));
 }

@@ -1,6 +1,8 @@
 //! What the reader makes of good files.
 use crate::samples::{file, geometry, instance, names, node, outline, polylist, primitive, scene};
 use radiosity::glam::DVec3;
+use radiosity::io::collada::Collada;
+use radiosity::scenes;
 
 const CUBE: &str = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1";
 const CUBE_FACES: &str = "0 3 2 1  4 5 6 7  0 1 5 4  1 2 6 5  2 3 7 6  3 0 4 7";
@@ -81,15 +83,27 @@ fn a_hole_is_cut_out_whichever_way_it_turns() {
 }
 
 #[test]
-fn strips_fans_and_lists_cover_the_same_square_facing_the_same_way() {
+fn strips_fans_and_lists_that_form_a_square_are_that_square() {
     let positions = "0 0 0 1 0 0 1 1 0 0 1 0";
     for (tag, indices) in [("triangles", "0 1 2 0 2 3"), ("trifans", "0 1 2 3"), ("tristrips", "0 1 3 2")] {
         let body = format!("<p>{indices}</p>");
         let text = with_geometry(&geometry("g", positions, &primitive(tag, "g", &body)), &node("n", "", "g"));
         let scene = scene(&text);
+        assert_eq!(names(&scene), ["n"], "{tag}");
+        assert_eq!(outline(&scene, 0), [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y], "{tag}");
+        assert_eq!(scene.patches[0].polygon.normal(), DVec3::Z, "{tag}");
+    }
+}
+
+#[test]
+fn strips_and_fans_turn_as_stated_where_they_bend() {
+    let positions = "0 0 0 1 0 0 1 1 0 0 1 1";
+    for (tag, indices) in [("triangles", "0 1 2 0 2 3"), ("trifans", "0 1 2 3"), ("tristrips", "0 1 3 2")] {
+        let body = format!("<p>{indices}</p>");
+        let text = with_geometry(&geometry("g", positions, &primitive(tag, "g", &body)), &node("n", "", "g"));
+        let scene = scene(&text);
         assert_eq!(names(&scene), ["n.1", "n.2"], "{tag}");
-        assert_eq!(scene.patches.iter().map(|patch| patch.polygon.area()).sum::<f64>(), 1.0, "{tag}");
-        assert!(scene.patches.iter().all(|patch| patch.polygon.normal() == DVec3::Z), "{tag}");
+        assert!(scene.patches.iter().all(|patch| patch.polygon.normal().z > 0.0), "{tag}");
     }
 }
 
@@ -133,6 +147,49 @@ fn materials_that_say_nothing_get_a_default_and_a_warning() {
     let textured = scene(&textured);
     assert_eq!(textured.patches[0].reflectance, [0.5; 3]);
     assert!(textured.warnings[0].contains("texture"), "{:?}", textured.warnings);
+}
+
+#[test]
+fn a_texture_gives_each_field_its_reflectance() {
+    let scene = scenes::scene("chessboard").unwrap();
+    let floor = &scene.patches[0];
+    assert!(floor.reflectance.iter().all(|mean| (mean - 0.425).abs() < 1e-3), "{:?}", floor.reflectance);
+    // The field at the lower left corner is dark, its neighbours are not.
+    let field = |x: f64, y: f64| {
+        let corner = |dx, dy| DVec3::new(-2.0 + (x + dx) / 2.0, -2.0 + (y + dy) / 2.0, 0.0);
+        floor.reflectance_over([corner(0.01, 0.01), corner(0.99, 0.01), corner(0.99, 0.99)])[0]
+    };
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (7.0, 7.0), (3.0, 6.0)] {
+        let expected = if (x + y) % 2.0 == 0.0 { 0.05 } else { 0.8 };
+        assert!((field(x, y) - expected).abs() < 1e-4, "({x}, {y}): {}", field(x, y));
+    }
+}
+
+#[test]
+fn a_picture_beside_the_file_is_found_in_its_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = scenes::scene("chessboard").unwrap().patches[0].texture.clone().unwrap().image;
+    std::fs::write(folder.path().join("a b.png"), &image.bytes).unwrap();
+    let written = scenes::write_scene("chessboard").unwrap();
+    let (head, rest) = written.split_once("<data>").unwrap();
+    let (_, tail) = rest.split_once("</data>").unwrap();
+    let path = folder.path().join("scene.dae");
+    std::fs::write(&path, format!("{head}<init_from>a%20b.png</init_from>{tail}")).unwrap();
+    let scene = Collada::open(&path).unwrap().scene().unwrap();
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    assert_eq!(scene.patches[0].texture.as_ref().unwrap().image.texels, image.texels);
+}
+
+#[test]
+fn facets_that_share_a_normal_at_a_vertex_are_one_curved_surface() {
+    // A ridge of two faces with one normal along it, and a third face with its own.
+    let normals = r##"<source id="nn"><float_array id="nna" count="6">0 0 1 0 1 0</float_array><technique_common><accessor source="#nna" count="2" stride="3"/></technique_common></source>"##;
+    let list = r##"<polylist material="m" count="3"><input semantic="VERTEX" source="#g-v" offset="0"/><input semantic="NORMAL" source="#nn" offset="1"/><vcount>3 3 3</vcount><p>0 0 1 0 2 0  1 0 0 0 3 0  0 1 2 1 4 1</p></polylist>"##;
+    let mesh = geometry("g", "0 0 0 0 1 0 -1 0 -1 1 0 -1 0 0 -2", list)
+        .replace("<vertices", &format!("{normals}<vertices"));
+    let scene = scene(&with_geometry(&mesh, &node("n", "", "g")));
+    let groups: Vec<_> = scene.patches.iter().map(|patch| patch.smoothing).collect();
+    assert!(groups[0].is_some() && groups[0] == groups[1] && groups[2].is_none(), "{groups:?}");
 }
 
 #[test]

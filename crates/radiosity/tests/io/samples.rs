@@ -1,7 +1,7 @@
 //! Small COLLADA files and meshes to test with.
 use radiosity::glam::DVec3;
 use radiosity::io::collada::Collada;
-use radiosity::{Element, Mesh, Scene};
+use radiosity::{Element, Mesh, PatchRecord, Record, Scene};
 
 /// A file of libraries and of the nodes of its one visual scene. Materials `grey` and `lamp` and the geometry `square`
 /// (the unit square, z = 0, facing +z, symbol `m`) are there.
@@ -84,6 +84,40 @@ pub(crate) fn fans(scene: &Scene) -> Mesh {
         mesh.elements.extend(fan);
     }
     mesh
+}
+
+/// A solution of a scene as it would be written: its fans, with the same red, green and blue at every vertex.
+pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
+    let mesh = fans(scene);
+    let values = light.repeat(mesh.vertices.len());
+    Record {
+        scene: "test.dae".into(),
+        asset: scene.asset,
+        cameras: scene.cameras.clone(),
+        bands: 3,
+        bound: vec![0.0; 3],
+        patches: scene
+            .patches
+            .iter()
+            .map(|patch| PatchRecord {
+                name: patch.name.clone(),
+                area: patch.polygon.area(),
+                reflectance: patch.reflectance.clone(),
+                emission: patch.emission.clone(),
+                irradiance: vec![0.0; 3],
+                radiosity: light.to_vec(),
+                picture: None,
+            })
+            .collect(),
+        vertex_radiosity: values.clone(),
+        vertex_irradiance: values,
+        places: Vec::new(),
+        elements: mesh.elements.iter().map(|e| [e.patch, e.corners[0], e.corners[1], e.corners[2]]).collect(),
+        radiosity: light.repeat(mesh.elements.len()),
+        irradiance: light.repeat(mesh.elements.len()),
+        vertices: mesh.vertices,
+        pictures: Vec::new(),
+    }
 }
 
 /// The names of the patches.

@@ -1,29 +1,24 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
+use super::super::surface::Finish;
 use super::super::{Error, Fault};
 use super::file::{File, Node, child, children, descend};
+use super::images::Images;
 
 /// The reflectance of a surface that says nothing, or shows a texture.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
-
-/// Red, green and blue of a surface.
-#[derive(Clone, Copy)]
-pub(super) struct Finish {
-    pub(super) reflectance: [f64; 3],
-    /// Radiance.
-    pub(super) emission: [f64; 3],
-}
 
 /// The finish that `instance`, an `<instance_geometry>`, binds to `symbol`.
 pub(super) fn finish<'a>(
     file: &File<'a>,
     instance: Node<'a>,
     symbol: Option<&str>,
+    images: &mut Images,
     warnings: &mut Vec<String>,
 ) -> Result<Finish, Error> {
     let mut plain = |why: &str| {
         let place = file.place(instance);
         warnings.push(format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken"));
-        Ok(Finish { reflectance: [DEFAULT_REFLECTANCE; 3], emission: [0.0; 3] })
+        Ok(Finish { reflectance: [DEFAULT_REFLECTANCE; 3], emission: [0.0; 3], image: None })
     };
     let Some(symbol) = symbol else { return plain("polygons without a material") };
     let Some(material) = bound(file, instance, symbol)? else {
@@ -33,10 +28,22 @@ pub(super) fn finish<'a>(
     let Some(shader) = shader(effect) else {
         return plain(&format!("the effect of {symbol:?} has no common shader"));
     };
-    Ok(Finish {
-        reflectance: colour(file, effect, shader, "diffuse", DEFAULT_REFLECTANCE, warnings)?,
-        emission: colour(file, effect, shader, "emission", 0.0, warnings)?,
-    })
+    let emission = match slot(effect, shader, "emission") {
+        Slot::Texture(texture) => {
+            let place = file.place(texture);
+            warnings.push(format!("{place}: emission textures are not read; emission 0 is taken"));
+            [0.0; 3]
+        }
+        other => other.colour(file)?,
+    };
+    match slot(effect, shader, "diffuse") {
+        Slot::Texture(texture) => {
+            let image = images.of_texture(file, effect, texture, warnings);
+            let reflectance = if image.is_some() { [1.0; 3] } else { [DEFAULT_REFLECTANCE; 3] };
+            Ok(Finish { reflectance, emission, image })
+        }
+        other => Ok(Finish { reflectance: other.colour(file)?, emission, image: None }),
+    }
 }
 
 /// The `<instance_material>` of that symbol, or, since some exporters bind nothing, the material of that id.
@@ -54,22 +61,29 @@ fn shader(effect: Node<'_>) -> Option<Node<'_>> {
     ["lambert", "phong", "blinn", "constant"].iter().find_map(|name| child(technique, name))
 }
 
-/// A shader's colour: 0 where it is absent, `otherwise`, with a warning, where it is a texture.
-fn colour<'a>(
-    file: &File<'a>,
-    effect: Node<'a>,
-    shader: Node<'a>,
-    name: &'static str,
-    otherwise: f64,
-    warnings: &mut Vec<String>,
-) -> Result<[f64; 3], Error> {
-    let Some(slot) = child(shader, name) else { return Ok([0.0; 3]) };
-    if let Some(element) = child(slot, "color").or_else(|| parameter(effect, slot)) {
-        return rgb(file, element);
+/// What a shader says of one of its colours.
+enum Slot<'a> {
+    Nothing,
+    Colour(Node<'a>),
+    Texture(Node<'a>),
+}
+
+fn slot<'a>(effect: Node<'a>, shader: Node<'a>, name: &'static str) -> Slot<'a> {
+    let Some(slot) = child(shader, name) else { return Slot::Nothing };
+    match child(slot, "color").or_else(|| parameter(effect, slot)) {
+        Some(element) => Slot::Colour(element),
+        None => child(slot, "texture").map_or(Slot::Nothing, Slot::Texture),
     }
-    let place = file.place(slot);
-    warnings.push(format!("{place}: textures are not read; {name} {otherwise} is taken"));
-    Ok([otherwise; 3])
+}
+
+impl<'a> Slot<'a> {
+    /// The colour; 0 where there is none.
+    fn colour(&self, file: &File<'a>) -> Result<[f64; 3], Error> {
+        match self {
+            Slot::Colour(element) => rgb(file, *element),
+            _ => Ok([0.0; 3]),
+        }
+    }
 }
 
 /// The `<float3>` or `<float4>` of the `<newparam>` that a `<param ref="…">` names.

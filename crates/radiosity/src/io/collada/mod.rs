@@ -9,18 +9,20 @@
 //! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
 mod camera;
 mod compose;
+mod exposed;
 mod file;
+mod images;
 mod material;
 mod mesh_text;
 mod model;
 mod patches;
 mod primitive;
-mod split;
 mod transform;
 mod walk;
 mod write;
 
 use super::Error;
+use crate::expose::Exposure;
 use crate::{Asset, Mesh, Scene};
 pub(crate) use compose::text;
 use file::{File, child};
@@ -78,7 +80,9 @@ impl Collada {
     pub fn scene(&self) -> Result<Scene, Error> {
         self.with_file(|file| {
             let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
-            let patches = patches::patches(file, &instances, &mut warnings)?;
+            let folder = Path::new(&self.name).parent();
+            let mut images = images::Images::new(folder);
+            let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
             let cameras = camera::cameras(file, &sights, &mut warnings)?;
             Ok(Scene { patches, cameras, bands: 3, warnings, asset: asset(file)? })
         })
@@ -94,6 +98,15 @@ impl Collada {
     /// As [`Collada::scene`].
     pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, Error> {
         self.with_file(|file| write::with_light(&self.text, file, &write::Light { scene, mesh, colours }))
+    }
+
+    /// The file's text with its vertex colours, taken as radiosity, exposed to intensities from 0 to 1; everything else
+    /// byte for byte. Without an exposure one is chosen: the geometric mean over the lit vertices becomes mid grey.
+    ///
+    /// # Errors
+    /// [`Error::Xml`] and [`Error::Scene`], with the line; the latter also when no surface has vertex colours.
+    pub fn exposed(&self, exposure: Option<Exposure>) -> Result<String, Error> {
+        self.with_file(|file| exposed::exposed(&self.text, file, exposure))
     }
 
     fn with_file<T>(&self, read: impl FnOnce(&File) -> Result<T, Error>) -> Result<T, Error> {

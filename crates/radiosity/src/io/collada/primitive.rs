@@ -1,7 +1,8 @@
 //! A geometry's polygons: positions through sources and accessors, loops through the primitives' indices.
+use super::super::surface::{Corner, Polygon};
 use super::super::{Error, Fault};
 use super::file::{File, Node, child, children, descend};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -10,11 +11,11 @@ pub(super) struct Primitive<'a> {
     pub(super) element: Node<'a>,
     /// The symbol that the instance binds to a material.
     pub(super) material: Option<&'a str>,
+    /// In the geometry's coordinates.
     pub(super) polygons: Vec<Polygon>,
+    /// Whether all are triangles because the element has nothing else.
+    pub(super) is_cut: bool,
 }
-
-/// Loops of points in the geometry's coordinates; the first is the outline, the others are holes.
-pub(super) type Polygon = Vec<Vec<DVec3>>;
 
 /// The primitives of a geometry that have area, and warnings about what has none.
 pub(super) fn primitives<'a>(
@@ -31,7 +32,8 @@ pub(super) fn primitives<'a>(
     let mut all = Vec::new();
     for element in surfaces(geometry) {
         let polygons = polygons(file, element, &mut sources)?;
-        all.push(Primitive { element, material: element.attribute("material"), polygons });
+        let is_cut = !matches!(element.tag_name().name(), "polylist" | "polygons");
+        all.push(Primitive { element, material: element.attribute("material"), polygons, is_cut });
     }
     if let Some(line) = mesh.children().find(|node| matches!(node.tag_name().name(), "lines" | "linestrips"))
     {
@@ -56,10 +58,12 @@ fn polygons<'a>(
     let Some(layout) = layout(file, element)? else { return Ok(Vec::new()) };
     let positions = match sources.entry(layout.source) {
         Entry::Occupied(known) => known.into_mut(),
-        Entry::Vacant(new) => new.insert(positions(file, layout.source)?),
+        Entry::Vacant(new) => new.insert(rows(file, layout.source, 3)?),
     };
-    let points = Points { file, layout: &layout, positions };
-    let outlines = |rings: Vec<Vec<DVec3>>| rings.into_iter().map(|ring| vec![ring]);
+    let places = layout.places.map(|(source, offset)| Ok((rows(file, source, 2)?, offset))).transpose()?;
+    let normals = layout.normals.map(|(source, offset)| Ok((rows(file, source, 3)?, offset))).transpose()?;
+    let points = Points { file, layout: &layout, positions, places, normals };
+    let outlines = |rings: Vec<Vec<Corner>>| rings.into_iter().map(|ring| vec![ring]);
     let mut all = Vec::new();
     match element.tag_name().name() {
         "polylist" => all.extend(outlines(polylist(file, element, &points)?)),
@@ -74,22 +78,29 @@ fn polygons<'a>(
     Ok(all)
 }
 
-/// Where the position's index stands among the indices of a vertex, and what it points into.
+/// Where the position's index stands among the indices of a vertex, and what it points into; the same for the picture's
+/// coordinates and the normals, where there are any.
 struct Layout<'a> {
     stride: usize,
     offset: usize,
     source: Node<'a>,
+    places: Option<(Node<'a>, usize)>,
+    normals: Option<(Node<'a>, usize)>,
 }
 
 /// `None` for a primitive without any input: it has no polygons either.
 fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, Error> {
-    let (mut stride, mut vertex) = (0, None);
+    let (mut stride, mut vertex, mut places, mut normals) = (0, None, None, None);
     for input in children(element, "input") {
         let offset = file.whole_attribute(input, "offset", 0)?;
         let next = offset.checked_add(1).ok_or_else(|| file.fault(input, Fault::Huge("the offset")))?;
         stride = stride.max(next);
-        if input.attribute("semantic") == Some("VERTEX") {
-            vertex = Some((input, offset));
+        let source = || file.target(input, "source", "source").ok().map(|source| (source, offset));
+        match input.attribute("semantic") {
+            Some("VERTEX") => vertex = Some((input, offset)),
+            Some("TEXCOORD") => places = places.or_else(source),
+            Some("NORMAL") => normals = normals.or_else(source),
+            _ => {}
         }
     }
     let Some((input, offset)) = vertex else {
@@ -104,14 +115,21 @@ fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, 
     let position = children(vertices, "input").find(|input| input.attribute("semantic") == Some("POSITION"));
     let position =
         position.ok_or_else(|| file.fault(vertices, Fault::Child("input semantic=\"POSITION\"")))?;
-    Ok(Some(Layout { stride, offset, source: file.target(position, "source", "source")? }))
+    let source = file.target(position, "source", "source")?;
+    let of_vertex = |semantic| {
+        let input = children(vertices, "input").find(|input| input.attribute("semantic") == Some(semantic));
+        input.and_then(|input| file.target(input, "source", "source").ok()).map(|source| (source, offset))
+    };
+    let (places, normals) =
+        (places.or_else(|| of_vertex("TEXCOORD")), normals.or_else(|| of_vertex("NORMAL")));
+    Ok(Some(Layout { stride, offset, source, places, normals }))
 }
 
-/// The points of a source, through its accessor where it has one.
-fn positions<'a>(file: &File<'a>, source: Node<'a>) -> Result<Vec<DVec3>, Error> {
+/// The rows of a source, of two or three numbers each, through its accessor where it has one; the third of two is 0.
+fn rows<'a>(file: &File<'a>, source: Node<'a>, width: usize) -> Result<Vec<DVec3>, Error> {
     let array = file.child(source, "float_array")?;
     let Some(accessor) = descend(source, &["technique_common", "accessor"]) else {
-        return points(file, array, 3, 0, None);
+        return points(file, array, [width, width], 0, None);
     };
     let array = match accessor.attribute("source") {
         Some(_) => file.target(accessor, "source", "float_array")?,
@@ -121,25 +139,25 @@ fn positions<'a>(file: &File<'a>, source: Node<'a>) -> Result<Vec<DVec3>, Error>
     let offset = file.whole_attribute(accessor, "offset", 0)?;
     let count =
         accessor.attribute("count").map(|_| file.whole_attribute(accessor, "count", 0)).transpose()?;
-    if stride < 3 {
-        return Err(file.fault(accessor, Fault::Count { found: stride, wanted: 3 }));
+    if stride < width {
+        return Err(file.fault(accessor, Fault::Count { found: stride, wanted: width }));
     }
-    points(file, array, stride, offset, count)
+    points(file, array, [width, stride], offset, count)
 }
 
 /// As many points as `count` says, or as the array holds.
 fn points<'a>(
     file: &File<'a>,
     array: Node<'a>,
-    stride: usize,
+    [width, stride]: [usize; 2],
     offset: usize,
     count: Option<usize>,
 ) -> Result<Vec<DVec3>, Error> {
     let numbers = file.numbers(array)?;
     let short = |wanted| file.fault(array, Fault::Count { found: numbers.len(), wanted });
     let values = numbers.get(offset..).ok_or_else(|| short(offset))?;
-    let whole = values.chunks(stride).filter(|chunk| chunk.len() >= 3);
-    let all = whole.map(|chunk| DVec3::new(chunk[0], chunk[1], chunk[2]));
+    let whole = values.chunks(stride).filter(|chunk| chunk.len() >= width);
+    let all = whole.map(|row| DVec3::new(row[0], row[1], if width == 2 { 0.0 } else { row[2] }));
     let points: Vec<DVec3> = all.take(count.unwrap_or(usize::MAX)).collect();
     match count {
         Some(count) if points.len() < count => {
@@ -154,23 +172,35 @@ struct Points<'f, 'a> {
     file: &'f File<'a>,
     layout: &'f Layout<'a>,
     positions: &'f [DVec3],
+    places: Option<(Vec<DVec3>, usize)>,
+    normals: Option<(Vec<DVec3>, usize)>,
 }
 
 impl<'a> Points<'_, 'a> {
     /// The points of a `<p>` or `<h>`.
-    fn ring(&self, p: Node<'a>) -> Result<Vec<DVec3>, Error> {
+    fn ring(&self, p: Node<'a>) -> Result<Vec<Corner>, Error> {
         let indices = self.file.wholes(p)?;
-        let Layout { stride, offset, .. } = *self.layout;
+        let stride = self.layout.stride;
         if indices.len() % stride != 0 {
             let wanted = indices.len().next_multiple_of(stride);
             return Err(self.file.fault(p, Fault::Count { found: indices.len(), wanted }));
         }
-        indices.chunks(stride).map(|vertex| self.point(p, vertex[offset])).collect()
+        indices.chunks(stride).map(|vertex| self.corner(p, vertex)).collect()
     }
 
-    fn point(&self, p: Node<'a>, index: usize) -> Result<DVec3, Error> {
-        let len = self.positions.len();
-        self.positions.get(index).copied().ok_or_else(|| self.file.fault(p, Fault::Index { index, len }))
+    fn corner(&self, p: Node<'a>, vertex: &[usize]) -> Result<Corner, Error> {
+        let row = |rows: &[DVec3], index: usize| {
+            let found = rows.get(index).copied();
+            found.ok_or_else(|| self.file.fault(p, Fault::Index { index, len: rows.len() }))
+        };
+        let optional = |rows: &Option<(Vec<DVec3>, usize)>| match rows {
+            Some((rows, offset)) => row(rows, vertex[*offset]).map(Some),
+            None => Ok(None),
+        };
+        // COLLADA counts a picture's rows from below.
+        let place = optional(&self.places)?.map_or(DVec2::ZERO, |place| DVec2::new(place.x, 1.0 - place.y));
+        let normal = optional(&self.normals)?.unwrap_or_default();
+        Ok(Corner { point: row(self.positions, vertex[self.layout.offset])?, place, normal })
     }
 }
 
@@ -178,7 +208,7 @@ fn polylist<'a>(
     file: &File<'a>,
     element: Node<'a>,
     points: &Points<'_, 'a>,
-) -> Result<Vec<Vec<DVec3>>, Error> {
+) -> Result<Vec<Vec<Corner>>, Error> {
     let Some(p) = child(element, "p") else { return Ok(Vec::new()) };
     let counts = file.wholes(file.child(element, "vcount")?)?;
     let ring = points.ring(p)?;
@@ -216,7 +246,12 @@ fn with_holes<'a>(
 }
 
 /// The triangles of a list, a strip (every second one turned) or a fan.
-fn triangles<'a>(file: &File<'a>, p: Node<'a>, tag: &str, ring: &[DVec3]) -> Result<Vec<Vec<DVec3>>, Error> {
+fn triangles<'a>(
+    file: &File<'a>,
+    p: Node<'a>,
+    tag: &str,
+    ring: &[Corner],
+) -> Result<Vec<Vec<Corner>>, Error> {
     if tag == "triangles" {
         if ring.len() % 3 != 0 {
             let wanted = ring.len().next_multiple_of(3);

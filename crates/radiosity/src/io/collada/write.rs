@@ -4,11 +4,13 @@
 //! `<mesh>`; each further one gets a new `<geometry>` behind it. Where an `<instance_node>` makes one
 //! `<instance_geometry>` stand for several surfaces, it is replaced by a copy of the node that it names.
 use super::super::{Error, Fault};
-use super::file::{File, Node};
+use super::TOOL;
+use super::file::{File, Node, child};
 use super::mesh_text::{Group, Ids, LitMesh, escape};
 use super::primitive::surfaces;
 use super::walk::{Instance, walk};
-use crate::{Mesh, Scene};
+use crate::{Mesh, Scene, Texture};
+use glam::DVec2;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 
@@ -17,6 +19,13 @@ pub(super) struct Light<'s> {
     pub(super) scene: &'s Scene,
     pub(super) mesh: &'s Mesh,
     pub(super) colours: &'s [[f64; 3]],
+}
+
+impl Light<'_> {
+    /// The picture on the patch of an element.
+    fn texture(&self, element: usize) -> Option<&Texture> {
+        self.scene.patches[self.mesh.elements[element].patch].texture.as_ref()
+    }
 }
 
 /// The doors (`<instance_node>`s) that were opened into copies to come to a place; none for the file's own text.
@@ -38,6 +47,7 @@ pub(super) fn with_light<'a>(text: &str, file: &File<'a>, light: &Light) -> Resu
         used: HashSet::new(),
         numbers: HashMap::new(),
     };
+    splice.sign();
     let mut replaced = HashSet::new();
     for index in lit {
         let instance = &instances[index];
@@ -79,16 +89,22 @@ fn lit_mesh(instance: &Instance, elements: &BTreeMap<usize, Vec<usize>>, light: 
     let (inverse, mirrored) = (world.inverse(), world.determinant() < 0.0);
     let surfaces: Vec<Node> = surfaces(instance.geometry).collect();
     let (mut mesh, mut places) = (LitMesh::default(), HashMap::new());
+    let textured = elements.values().flatten().any(|element| light.texture(*element).is_some());
     for (primitive, elements) in elements {
-        let mut place = |vertex: usize| {
+        let mut place = |vertex: usize, texture: Option<&Texture>| {
             *places.entry(vertex).or_insert_with(|| {
-                mesh.positions.push(inverse.transform_point3(light.mesh.vertices[vertex]));
+                let point = light.mesh.vertices[vertex];
+                if textured {
+                    mesh.places.push(texture.map_or(DVec2::ZERO, |texture| texture.place(point)));
+                }
+                mesh.positions.push(inverse.transform_point3(point));
                 mesh.colours.push(light.colours[vertex]);
                 mesh.positions.len() - 1
             })
         };
         let triangle = |element: &usize| {
-            let [a, b, c] = light.mesh.elements[*element].corners.map(&mut place);
+            let corners = light.mesh.elements[*element].corners;
+            let [a, b, c] = corners.map(|corner| place(corner, light.texture(*element)));
             if mirrored { [a, c, b] } else { [a, b, c] }
         };
         let triangles = elements.iter().map(triangle).collect();
@@ -128,6 +144,19 @@ impl<'a> Splice<'_, '_, 'a> {
         via.to_vec()
     }
 
+    /// Names this program as the file's tool.
+    fn sign(&mut self) {
+        let tool = format!("<authoring_tool>{TOOL}</authoring_tool>");
+        let Some(asset) = child(self.file.root, "asset") else { return };
+        let old = child(asset, "contributor").and_then(|contributor| child(contributor, "authoring_tool"));
+        if let Some(old) = old {
+            self.edit(Vec::new(), old.range(), tool);
+        } else if let Some(first) = asset.first_child() {
+            let start = first.range().start;
+            self.edit(Vec::new(), start..start, format!("<contributor>{tool}</contributor>"));
+        }
+    }
+
     fn edit(&mut self, path: Path<'a>, range: Range<usize>, text: String) {
         self.edits.entry(path).or_default().push((range, text));
     }
@@ -154,7 +183,12 @@ impl<'a> Splice<'_, '_, 'a> {
 
     fn ids(&mut self, geometry: &str) -> Ids {
         let mut part = |name| self.fresh(&format!("{geometry}-{name}"));
-        Ids { positions: part("lit-positions"), colours: part("lit-colours"), vertices: part("lit-vertices") }
+        Ids {
+            positions: part("lit-positions"),
+            colours: part("lit-colours"),
+            places: part("lit-places"),
+            vertices: part("lit-vertices"),
+        }
     }
 
     /// An id that neither the file nor an earlier call uses: the stem itself or the first free `stem-2`, `stem-3`, …

@@ -1,33 +1,32 @@
-//! A polygon that is not planar, cut into triangles, which always are.
-use formfactor::PlanarPolygon;
+//! A polygon cut into triangles: one that is not planar, since they always are, or one that shows a picture.
+use super::{Corner, Polygon};
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 /// Triangles between the given vertices that cover the polygon as seen along its (Newell) normal, in a fixed order.
 ///
-/// Where outlines cross each other, the later edge is left out of the triangulation. Triangles without area are left
-/// out.
-pub(super) fn split(loops: &[Vec<DVec3>]) -> Vec<PlanarPolygon> {
-    let normal = newell(&loops[0]);
-    let axes = kept_axes(normal);
-    let flat = |point: DVec3| DVec2::new(point[axes[0]], point[axes[1]]);
+/// Where outlines cross each other, the later edge is left out of the triangulation.
+pub(super) fn split(loops: &Polygon) -> Vec<[Corner; 3]> {
+    let Some(outline) = loops.first().filter(|outline| outline.len() > 2) else { return Vec::new() };
+    let axes = kept_axes(newell(outline));
+    let flat = |corner: &Corner| DVec2::new(corner.point[axes[0]], corner.point[axes[1]]);
     let mut mesh = ConstrainedDelaunayTriangulation::<Vertex>::new();
     let edges: Vec<[DVec2; 2]> = loops.iter().flat_map(|ring| edges(ring, flat)).collect();
     for ring in loops {
         constrain(&mut mesh, ring, flat);
     }
     let triangles = mesh.inner_faces().filter_map(|face| {
-        let corners = face.vertices().map(|vertex| vertex.data().point);
-        let centre = corners.map(flat).iter().sum::<DVec2>() / 3.0;
+        let corners = face.vertices().map(|vertex| vertex.data().corner);
+        let centre = corners.iter().map(flat).sum::<DVec2>() / 3.0;
         inside(centre, &edges).then_some(corners)
     });
-    triangles.filter_map(|corners| PlanarPolygon::new([corners]).ok()).collect()
+    triangles.collect()
 }
 
-/// A vertex of the triangulation and the point in space that it stands for.
+/// A vertex of the triangulation and the corner that it stands for.
 struct Vertex {
     flat: DVec2,
-    point: DVec3,
+    corner: Corner,
 }
 
 impl HasPosition for Vertex {
@@ -40,11 +39,11 @@ impl HasPosition for Vertex {
 /// Coordinates that the triangulation does not take (beyond its range) leave the polygon without triangles.
 fn constrain(
     mesh: &mut ConstrainedDelaunayTriangulation<Vertex>,
-    ring: &[DVec3],
-    flat: impl Fn(DVec3) -> DVec2,
+    ring: &[Corner],
+    flat: impl Fn(&Corner) -> DVec2,
 ) {
-    let vertex = |point: &DVec3| Vertex { flat: flat(*point), point: *point };
-    let inserted: Result<Vec<_>, _> = ring.iter().map(|point| mesh.insert(vertex(point))).collect();
+    let vertex = |corner: &Corner| Vertex { flat: flat(corner), corner: *corner };
+    let inserted: Result<Vec<_>, _> = ring.iter().map(|corner| mesh.insert(vertex(corner))).collect();
     let Ok(corners) = inserted else { return };
     for (index, from) in corners.iter().enumerate() {
         let to = corners[(index + 1) % corners.len()];
@@ -54,8 +53,8 @@ fn constrain(
     }
 }
 
-fn edges(ring: &[DVec3], flat: impl Fn(DVec3) -> DVec2) -> impl Iterator<Item = [DVec2; 2]> {
-    (0..ring.len()).map(move |index| [flat(ring[index]), flat(ring[(index + 1) % ring.len()])])
+fn edges(ring: &[Corner], flat: impl Fn(&Corner) -> DVec2) -> impl Iterator<Item = [DVec2; 2]> {
+    (0..ring.len()).map(move |index| [flat(&ring[index]), flat(&ring[(index + 1) % ring.len()])])
 }
 
 /// Whether a point away from the edges is inside an odd number of loops: crossings of the ray to the right.
@@ -69,9 +68,9 @@ fn inside(point: DVec2, edges: &[[DVec2; 2]]) -> bool {
     crossed.count() % 2 == 1
 }
 
-fn newell(ring: &[DVec3]) -> DVec3 {
-    let spokes = ring[1..].windows(2);
-    spokes.map(|pair| (pair[0] - ring[0]).cross(pair[1] - ring[0])).sum()
+fn newell(ring: &[Corner]) -> DVec3 {
+    let spoke = |corner: Corner| corner.point - ring[0].point;
+    ring[1..].windows(2).map(|pair| spoke(pair[0]).cross(spoke(pair[1]))).sum()
 }
 
 /// The two axes that remain when the normal's longest is dropped, ordered so that the front stays counter-clockwise.

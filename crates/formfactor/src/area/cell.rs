@@ -1,0 +1,113 @@
+//! Pieces of the polygon that is integrated over, in its two kept coordinates.
+use crate::PlanarPolygon;
+use crate::region::leaf;
+use glam::DVec2;
+
+/// A convex quadrilateral, counter-clockwise; its last two corners are one in a triangle.
+pub(super) type Cell = [DVec2; 4];
+
+/// Cells that make up a polygon: itself, or trapezoids between the heights of its vertices.
+pub(super) fn cells(polygon: &PlanarPolygon) -> Vec<Cell> {
+    if polygon.is_convex() {
+        return fan(&polygon.flat_loops()[0]);
+    }
+    let region = leaf(&polygon.flat_loops()).evaluate();
+    let rings: Vec<&[DVec2]> = region.rings().collect();
+    let mut heights: Vec<f64> = rings.iter().flat_map(|ring| ring.iter()).map(|p| p.y).collect();
+    heights.sort_by(f64::total_cmp);
+    heights.dedup();
+    heights.windows(2).flat_map(|pair| trapezoids(&rings, pair[0], pair[1])).collect()
+}
+
+/// What lies between two heights with no vertex in between: left and right sides take turns.
+fn trapezoids(rings: &[&[DVec2]], low: f64, high: f64) -> Vec<Cell> {
+    let edges = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+    let mut sides: Vec<[DVec2; 2]> = edges
+        .map(|(a, b)| if a.y <= b.y { (a, b) } else { (b, a) })
+        .filter(|(a, b)| a.y <= low && b.y >= high)
+        .map(|(a, b)| [low, high].map(|y| at_height(*a, *b, y)))
+        .collect();
+    sides.sort_by(|a, b| (a[0].x + a[1].x).total_cmp(&(b[0].x + b[1].x)));
+    sides.chunks_exact(2).map(|pair| [pair[0][0], pair[1][0], pair[1][1], pair[0][1]]).collect()
+}
+
+fn at_height(a: DVec2, b: DVec2, y: f64) -> DVec2 {
+    if y == a.y {
+        a
+    } else if y == b.y {
+        b
+    } else {
+        DVec2::new(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)), y)
+    }
+}
+
+/// A convex polygon as cells around its first corner.
+fn fan(corners: &[DVec2]) -> Vec<Cell> {
+    let Some((first, rest)) = corners.split_first() else { return Vec::new() };
+    let cell = |i: usize| [*first, rest[i], rest[i + 1], rest[(i + 2).min(rest.len() - 1)]];
+    (0..rest.len().saturating_sub(1)).step_by(2).map(cell).collect()
+}
+
+/// The area of a cell.
+pub(super) fn area(cell: &Cell) -> f64 {
+    (cell[2] - cell[0]).perp_dot(cell[3] - cell[1]) / 2.0
+}
+
+/// Two halves, along the middles of the longer two of opposite sides.
+pub(super) fn halves([a, b, c, d]: Cell) -> [Cell; 2] {
+    if a.distance(b) + c.distance(d) >= b.distance(c) + d.distance(a) {
+        let (low, high) = (a.midpoint(b), c.midpoint(d));
+        [[a, low, high, d], [low, b, c, high]]
+    } else {
+        let (right, left) = (b.midpoint(c), d.midpoint(a));
+        [[a, b, right, left], [left, right, c, d]]
+    }
+}
+
+/// A piece of a line's cell that is smaller than this share of it is not worth a cut.
+const SLIGHT: f64 = 1e-9;
+
+/// A cell cut along the line of a segment that passes through it, as cells; `None` when none does.
+pub(super) fn cut(cell: &Cell, [start, end]: [DVec2; 2]) -> Option<Vec<Cell>> {
+    let way = end - start;
+    let heights = cell.map(|p| way.perp_dot(p - start));
+    if heights.iter().all(|h| *h >= 0.0) || heights.iter().all(|h| *h <= 0.0) || !passes(cell, start, end) {
+        return None;
+    }
+    let [left, right] = [1.0, -1.0].map(|sign| fan(&kept(cell, heights.map(|h| sign * h))));
+    let size = |cells: &[Cell]| cells.iter().map(area).sum::<f64>();
+    let is_worth = |cells: &[Cell]| size(cells) > SLIGHT * area(cell);
+    (is_worth(&left) && is_worth(&right)).then(|| [left, right].concat())
+}
+
+/// Whether some of a segment is inside a cell.
+fn passes(cell: &Cell, start: DVec2, end: DVec2) -> bool {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for (i, a) in cell.iter().enumerate() {
+        let side = cell[(i + 1) % 4] - *a;
+        let (from, to) = (side.perp_dot(start - *a), side.perp_dot(end - *a));
+        match (from < 0.0, to < 0.0) {
+            (true, true) => return false,
+            (true, false) => low = low.max(from / (from - to)),
+            (false, true) => high = high.min(from / (from - to)),
+            (false, false) => (),
+        }
+    }
+    low < high
+}
+
+/// The part of a cell at heights that are not negative.
+fn kept(cell: &Cell, heights: [f64; 4]) -> Vec<DVec2> {
+    let mut corners = Vec::with_capacity(6);
+    for i in 0..4 {
+        let (j, here, next) = ((i + 1) % 4, heights[i], heights[(i + 1) % 4]);
+        if here >= 0.0 {
+            corners.push(cell[i]);
+        }
+        if (here < 0.0 && next > 0.0) || (here > 0.0 && next < 0.0) {
+            corners.push(cell[i] + (cell[j] - cell[i]) * (here / (here - next)));
+        }
+    }
+    corners.dedup();
+    corners
+}

@@ -1,0 +1,123 @@
+//! The form factor between two polygons with nothing in between, as a double contour integral:
+//!
+//! A1 F12 = 1 / (2 pi) sum over edges p of one and q of the other of (p . q) integral integral ln r ds dt,
+//!
+//! s and t running along unit directions p and q, each loop counter-clockwise seen from its front. [Sparrow 1963]
+//!
+//! Perpendicular edges add nothing, and for parallel ones at a distance h the integral has a closed form by
+//! G(z) = (z^2 - h^2) ln(z^2 + h^2) / 4 - 3 z^2 / 4 + h z atan(z / h), the second integral of ln sqrt(z^2 + h^2).
+//! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's rule,
+//! halved until it agrees with itself.
+use crate::PlanarPolygon;
+use crate::gauss::RULE_8;
+use crate::region::leaf;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// A directed edge.
+type Edge = [DVec3; 2];
+
+/// `A1 F12` and an estimate of its error, rounding included; right only where each polygon is before the other's plane.
+pub(super) fn exchange(one: &PlanarPolygon, other: &PlanarPolygon, tolerance: f64) -> [f64; 2] {
+    let (ps, qs) = (edges(one), edges(other));
+    let size = ps.iter().chain(&qs).flatten().fold(0.0, |size: f64, p| size.max(p.distance(ps[0][0])));
+    let each = tolerance * TAU / f64::from(u32::try_from(ps.len() * qs.len()).unwrap_or(u32::MAX));
+    let (mut sum, mut error) = (0.0, 0.0);
+    for p in &ps {
+        for q in &qs {
+            let [part, doubt] = pair(*p, *q, size, each);
+            sum += part;
+            error += doubt;
+        }
+    }
+    [sum / TAU, error / TAU]
+}
+
+/// The edges of a polygon's rings, outer ones counter-clockwise and holes clockwise.
+fn edges(polygon: &PlanarPolygon) -> Vec<Edge> {
+    let region = leaf(&polygon.flat_loops()).evaluate();
+    let raised: Vec<Vec<DVec3>> =
+        region.rings().map(|ring| ring.iter().map(|p| polygon.raise(*p)).collect()).collect();
+    raised
+        .iter()
+        .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)))
+        .map(|(a, b)| [*a, *b])
+        .collect()
+}
+
+/// (p . q) times the integral of ln(r / size), which in sum over closed loops is that of ln r.
+fn pair([a, b]: Edge, [c, d]: Edge, size: f64, tolerance: f64) -> [f64; 2] {
+    let (way, other) = (b - a, d - c);
+    let (length, cosine) = (way.length(), way.dot(other) / (way.length() * other.length()));
+    if way.dot(other) == 0.0 {
+        return [0.0, 0.0];
+    }
+    if way.cross(other) == DVec3::ZERO {
+        let [value, error] = parallel([a, b], [c, d], size);
+        return [value * cosine.signum(), error];
+    }
+    let inner = |s: f64| along(a + way * s, [c, d], size);
+    let [value, error] = adaptive(&inner, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
+    [value * length * cosine, error * length * cosine.abs()]
+}
+
+/// The double integral for parallel edges, and its rounding.
+fn parallel([a, b]: Edge, [c, d]: Edge, size: f64) -> [f64; 2] {
+    let direction = (b - a).normalize();
+    let (length, from, to) = ((b - a).length(), direction.dot(c - a), direction.dot(d - a));
+    let height = (c - a - direction * from).length();
+    let (low, high) = (from.min(to), from.max(to));
+    let terms = [(length - low, 1.0), (length - high, -1.0), (-low, -1.0), (-high, 1.0)];
+    let each = terms.map(|(z, sign)| sign * second_integral(z / size, height / size) * size * size);
+    [each.iter().sum(), 8.0 * f64::EPSILON * each.iter().map(|x| x.abs()).sum::<f64>()]
+}
+
+/// G of the module's text.
+fn second_integral(z: f64, h: f64) -> f64 {
+    let square = z * z + h * h;
+    if square == 0.0 {
+        return 0.0;
+    }
+    (z * z - h * h) * square.ln() / 4.0 - 0.75 * z * z + h * z * z.atan2(h)
+}
+
+/// The integral of ln(r / size) from a point over an edge.
+fn along(point: DVec3, [c, d]: Edge, size: f64) -> f64 {
+    let direction = (d - c).normalize();
+    let from = direction.dot(c - point);
+    let (low, high) = (from / size, direction.dot(d - point) / size);
+    let height = (c - point - direction * from).length() / size;
+    let primitive = |s: f64| {
+        let square = s * s + height * height;
+        let logarithm = if square == 0.0 { 0.0 } else { s * square.ln() / 2.0 };
+        logarithm - s + height * s.atan2(height)
+    };
+    size * (primitive(high) - primitive(low))
+}
+
+/// Halvings of one stretch before its difference counts as error.
+const DEEPEST: u32 = 40;
+
+/// The integral over [0, 1], and the differences that were left.
+fn adaptive(f: &impl Fn(f64) -> f64, tolerance: f64) -> [f64; 2] {
+    let rule = |low: f64, high: f64| -> f64 {
+        let width = high - low;
+        width * RULE_8.iter().map(|[x, weight]| weight * f(low + width * x)).sum::<f64>()
+    };
+    let (mut value, mut error) = (0.0, 0.0);
+    let mut open = vec![(0.0, 1.0, rule(0.0, 1.0), 0)];
+    while let Some((low, high, coarse, depth)) = open.pop() {
+        let middle = f64::midpoint(low, high);
+        let parts = [rule(low, middle), rule(middle, high)];
+        let difference = (parts[0] + parts[1] - coarse).abs();
+        let rounding = 8.0 * f64::EPSILON * (parts[0].abs() + parts[1].abs());
+        if difference <= (tolerance * (high - low)).max(rounding) || depth == DEEPEST {
+            value += parts[0] + parts[1];
+            error += difference.max(rounding);
+        } else {
+            open.push((middle, high, parts[1], depth + 1));
+            open.push((low, middle, parts[0], depth + 1));
+        }
+    }
+    [value, error]
+}

@@ -1,0 +1,207 @@
+//! One pair of polygons.
+use super::cell::{Cell, area, cells, cut, halves};
+use super::contour::exchange;
+use super::events::{Event, events};
+use super::rule::{Integral, integrate};
+use super::shaft::Shaft;
+use crate::{DifferentialArea, Enclosure, PlanarPolygon};
+use glam::{DVec2, DVec3};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+/// Evaluations after which an integral is given back as it is.
+const MOST: u64 = 1 << 22;
+
+/// A tolerance from which cells are cut at the events before anything is evaluated.
+const FINE: f64 = 1e-6;
+
+/// A cell is cut at its events when they make at most so many cells of it, and halved otherwise.
+const MOST_CUTS: usize = 64;
+
+/// The integral over polygon `source` of the form factor to polygon `target`, by the source's area; `None` when
+/// `is_cancelled` says so.
+pub(super) fn mean(
+    enclosure: &Enclosure,
+    [source, target]: [usize; 2],
+    tolerance: f64,
+    is_cancelled: &(impl Fn() -> bool + ?Sized),
+) -> Option<Integral> {
+    let pair = Pair::new(enclosure, source, target);
+    if !(is_before(pair.from, pair.to) && is_before(pair.to, pair.from)) {
+        return Some(Integral { value: 0.0, error: 0.0, evaluations: 0 });
+    }
+    pair.by_contour(tolerance).or_else(|| pair.by_cells(tolerance, is_cancelled))
+}
+
+/// Whether some of a polygon is before another one's plane.
+fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
+    polygon.points().iter().any(|p| other.plane().side_of(*p) == Ordering::Greater)
+}
+
+/// Whether all of it is, the plane itself included.
+fn is_wholly_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
+    polygon.points().iter().all(|p| other.plane().side_of(*p) != Ordering::Less)
+}
+
+#[derive(Debug)]
+struct Pair<'e> {
+    enclosure: &'e Enclosure,
+    source: usize,
+    target: usize,
+    from: &'e PlanarPolygon,
+    to: &'e PlanarPolygon,
+    /// What can stand in between.
+    occluders: Vec<usize>,
+}
+
+/// A cell to be refined, the one with the largest error first.
+#[derive(Debug)]
+struct Open {
+    cell: Cell,
+    found: Integral,
+    occluders: Arc<[usize]>,
+    is_cut: bool,
+    number: usize,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.found.error.total_cmp(&other.found.error).then(other.number.cmp(&self.number))
+    }
+}
+
+impl<'e> Pair<'e> {
+    fn new(enclosure: &'e Enclosure, source: usize, target: usize) -> Self {
+        let (from, to) = (&enclosure.polygons()[source], &enclosure.polygons()[target]);
+        let occluders = enclosure.between(source, target);
+        Self { enclosure, source, target, from, to, occluders }
+    }
+
+    /// The closed form, where nothing stands in between and no edge is below the other's horizon; `None` also when it
+    /// would lose too many digits.
+    fn by_contour(&self, tolerance: f64) -> Option<Integral> {
+        if !(self.occluders.is_empty()
+            && is_wholly_before(self.from, self.to)
+            && is_wholly_before(self.to, self.from))
+        {
+            return None;
+        }
+        let area = self.from.area();
+        let [value, error] = exchange(self.from, self.to, tolerance * area / 2.0).map(|x| x / area);
+        (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 })
+    }
+
+    /// Adaptive cubature: the cell with the largest error is refined until the errors add to less than the tolerance.
+    fn by_cells(&self, tolerance: f64, is_cancelled: &(impl Fn() -> bool + ?Sized)) -> Option<Integral> {
+        let whole: Vec<Cell> = cells(self.from);
+        let size: f64 = whole.iter().map(area).sum();
+        let occluders: Vec<&PlanarPolygon> =
+            self.occluders.iter().map(|i| &self.enclosure.polygons()[*i]).collect();
+        let events = events(self.from, self.to, &occluders);
+        let all: Arc<[usize]> = self.occluders.clone().into();
+        let mut sum =
+            Refinement { pair: self, size, tolerance, open: BinaryHeap::new(), evaluations: 0, count: 0 };
+        for cell in whole {
+            match cut_at(cell, &events).filter(|_| tolerance <= FINE) {
+                Some(pieces) => pieces.into_iter().for_each(|piece| sum.add(piece, &all, true)),
+                None => sum.add(cell, &all, false),
+            }
+        }
+        sum.refine(&events, is_cancelled)
+    }
+
+    /// The occluders that can stand between a cell and the target.
+    fn between(&self, cell: &Cell, occluders: &Arc<[usize]>) -> Arc<[usize]> {
+        let corners = cell.map(|p| self.from.raise(p));
+        let shaft = Shaft::between(&corners, self.to);
+        let left: Vec<usize> =
+            occluders.iter().copied().filter(|i| !shaft.misses(&self.enclosure.polygons()[*i])).collect();
+        if left.len() == occluders.len() { Arc::clone(occluders) } else { left.into() }
+    }
+
+    fn point_factor(&self, flat: DVec2, occluders: &[usize]) -> f64 {
+        let position: DVec3 = self.from.raise(flat);
+        let Ok(from) = DifferentialArea::new(position, self.from.normal()) else { return 0.0 };
+        self.enclosure.past(&from.owned_by(self.source), self.target, occluders).value
+    }
+}
+
+#[derive(Debug)]
+struct Refinement<'p, 'e> {
+    pair: &'p Pair<'e>,
+    /// The source's area in its kept coordinates.
+    size: f64,
+    tolerance: f64,
+    open: BinaryHeap<Open>,
+    evaluations: u64,
+    count: usize,
+}
+
+impl Refinement<'_, '_> {
+    fn add(&mut self, cell: Cell, occluders: &Arc<[usize]>, is_cut: bool) {
+        let occluders = self.pair.between(&cell, occluders);
+        let share = self.tolerance * area(&cell).abs() / 2.0;
+        let mut found = integrate(&cell, share, |point| self.pair.point_factor(point, &occluders));
+        found.value /= self.size;
+        found.error /= self.size;
+        self.evaluations += found.evaluations;
+        self.count += 1;
+        self.open.push(Open { cell, found, occluders, is_cut, number: self.count });
+    }
+
+    fn refine(mut self, events: &[Event], is_cancelled: &(impl Fn() -> bool + ?Sized)) -> Option<Integral> {
+        while self.error() > self.tolerance && self.evaluations < MOST {
+            if is_cancelled() {
+                return None;
+            }
+            let Some(worst) = self.open.pop() else { break };
+            let pieces = if worst.is_cut { None } else { cut_at(worst.cell, events) };
+            let is_cut = worst.is_cut || pieces.is_some();
+            for piece in pieces.unwrap_or_else(|| halves(worst.cell).to_vec()) {
+                self.add(piece, &worst.occluders, is_cut);
+            }
+        }
+        let (error, evaluations) = (self.error(), self.evaluations);
+        Some(Integral { value: self.value(), error, evaluations })
+    }
+
+    fn error(&self) -> f64 {
+        self.open.iter().map(|open| open.found.error).sum()
+    }
+
+    /// The cells in the order in which they came about, which threads do not change.
+    fn value(&self) -> f64 {
+        let mut parts: Vec<(usize, f64)> =
+            self.open.iter().map(|open| (open.number, open.found.value)).collect();
+        parts.sort_unstable_by_key(|part| part.0);
+        parts.iter().map(|part| part.1).sum()
+    }
+}
+
+/// A cell cut at all events that pass through it; `None` when there are none or too many.
+fn cut_at(cell: Cell, events: &[Event]) -> Option<Vec<Cell>> {
+    let mut pieces = vec![cell];
+    for event in events {
+        pieces =
+            pieces.into_iter().flat_map(|piece| cut(&piece, *event).unwrap_or_else(|| vec![piece])).collect();
+        if pieces.len() > MOST_CUTS {
+            return None;
+        }
+    }
+    (pieces.len() > 1).then_some(pieces)
+}

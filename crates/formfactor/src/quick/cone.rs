@@ -1,0 +1,257 @@
+//! Convex polygons as dA sees them: edges, each with the plane through it and dA.
+use crate::polygon::ROUNDING;
+use glam::{DVec2, DVec3, Vec3Swizzles};
+use std::ops::Range;
+
+/// A vertex of a convex polygon, and how far it may lie from where it stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) at: DVec3,
+    pub(super) slack: f64,
+}
+
+/// An edge as dA sees it, the polygon to its left.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    /// Its ends relative to dA, rounded.
+    pub(super) start: DVec3,
+    pub(super) end: DVec3,
+    /// From start to end, rounded once.
+    pub(super) along: DVec3,
+    /// The normal of its plane through dA, toward the polygon: `along x start`.
+    pub(super) inward: DVec3,
+    /// A bound on the error of `inward . p`, per component of p, and the sum over the components.
+    pub(super) doubt: DVec3,
+    pub(super) error: f64,
+    /// The larger size of the two ends.
+    reach: f64,
+    /// (|start| + |along|) |along|, in sums of components: no direction turns faster than by this over |inward|.
+    pub(super) spread: f64,
+}
+
+/// A component of `inward` has the terms |along_j start_k| + |along_k start_j|. Rounding of both factors, the product and
+/// the difference takes less than 4.1 roundings of them, the dot product with a rounded vector less than 4.1 more.
+pub(super) const ERROR: f64 = 9.0 * ROUNDING;
+
+/// More than underflow can take from a product of three, for coordinates up to 2^200.
+pub(super) const UNDERFLOW: f64 = 1e-240;
+
+/// On which side of a plane a point is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Inside,
+    Outside,
+    Open,
+}
+
+impl Edge {
+    pub(super) fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
+        let (a, b) = (along.abs(), start.abs());
+        let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
+        let doubt = ERROR * terms;
+        let reach = size(start).max(size(end));
+        let spread = (size(start) + size(along)) * size(along);
+        Self {
+            start,
+            end,
+            along,
+            inward: along.cross(start),
+            doubt,
+            error: doubt.element_sum(),
+            reach,
+            spread,
+        }
+    }
+
+    /// A bound on the error of `inward` that costs less.
+    pub(super) fn coarse_error(&self) -> f64 {
+        coarse_error(self.along, self.start)
+    }
+
+    /// Whether both ends of an edge lie on one side for certain, by a coarser bound: which one.
+    pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
+        let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
+        let doubt = self.error * edge.reach + UNDERFLOW;
+        if start > doubt && end > doubt {
+            Some(Place::Inside)
+        } else if start < -doubt && end < -doubt {
+            Some(Place::Outside)
+        } else {
+            None
+        }
+    }
+
+    /// How far inside a point is, relative to dA, and a bound on the error of that.
+    pub(super) fn depth(&self, point: DVec3) -> (f64, f64) {
+        (self.inward.dot(point), self.doubt.dot(point.abs()) + UNDERFLOW)
+    }
+
+    /// A lower bound on the angle that it spans: its sine, by more than the lengths.
+    pub(super) fn least_angle(&self) -> f64 {
+        self.inward.length() / (size(self.start) * size(self.end))
+    }
+
+    /// On which side of its plane a point lies.
+    pub(super) fn place(&self, point: DVec3) -> Place {
+        let (depth, doubt) = self.depth(point);
+        if depth > doubt {
+            Place::Inside
+        } else if depth < -doubt {
+            Place::Outside
+        } else {
+            Place::Open
+        }
+    }
+}
+
+/// A bound on the error of `along x start`, summed over its components.
+pub(super) fn coarse_error(along: DVec3, start: DVec3) -> f64 {
+    ERROR * size(along) * size(start)
+}
+
+/// The sum of the magnitudes of a vector's components.
+pub(super) fn size(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
+/// What the slopes of directions are measured by: a depth along one vector, and two axes of three.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    forward: DVec3,
+    /// The sum of the magnitudes of its components.
+    size: f64,
+    dropped: usize,
+}
+
+/// A rectangle of slopes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) low: DVec2,
+    pub(super) high: DVec2,
+}
+
+impl Extent {
+    const ALL: Self = Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
+
+    pub(super) fn join(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        self.low.x <= other.high.x
+            && other.low.x <= self.high.x
+            && self.low.y <= other.high.y
+            && other.low.y <= self.high.y
+    }
+
+    pub(super) fn holds(&self, other: &Self) -> bool {
+        self.low.cmple(other.low).all() && self.high.cmpge(other.high).all()
+    }
+}
+
+impl Frame {
+    /// Slopes by the depth along `forward`, the axis `dropped` left out.
+    pub(super) fn new(forward: DVec3, dropped: usize) -> Self {
+        Self { forward, size: size(forward), dropped }
+    }
+
+    /// A little around the slopes of a direction; everything where it does not lead forward well enough.
+    ///
+    /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
+    /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
+    fn slopes(&self, toward: DVec3) -> Extent {
+        let depth = self.forward.dot(toward);
+        if depth < 1e-3 * self.size * toward.abs().max_element() {
+            return Extent::ALL;
+        }
+        let kept = match self.dropped {
+            0 => toward.yz(),
+            1 => toward.xz(),
+            _ => toward.xy(),
+        };
+        let (slopes, margin) = (kept / depth, DVec2::splat(1e-6 / self.size));
+        Extent { low: slopes - margin, high: slopes + margin }
+    }
+
+    /// Around the slopes of each edge.
+    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Extent>) {
+        let Some(last) = edges.last() else { return };
+        let mut around = self.slopes(last.end);
+        for edge in edges {
+            let next = self.slopes(edge.end);
+            extents.push(around.join(next));
+            around = next;
+        }
+    }
+}
+
+/// Adds the edges of a convex polygon whose corners are counter-clockwise as `origin` sees them.
+pub(super) fn faces(origin: DVec3, corners: &[Corner], edges: &mut Vec<Edge>) {
+    let Some(last) = corners.last() else { return };
+    let (mut before, mut start) = (last.at, last.at - origin);
+    for corner in corners {
+        let end = corner.at - origin;
+        if corner.at != before {
+            edges.push(Edge::new(start, end, corner.at - before));
+        }
+        (before, start) = (corner.at, end);
+    }
+}
+
+/// The cones of occluders: edges in a row, and where each cone's end.
+#[derive(Debug, Default)]
+pub(super) struct Cones {
+    edges: Vec<Edge>,
+    ends: Vec<usize>,
+    edge_extents: Vec<Extent>,
+    extents: Vec<Extent>,
+}
+
+impl Cones {
+    pub(super) fn clear(&mut self) {
+        self.edges.clear();
+        self.ends.clear();
+        self.edge_extents.clear();
+        self.extents.clear();
+    }
+
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them: its edges.
+    pub(super) fn push(&mut self, origin: DVec3, corners: &[Corner]) -> &[Edge] {
+        let first = self.edges.len();
+        faces(origin, corners, &mut self.edges);
+        self.ends.push(self.edges.len());
+        &self.edges[first..]
+    }
+
+    /// Finds what is around every edge and every cone.
+    pub(super) fn measure(&mut self, frame: &Frame) {
+        let mut start = 0;
+        for end in &self.ends {
+            frame.measure(&self.edges[start..*end], &mut self.edge_extents);
+            let extent = self.edge_extents[start..].iter().copied().reduce(Extent::join);
+            self.extents.push(extent.unwrap_or(Extent::ALL));
+            start = *end;
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    fn range(&self, cone: usize) -> Range<usize> {
+        let start = if cone == 0 { 0 } else { self.ends[cone - 1] };
+        start..self.ends[cone]
+    }
+
+    pub(super) fn edges(&self, cone: usize) -> &[Edge] {
+        &self.edges[self.range(cone)]
+    }
+
+    pub(super) fn edge_extents(&self, cone: usize) -> &[Extent] {
+        &self.edge_extents[self.range(cone)]
+    }
+
+    pub(super) fn extent(&self, cone: usize) -> &Extent {
+        &self.extents[cone]
+    }
+}

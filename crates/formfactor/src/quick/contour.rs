@@ -1,0 +1,131 @@
+//! Lambert's sum in plain doubles, with a bound.
+use super::cone::{Edge, coarse_error};
+use super::span::Span;
+use crate::polygon::ROUNDING;
+use crate::predicates::place;
+use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use glam::DVec3;
+use std::cmp::Ordering;
+use std::f64::consts::TAU;
+
+/// Roundings of a term besides those of its edge's normal: the dot products, the root, the quotients, the arc tangent, the
+/// unit normal.
+const ROUNDINGS: f64 = 32.0;
+
+/// A bound on the error that is taken as it is, by the value.
+const FINE: f64 = 1e-13;
+
+/// The form factor of a convex target with nothing in between; `None` where doubles do not decide that all of it is seen,
+/// and where they know it too roughly.
+pub(crate) fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
+    let origin = from.position();
+    if !to.is_convex() || to.deviation() > 0.0 || to.plane().quick_side(origin) != Some(Ordering::Greater) {
+        return None;
+    }
+    let mut sum = Sum::new(from.normal());
+    let mut before = *to.points().last()?;
+    let mut start = before - origin;
+    for &point in to.points() {
+        if place(from.given_normal(), origin, point) == Ordering::Less {
+            return None;
+        }
+        let (end, along) = (point - origin, point - before);
+        if point != before {
+            let line = sum.line(along.cross(start), coarse_error(along, start));
+            sum.add_angle(&line, line.sine.atan2(start.dot(end)), 0.0);
+        }
+        (before, start) = (point, end);
+    }
+    sum.fine(0.0)
+}
+
+/// Lambert's sum over edges and pieces of edges.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sum {
+    normal: DVec3,
+    value: f64,
+    error: f64,
+    /// Sum of the magnitudes of the terms, and their number.
+    terms: f64,
+    count: f64,
+}
+
+/// What the pieces of an edge have in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    /// |along x start|, its inverse, and its relative error.
+    sine: f64,
+    inverse: f64,
+    turned: f64,
+    /// The cosine between dA's normal and that of the plane.
+    pub(super) cosine: f64,
+}
+
+impl Line {
+    /// A bound on the angle by which the directions to two ends turn in all when their parameters err by so much.
+    ///
+    /// Per unit of the parameter the direction to an end turns by sine / |end|^2, which is below `stretch` everywhere
+    /// and known to a few hundredths where the error itself turns it by no more than a hundredth.
+    fn turns(&self, [start, end]: [DVec3; 2], [first, last]: [f64; 2], stretch: f64) -> f64 {
+        if (first + last) * stretch < 0.01 {
+            let (near, far) = (start.length_squared(), end.length_squared());
+            1.05 * self.sine * (first * far + last * near) / (near * far)
+        } else {
+            (first + last) * stretch
+        }
+    }
+}
+
+impl Sum {
+    pub(super) fn new(normal: DVec3) -> Self {
+        Self { normal, value: 0.0, error: 0.0, terms: 0.0, count: 0.0 }
+    }
+
+    /// What the parts of an edge in a plane with this normal have in common, the sum of whose components' errors is
+    /// within `doubt`.
+    pub(super) fn line(&self, inward: DVec3, doubt: f64) -> Line {
+        let sine = inward.length();
+        let inverse = 1.0 / sine;
+        Line { sine, inverse, turned: doubt * inverse, cosine: self.normal.dot(inward) * inverse }
+    }
+
+    /// A whole edge.
+    pub(super) fn add_whole(&mut self, edge: &Edge, line: &Line) {
+        self.add_angle(line, line.sine.atan2(edge.start.dot(edge.end)), 0.0);
+    }
+
+    /// A part of an edge, and what is not known about its ends.
+    pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Span) {
+        let stretch = edge.spread * line.inverse;
+        let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
+        if part.low.at < part.high.at {
+            let angle = ((part.high.at - part.low.at) * line.sine).atan2(ends[0].dot(ends[1]));
+            self.add_angle(line, angle, 6.0 * ROUNDING * stretch * stretch);
+        }
+        self.error += line.turns(ends, [part.low.error(), part.high.error()], stretch);
+    }
+
+    /// An angle spanned on a line. It and the cosine err by no more than 4.1/9 of `turned` each and some roundings; the
+    /// angle of a part also by those of its ends, 6 of their terms by their lengths, which are no less than the distance of
+    /// the line, `sine` / |along|: in all by the share `cut`.
+    fn add_angle(&mut self, line: &Line, angle: f64, cut: f64) {
+        let term = angle * line.cosine;
+        self.value += term;
+        self.terms += term.abs();
+        self.error += angle * (line.turned + ROUNDINGS * ROUNDING + cut);
+        self.count += 1.0;
+    }
+
+    /// [`Self::form_factor`] of a whole target, if its value is known to many digits.
+    pub(super) fn fine(&self, error: f64) -> Option<FormFactor> {
+        self.form_factor(error).filter(|factor| factor.error_bound <= FINE * factor.value)
+    }
+
+    /// The sum and its bound, `error` more having come about elsewhere; `None` when nothing is known.
+    pub(super) fn form_factor(&self, error: f64) -> Option<FormFactor> {
+        let value = (self.value / TAU).clamp(0.0, 1.0);
+        let error_bound = (self.error + self.count * ROUNDING * self.terms) / TAU + error;
+        // NaN, from an edge through dA, is not small.
+        (error_bound < 1.0).then_some(FormFactor { value, error_bound })
+    }
+}

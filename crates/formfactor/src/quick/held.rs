@@ -1,0 +1,68 @@
+//! What a cone holds of an edge.
+use super::cone::{Edge, Place};
+use super::span::{Mark, Span};
+use crate::polygon::ROUNDING;
+
+/// What a cone holds of an edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Held {
+    /// A part, or nothing.
+    Part(Span),
+    /// The edge is one of the cone's own, run along the same way or the other way.
+    Twin { is_same_way: bool },
+}
+
+/// An edge whose ends differ by this many times their error crosses a plane.
+const CLEAR: f64 = 16.0;
+
+/// What the cone inside `planes` holds of `edge`: no part, for certain, or some. The outer `None` says that the edge may
+/// lie in one of the planes and that more depends on it than the error.
+///
+/// The parameter t = s / (s - e) of a crossing, from the depths s and e of start and end, errs by at most the larger one
+/// of their errors by |s - e|, 1.2 times since s - e itself is known to a sixteenth only, and by the roundings of t.
+#[inline(always)]
+pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
+    let mut span = Span::WHOLE;
+    let mut open = None;
+    for plane in planes {
+        match plane.side_of(edge) {
+            Some(Place::Inside) => continue,
+            Some(_) => return Some(None),
+            None => (),
+        }
+        let (start, start_doubt) = plane.depth(edge.start);
+        let (end, end_doubt) = plane.depth(edge.end);
+        if start > start_doubt && end > end_doubt {
+            continue;
+        }
+        if start < -start_doubt && end < -end_doubt {
+            return Some(None);
+        }
+        let (across, doubt) = (start - end, start_doubt.max(end_doubt));
+        if across.abs() <= CLEAR * doubt {
+            open = Some(plane);
+            continue;
+        }
+        let met = Mark::new(start / across, 1.2 * doubt / across.abs() + 4.0 * ROUNDING);
+        if across > 0.0 {
+            span.high = span.high.first(met);
+        } else {
+            span.low = span.low.last(met);
+        }
+    }
+    if span.is_nothing() {
+        return Some(None);
+    }
+    match open {
+        None => Some(Some(Held::Part(span))),
+        Some(plane) => twin(edge, plane).map(|is_same_way| Some(Held::Twin { is_same_way })),
+    }
+}
+
+/// Whether two edges are the same, and then whether they run the same way.
+fn twin(edge: &Edge, other: &Edge) -> Option<bool> {
+    if edge.start == other.start && edge.end == other.end {
+        return Some(true);
+    }
+    (edge.start == other.end && edge.end == other.start).then_some(false)
+}

@@ -1,0 +1,72 @@
+//! Form factors in plain doubles, where these decide all that matters for certain: most of them.
+//!
+//! A convex polygon seen from dA is a cone, the meet of the half-spaces inside its edges' planes through dA. A piece of
+//! an edge belongs to the visible boundary where no other occluder's cone holds it, and an occluder's edge only inside the
+//! target's cone. So every edge is clipped against the cones that it may meet, and Lambert's sum is taken over what is
+//! left of it: nothing is projected and no arrangement is built [vertex tracing: Stark and Riesenfeld 2000].
+//!
+//! Every sign is taken with a bound on its error. Where an end of an edge may lie on either side of a plane, the parameter
+//! of the clip errs by little, and the bound counts it; where a whole edge may lie in a plane, the two edges must be one
+//! and the same, or everything goes to the careful route through `polycsg`. So does what is not convex and what would be
+//! known too roughly.
+mod clip;
+mod cone;
+mod contour;
+mod held;
+mod near;
+mod sieve;
+mod span;
+mod trace;
+
+pub(crate) use contour::unoccluded;
+pub(crate) use sieve::Target;
+
+use crate::stats::Stats;
+use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use cone::{Cones, Corner, Edge};
+use sieve::{Side, Sieved};
+
+/// Buffers, to be used again.
+#[derive(Debug, Default)]
+pub(crate) struct Buffers {
+    corners: [Vec<Corner>; 2],
+    edges: Vec<Edge>,
+    sides: Vec<Side>,
+    cones: Cones,
+    trace: trace::Buffers,
+}
+
+/// The form factor past what `occluders` finds for the target; `None` where doubles leave it open.
+pub(crate) fn form_factor<'a, I>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl FnOnce(&Target) -> I,
+    buffers: &mut Buffers,
+    stats: &mut Stats,
+) -> Option<FormFactor>
+where
+    I: IntoIterator<Item = &'a PlanarPolygon>,
+{
+    let Buffers { corners, edges, sides, cones, trace } = buffers;
+    let target = Target::new(from, to, corners, edges, sides)?;
+    let mut error = target.error;
+    cones.clear();
+    for occluder in occluders(&target) {
+        stats.looked_at += 1;
+        match sieve::sieve(&target, occluder, corners, cones)? {
+            Sieved::Misses(doubt) => {
+                stats.culled += 1;
+                error += doubt;
+            }
+            Sieved::Blocks { doubt, is_clipped } => {
+                stats.clipped += u64::from(is_clipped);
+                error += doubt;
+            }
+            Sieved::Covers => {
+                stats.total += 1;
+                return Some(FormFactor::default());
+            }
+        }
+    }
+    trace::sum(&target, cones, error, trace, stats)
+}

@@ -1,0 +1,91 @@
+//! Parts of an edge between ends that are known roughly.
+
+/// A parameter along an edge, 0 at its start and 1 at its end: somewhere from `least` to `most`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mark {
+    pub(super) at: f64,
+    pub(super) least: f64,
+    pub(super) most: f64,
+}
+
+impl Mark {
+    const START: Self = Self { at: 0.0, least: 0.0, most: 0.0 };
+    const END: Self = Self { at: 1.0, least: 1.0, most: 1.0 };
+
+    pub(super) fn new(at: f64, error: f64) -> Self {
+        Self { at, least: at - error, most: at + error }
+    }
+
+    /// The one of two that comes first, as far as they are known.
+    pub(super) fn first(self, other: Self) -> Self {
+        Self {
+            at: lesser(self.at, other.at),
+            least: lesser(self.least, other.least),
+            most: lesser(self.most, other.most),
+        }
+    }
+
+    /// The one of two that comes last.
+    pub(super) fn last(self, other: Self) -> Self {
+        Self {
+            at: greater(self.at, other.at),
+            least: greater(self.least, other.least),
+            most: greater(self.most, other.most),
+        }
+    }
+
+    /// How far it may be from `at`.
+    pub(super) fn error(&self) -> f64 {
+        greater(self.at - self.least, self.most - self.at)
+    }
+}
+
+// `f64::min` and `max` look for NaN, which no mark is, at a cost.
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// A part of an edge; nothing where `high` comes before `low`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub(super) low: Mark,
+    pub(super) high: Mark,
+}
+
+impl Span {
+    pub(super) const WHOLE: Self = Self { low: Mark::START, high: Mark::END };
+
+    /// Whether there is nothing of it for certain.
+    pub(super) fn is_nothing(&self) -> bool {
+        self.low.least >= self.high.most
+    }
+
+    /// Whether it holds another one for certain.
+    pub(super) fn covers(&self, other: &Self) -> bool {
+        self.low.most <= other.low.least && self.high.least >= other.high.most
+    }
+}
+
+/// Calls back with what `spans` leave of a whole: parts, some of which may be nothing.
+///
+/// In the order of their least starts, what is left before a span ends somewhere between its least and its most start: the
+/// others start no earlier. Where it begins lies between the largest ones of the ends so far, least and most.
+pub(super) fn for_each_gap(whole: Span, spans: &mut [Span], mut found: impl FnMut(Span)) {
+    spans.sort_unstable_by(|a, b| a.low.least.total_cmp(&b.low.least));
+    let mut low = whole.low;
+    for span in spans {
+        let gap = Span { low, high: span.low.first(whole.high) };
+        if !gap.is_nothing() {
+            found(gap);
+        }
+        low = low.last(span.high);
+    }
+    let gap = Span { low, high: whole.high };
+    if !gap.is_nothing() {
+        found(gap);
+    }
+}

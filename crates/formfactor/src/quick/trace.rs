@@ -1,0 +1,111 @@
+//! What is left of every edge: the visible boundary, piece by piece.
+use super::cone::{Cones, Edge, Extent, Frame};
+use super::contour::Sum;
+use super::held::{Held, held};
+use super::near::Neighbours;
+use super::sieve::Target;
+use super::span::{Span, for_each_gap};
+use crate::FormFactor;
+use crate::polygon::ROUNDING;
+use crate::stats::Stats;
+
+/// Buffers, to be used again.
+#[derive(Debug, Default)]
+pub(super) struct Buffers {
+    neighbours: Neighbours,
+    spans: Vec<Span>,
+    extents: Vec<Extent>,
+}
+
+/// A bound on the error that is taken as it is, by the angle that the target's boundary spans: 2^-40.
+const FINE: f64 = 8192.0 * ROUNDING;
+
+/// Lambert's sum over the visible boundary of the target behind the cones; `None` where doubles leave it open.
+pub(super) fn sum(
+    target: &Target,
+    cones: &mut Cones,
+    error: f64,
+    Buffers { neighbours, spans, extents }: &mut Buffers,
+    stats: &mut Stats,
+) -> Option<FormFactor> {
+    let mut sum = Sum::new(target.from.normal());
+    if cones.len() == 0 {
+        stats.none += 1;
+        target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
+        return sum.fine(error);
+    }
+    let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
+    cones.measure(&frame);
+    extents.clear();
+    frame.measure(target.edges, extents);
+    neighbours.find(cones);
+    for (edge, extent) in target.edges.iter().zip(extents) {
+        let near = neighbours.shown().filter(|other| cones.extent(*other).meets(extent));
+        trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
+    }
+    for cone in neighbours.shown() {
+        for (edge, extent) in cones.edges(cone).iter().zip(cones.edge_extents(cone)) {
+            let Some(Held::Part(inside)) = held(edge, target.edges)? else { continue };
+            let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
+            trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
+        }
+    }
+    stats.hidden += neighbours.hidden();
+    stats.partial += 1;
+    stats.traced += 1;
+    let perimeter: f64 = target.edges.iter().map(Edge::least_angle).sum();
+    sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter)
+}
+
+/// Whose edge is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Owner {
+    Target,
+    Occluder(usize),
+}
+
+impl Owner {
+    /// Whether an edge is no part of the visible boundary that it shares with cone `other`, which runs along it the
+    /// same way or the other way.
+    ///
+    /// With both on one side it bounds their union: the first of the two occluders keeps it, and the target's is
+    /// hidden. With one on either side it is inside their union: both occluders lose it.
+    fn loses(self, other: usize, is_same_way: bool) -> bool {
+        match self {
+            Owner::Target => is_same_way,
+            Owner::Occluder(cone) => !is_same_way || other < cone,
+        }
+    }
+}
+
+/// Adds what the cones leave of a part of an edge.
+fn trace(
+    edge: &Edge,
+    whole: Span,
+    owner: Owner,
+    near: impl Iterator<Item = usize>,
+    cones: &Cones,
+    spans: &mut Vec<Span>,
+    sum: &mut Sum,
+) -> Option<()> {
+    spans.clear();
+    for other in near {
+        match held(edge, cones.edges(other))? {
+            Some(Held::Part(part)) if part.covers(&whole) => return Some(()),
+            Some(Held::Part(part)) => spans.push(part),
+            Some(Held::Twin { is_same_way }) if owner.loses(other, is_same_way) => return Some(()),
+            _ => (),
+        }
+    }
+    let mut line = sum.line(edge.inward, edge.error);
+    if owner != Owner::Target {
+        // What is seen is on the other side.
+        line.cosine = -line.cosine;
+    }
+    if spans.is_empty() && whole == Span::WHOLE {
+        sum.add_whole(edge, &line);
+    } else {
+        for_each_gap(whole, spans, |gap| sum.add_part(edge, &line, gap));
+    }
+    Some(())
+}

@@ -1,0 +1,55 @@
+//! What was left out, and what was not.
+use std::iter::Sum;
+use std::ops::{Add, AddAssign};
+
+/// Counts of the work behind one form factor or, added up, behind many: what had to be looked at, and what was left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Stats {
+    /// Targets of which nothing hides anything, those that turn their back or lie below the horizon included.
+    pub none: u64,
+    /// Targets that are hidden wholly.
+    pub total: u64,
+    /// Targets that are hidden in part, or by several occluders together.
+    pub partial: u64,
+    /// Occluders that the tree found, or all where there is no tree.
+    pub looked_at: u64,
+    /// Those of them that cannot block: outside of the target's pyramid, behind it, below the horizon, edge-on.
+    pub culled: u64,
+    /// Those that were cut where they pass through the target's plane.
+    pub clipped: u64,
+    /// Those whose shadow lies in another one's.
+    pub hidden: u64,
+    /// Targets that are hidden in part for which plain doubles decided everything: no CSG was evaluated.
+    pub traced: u64,
+    /// Edges that went into a CSG.
+    pub csg_edges: u64,
+}
+
+impl AddAssign for Stats {
+    fn add_assign(&mut self, other: Self) {
+        self.none += other.none;
+        self.total += other.total;
+        self.partial += other.partial;
+        self.looked_at += other.looked_at;
+        self.culled += other.culled;
+        self.clipped += other.clipped;
+        self.hidden += other.hidden;
+        self.traced += other.traced;
+        self.csg_edges += other.csg_edges;
+    }
+}
+
+impl Add for Stats {
+    type Output = Self;
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl Sum for Stats {
+    fn sum<I: Iterator<Item = Self>>(stats: I) -> Self {
+        stats.fold(Self::default(), Add::add)
+    }
+}

@@ -1,0 +1,77 @@
+//! What is counted: what was left out, and why.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon, Stats};
+
+/// A square about the axis at some height, seen from below from its front.
+fn square(half: f64, height: f64) -> PlanarPolygon {
+    moved(half, DVec3::Z * height)
+}
+
+fn moved(half: f64, middle: DVec3) -> PlanarPolygon {
+    let corners = [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]];
+    PlanarPolygon::new([corners.map(|[x, y]| middle + half * DVec3::new(x, y, 0.0))]).unwrap()
+}
+
+fn stats(occluders: Vec<PlanarPolygon>) -> Stats {
+    let polygons = [vec![square(1.0, 2.0)], occluders].concat();
+    let from = DifferentialArea::new(DVec3::new(0.05, 0.02, 0.0), DVec3::Z).unwrap();
+    Enclosure::new(polygons).form_factor_with_stats(&from, 0).1
+}
+
+#[test]
+fn nothing_in_between_is_none() {
+    let stats = stats(vec![]);
+    assert_eq!((stats.none, stats.partial, stats.total, stats.looked_at), (1, 0, 0, 0));
+}
+
+#[test]
+fn what_is_elsewhere_is_not_looked_at_or_culled() {
+    // Beside, behind, below the horizon, and edge-on.
+    let aside =
+        vec![moved(0.1, DVec3::new(9.0, 0.0, 1.0)), square(3.0, 3.0), square(3.0, -1.0), square(3.0, 0.0)];
+    let stats = stats(aside);
+    assert_eq!((stats.none, stats.partial, stats.culled), (1, 0, stats.looked_at));
+}
+
+#[test]
+fn one_that_covers_is_total() {
+    let stats = stats(vec![square(0.6, 1.0)]);
+    assert_eq!((stats.total, stats.partial, stats.csg_edges), (1, 0, 0));
+}
+
+#[test]
+fn convex_occluders_need_no_csg() {
+    let stats = stats(vec![square(0.2, 1.0), moved(0.2, DVec3::new(0.17, 0.13, 0.9))]);
+    assert_eq!((stats.partial, stats.traced, stats.csg_edges), (1, 1, 0));
+}
+
+#[test]
+fn what_lies_behind_another_is_hidden() {
+    let stats = stats(vec![square(0.2, 1.0), square(0.2, 1.2), square(0.1, 1.5), square(0.1, 0.9)]);
+    assert_eq!((stats.partial, stats.hidden), (1, 3));
+}
+
+#[test]
+fn a_frame_needs_csg() {
+    let corners =
+        |half: f64| [[-half, half, 1.0], [half, half, 1.0], [half, -half, 1.0], [-half, -half, 1.0]];
+    let frame = PlanarPolygon::new([corners(0.4), corners(0.2)]).unwrap();
+    let stats = stats(vec![frame]);
+    assert_eq!((stats.partial, stats.traced, stats.csg_edges), (1, 0, 12));
+}
+
+#[test]
+fn what_passes_through_the_targets_plane_is_clipped() {
+    let board =
+        PlanarPolygon::new([[[0.1, -0.3, 1.0], [0.1, 0.4, 1.0], [0.3, 0.4, 3.0], [0.3, -0.3, 3.0]]]).unwrap();
+    let stats = stats(vec![board]);
+    assert_eq!((stats.partial, stats.clipped), (1, 1));
+}
+
+#[test]
+fn counts_add_up() {
+    let (a, b) = (stats(vec![square(0.2, 1.0)]), stats(vec![square(0.6, 1.0)]));
+    let sum: Stats = [a, b].into_iter().sum();
+    assert_eq!((sum.partial, sum.total, sum.looked_at), (1, 1, a.looked_at + b.looked_at));
+    assert_eq!(sum, a + b);
+}

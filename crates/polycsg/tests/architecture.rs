@@ -1,0 +1,74 @@
+//! `ARCHITECTURE.md` names files that exist, and what it says does not exist does not.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn crate_file(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn page() -> String {
+    fs::read_to_string(crate_file("ARCHITECTURE.md")).expect("the page stands beside the code")
+}
+
+/// What stands between backticks and looks like a file.
+fn named(page: &str) -> Vec<&str> {
+    let quoted = page.split('`').skip(1).step_by(2);
+    quoted.filter(|name| name.ends_with(".rs") || name.ends_with(".md")).collect()
+}
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder of sources");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    paths.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
+}
+
+#[test]
+fn every_file_that_the_page_names_exists() {
+    let page = page();
+    let named = named(&page);
+    assert!(named.len() > 30, "only {named:?}");
+    for name in named {
+        assert!(crate_file(name).is_file(), "there is no {name}");
+    }
+}
+
+#[test]
+fn what_must_not_exist_does_not() {
+    let absent = [
+        "HashMap",
+        "HashSet",
+        "thread_local",
+        "static mut",
+        "lazy_static",
+        "OnceLock",
+        "std::time",
+        "std::env",
+        "std::fs",
+        "std::io",
+        "println!",
+        "thread::current",
+        "unsafe ",
+    ];
+    let sources = sources(&crate_file("src"));
+    assert!(sources.len() > 20, "only {sources:?}");
+    for source in sources {
+        let text = fs::read_to_string(&source).expect("a source file");
+        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        for line in code {
+            let found = absent.iter().find(|word| line.contains(**word));
+            assert!(found.is_none(), "{}: {line}", source.display());
+        }
+    }
+}
+
+/// Selecting, linking and nesting compare and copy points; a vector operation would be arithmetic on coordinates.
+#[test]
+fn three_stages_leave_coordinates_alone() {
+    for stage in ["src/select.rs", "src/link.rs", "src/nest.rs"] {
+        let text = fs::read_to_string(crate_file(stage)).expect("a stage");
+        for arithmetic in [".x", ".y", "perp_dot", ".dot(", ".length", ".distance", "f64"] {
+            assert!(!text.contains(arithmetic), "{stage} contains {arithmetic}");
+        }
+    }
+}

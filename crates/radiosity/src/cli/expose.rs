@@ -1,0 +1,64 @@
+//! `radiosity expose`
+use super::{Failure, input, look::Look, output};
+use clap::Args;
+use output::{Findings, Output};
+use radiosity::expose::Exposure;
+use radiosity::io::{self, collada::Collada, gltf};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// `radiosity expose`
+#[derive(Args, Debug)]
+pub(super) struct Expose {
+    /// A solution that solve wrote: .json, or .dae or .glb with the radiosity at their vertices
+    solution: PathBuf,
+    /// Where to write it with displayable colours: of .json any kind but .dae, else the same kind; may be given several
+    /// times
+    #[arg(short, long, value_name = "FILE", required = true)]
+    output: Vec<PathBuf>,
+    /// Choose K from the light; this is also what happens without -k
+    #[arg(long, conflicts_with = "exposure")]
+    auto: bool,
+    #[command(flatten)]
+    look: Look,
+}
+
+/// Intensity = 1 - exp(-K B), written into copies of a solution.
+pub(super) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
+    let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let exposure = arguments.look.exposure.and_then(Exposure::new);
+    match end(&arguments.solution).as_str() {
+        "json" => {
+            let record = input::solution(&arguments.solution)?;
+            let findings = Findings { look: &arguments.look, record: &record, source: None, figures: None };
+            outputs.iter().try_for_each(|output| output.write(&findings))?;
+        }
+        "dae" => {
+            let text = Collada::open(&arguments.solution)?.exposed(exposure)?;
+            save(arguments, "dae", text.as_bytes())?;
+        }
+        "glb" => save(arguments, "glb", &gltf::exposed(&arguments.solution, exposure)?)?,
+        _ => {
+            let name = arguments.solution.display();
+            return Err(Failure::usage(format!("{name}: not a solution; give .json, .dae or .glb")));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The same bytes into every output, all of which must be of the solution's kind.
+fn save(arguments: &Expose, kind: &str, bytes: &[u8]) -> Result<(), Failure> {
+    if let Some(path) = arguments.output.iter().find(|path| end(path) != kind) {
+        let message = format!(
+            "{}: of a .{kind} solution only .{kind} is written; other kinds of a .json one",
+            path.display()
+        );
+        return Err(Failure::usage(message));
+    }
+    arguments.output.iter().try_for_each(|path| Ok(io::save(path, bytes)?))
+}
+
+/// The extension, in lower case.
+fn end(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}

@@ -1,0 +1,123 @@
+//! Work that lasts: Ctrl-C, snapshots, and the state that a run goes on from.
+use super::{Failure, progress::Bar, solve::Desk, steps::Steps};
+use radiosity::{Progress, Solution, State, io};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// What a shell reports of a program that Ctrl-C ended.
+const INTERRUPTED: u8 = 130;
+
+/// The state in a file; an empty one when there is none to go on from.
+pub(super) fn resume(path: Option<&Path>) -> Result<State, Failure> {
+    let Some(path) = path else { return Ok(State::default()) };
+    let bytes = std::fs::read(path)
+        .map_err(|error| Failure::internal(format!("{}: cannot be read: {error}", path.display())))?;
+    State::from_bytes(&bytes).map_err(|error| Failure::internal(format!("{}: {error}", path.display())))
+}
+
+/// Follows a run: shows it, notes its steps, saves it, and stops it on Ctrl-C.
+#[derive(Debug)]
+pub(super) struct Follower<'d> {
+    desk: &'d Desk<'d>,
+    bar: Bar,
+    steps: Steps,
+    /// Where the state goes: beside the first output.
+    state: Option<PathBuf>,
+    interrupted: Arc<AtomicBool>,
+    saved: Instant,
+    /// Whether this run wrote the state.
+    state_written: bool,
+    failure: Option<Failure>,
+}
+
+impl<'d> Follower<'d> {
+    /// Follows from now on; takes over Ctrl-C.
+    pub(super) fn new(desk: &'d Desk<'d>) -> Result<Follower<'d>, Failure> {
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&interrupted);
+        let stop = move || {
+            if flag.swap(true, Ordering::SeqCst) {
+                std::process::exit(INTERRUPTED.into());
+            }
+            eprintln!("stopping; what was found is being written; Ctrl-C again ends at once");
+        };
+        ctrlc::set_handler(stop)
+            .map_err(|error| Failure::internal(format!("Ctrl-C cannot be taken over: {error}")))?;
+        Ok(Follower {
+            desk,
+            bar: Bar::new(super::solve::options(desk.arguments).tolerance),
+            steps: Steps::new(desk.arguments.steps.as_deref()),
+            state: desk.arguments.output.first().map(|path| {
+                let mut name = path.clone().into_os_string();
+                name.push(".state");
+                name.into()
+            }),
+            interrupted,
+            saved: Instant::now(),
+            state_written: false,
+            failure: None,
+        })
+    }
+
+    /// One step of the run.
+    pub(super) fn follow(&mut self, progress: &Progress<'_>) -> ControlFlow<()> {
+        self.bar.show(progress);
+        self.steps.note(progress);
+        let due = self.desk.arguments.snapshot_every;
+        if due.is_some_and(|seconds| self.saved.elapsed().as_secs_f64() >= seconds) {
+            let written = self.desk.write(&progress.solution()).and_then(|_| self.save(progress.state()));
+            self.failure = written.err();
+            self.saved = Instant::now();
+        }
+        let stop = self.failure.is_some() || self.interrupted.load(Ordering::SeqCst);
+        if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Ends the following: the state of a stopped run is saved, one that is no longer needed removed.
+    pub(super) fn end(&mut self, state: &State, converged: bool) -> Result<(), Failure> {
+        self.bar.clear();
+        if let Some(failure) = self.failure.take() {
+            return Err(failure);
+        }
+        if converged && self.state_written {
+            self.state.iter().try_for_each(std::fs::remove_file).map_err(Failure::internal)?;
+        }
+        let lasting = self.interrupted.load(Ordering::SeqCst) || self.desk.arguments.snapshot_every.is_some();
+        if !converged && lasting {
+            self.save(state)?;
+        }
+        self.steps.save()
+    }
+
+    /// Writes the state, whole or not at all.
+    fn save(&mut self, state: &State) -> Result<(), Failure> {
+        let Some(path) = &self.state else { return Ok(()) };
+        io::save(path, &state.to_bytes())?;
+        self.state_written = true;
+        Ok(())
+    }
+
+    /// The exit code, and a word on why a run ended early.
+    pub(super) fn code(&self, solution: &Solution) -> ExitCode {
+        if solution.converged {
+            return ExitCode::SUCCESS;
+        }
+        match &self.state {
+            Some(path) if self.state_written => eprintln!("go on with --resume {}", path.display()),
+            _ => {}
+        }
+        if self.interrupted.load(Ordering::SeqCst) {
+            return ExitCode::from(INTERRUPTED);
+        }
+        let (shots, products) = (solution.shots, solution.products);
+        eprintln!(
+            "warning: stopped after {shots} shots and {products} products, before the tolerance was reached; raise the \
+             limit or the tolerance"
+        );
+        ExitCode::from(4)
+    }
+}

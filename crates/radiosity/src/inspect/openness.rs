@@ -1,0 +1,53 @@
+//! How much of the view from the patches leaves the scene, and what a row of form factors costs.
+use super::Cost;
+use crate::Scene;
+use formfactor::Enclosure;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::time::Instant;
+
+/// At most so many patches are looked from, and fewer where there are many to look at.
+const VIEWS: usize = 256;
+/// So many form factors are enough for a look.
+const FACTORS: usize = 30_000;
+/// A view that misses less is closed: the form factors' rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The widest opening.
+#[derive(Clone, Debug, Serialize)]
+pub struct Opening {
+    /// The patch from whose middle most of the view leaves the scene.
+    pub patch: String,
+    /// What share: 1 minus the sum of the form factors.
+    pub share: f64,
+}
+
+impl Opening {
+    /// Whether it is no more than rounding.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.share.abs() < ROUNDING
+    }
+}
+
+/// The widest opening seen from the middle of up to 256 patches, and the cost measured on the way.
+pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
+    let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
+    let count = scene.patches.len().max(1);
+    let step = count.div_ceil((FACTORS / count).clamp(8, VIEWS));
+    let views: Vec<usize> =
+        (0..scene.patches.len()).step_by(step).filter(|patch| !scene.patches[*patch].only_blocks).collect();
+    let start = Instant::now();
+    let shares: Vec<Option<f64>> = views
+        .par_iter()
+        .map(|&patch| {
+            let from = scene.patches[patch].middle()?.owned_by(patch);
+            Some(1.0 - enclosure.row(&from).iter().map(|factor| factor.value).sum::<f64>())
+        })
+        .collect();
+    let cost = Cost::measured(scene, views.len(), start.elapsed());
+    let seen = views.iter().zip(shares).filter_map(|(&patch, share)| Some((patch, share?)));
+    let widest = seen.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a });
+    let opening = widest.map(|(patch, share)| Opening { patch: scene.patches[patch].name.clone(), share });
+    (opening, cost)
+}

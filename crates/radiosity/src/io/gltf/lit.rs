@@ -1,0 +1,69 @@
+//! The lit mesh's primitives: one of all plain patches, one for each picture.
+use super::buffer::Buffer;
+use crate::Record;
+use crate::expose::{Exposure, rgb};
+use glam::DVec3;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// The primitives; material 0 is the plain one, material `1 + p` that of picture `p`.
+pub(super) fn primitives(
+    buffer: &mut Buffer,
+    record: &Record,
+    middle: DVec3,
+    exposure: Exposure,
+) -> Vec<Value> {
+    let mut groups: BTreeMap<Option<usize>, Vec<[usize; 3]>> = BTreeMap::new();
+    for &[patch, a, b, c] in &record.elements {
+        groups.entry(record.patches[patch].picture).or_default().push([a, b, c]);
+    }
+    let light = rgb(&record.vertex_radiosity, record.bands);
+    let received = rgb(&record.vertex_irradiance, record.bands);
+    let mut primitives = Vec::new();
+    for (picture, triangles) in groups {
+        let (used, indices) = own(&triangles);
+        let pick = |values: &[[f64; 3]]| used.iter().map(|&vertex| values[vertex]).collect::<Vec<_>>();
+        let points = used.iter().map(|&vertex| (record.vertices[vertex] - middle).to_array());
+        let shown = pick(if picture.is_some() { &received } else { &light });
+        let mut attributes = json!({
+            "POSITION": buffer.rows(points),
+            "COLOR_0": buffer.rows(shown.iter().map(|colour| exposure.intensity(*colour))),
+            "_RADIOSITY": buffer.rows(pick(&light).into_iter()),
+        });
+        if picture.is_some() {
+            let places = used.iter().map(|&vertex| record.places[vertex].to_array());
+            attributes["TEXCOORD_0"] = buffer.rows(places).into();
+            attributes["_IRRADIANCE"] = buffer.rows(shown.into_iter()).into();
+        }
+        let indices = buffer.indices(indices.into_iter());
+        let material = picture.map_or(0, |picture| picture + 1);
+        primitives.push(json!({"attributes": attributes, "indices": indices, "material": material}));
+    }
+    primitives
+}
+
+/// The vertices that some triangles use, in order, and the triangles' corners counted among them.
+fn own(triangles: &[[usize; 3]]) -> (Vec<usize>, Vec<usize>) {
+    let mut used: Vec<usize> = triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let place = |vertex: &usize| used.partition_point(|known| known < vertex);
+    let indices = triangles.iter().flatten().map(place).collect();
+    (used, indices)
+}
+
+/// Unlit materials, and the pictures as they came.
+pub(super) fn materials(document: &mut Value, record: &Record) {
+    let unlit = json!({"KHR_materials_unlit": {}});
+    let mut materials = vec![json!({"name": "radiosity", "extensions": unlit})];
+    materials.extend((0..record.pictures.len()).map(|picture| {
+        let texture = json!({"baseColorTexture": {"index": picture}});
+        json!({"name": format!("picture-{picture}"), "pbrMetallicRoughness": texture, "extensions": unlit})
+    }));
+    document["materials"] = materials.into();
+    if !record.pictures.is_empty() {
+        let images = record.pictures.iter().map(|address| json!({"uri": address}));
+        document["images"] = images.collect();
+        document["textures"] = (0..record.pictures.len()).map(|picture| json!({"source": picture})).collect();
+    }
+}

@@ -1,0 +1,56 @@
+//! glTF 2.0, text and binary: scenes read; lit meshes written.
+//!
+//! Read: the default scene's nodes with their transforms, triangles, strips and fans (those of a plane joined back to
+//! polygons), the base colour as reflectance, its texture, the emissive factor times `KHR_materials_emissive_strength` as
+//! radiance, perspective cameras. A double-sided material makes two patches of each polygon, the second one named
+//! `.back`. What is left out draws a warning. Lengths are metres, y is up.
+mod accessor;
+mod buffer;
+mod document;
+mod exposed;
+mod lit;
+mod material;
+mod read;
+mod write;
+
+pub use exposed::exposed;
+pub use write::glb;
+
+use super::Error;
+use crate::Scene;
+use std::path::{Path, PathBuf};
+
+/// The bytes of a `.glb` or `.gltf` file.
+#[derive(Clone, Debug)]
+pub struct Gltf {
+    name: String,
+    bytes: Vec<u8>,
+    folder: Option<PathBuf>,
+}
+
+impl Gltf {
+    /// Reads a file; other files that it names are looked for beside it.
+    ///
+    /// # Errors
+    /// [`Error::Read`] when the system does not give it.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let folder = path.parent().map(Into::into);
+        Ok(Self { name: path.display().to_string(), bytes, folder })
+    }
+
+    /// Takes bytes as the file `name`, which messages will show; it is in no folder.
+    pub fn from_bytes(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        Self { name: name.into(), bytes: bytes.into(), folder: None }
+    }
+
+    /// The scene: patches, cameras and warnings, in metres, y up.
+    ///
+    /// # Errors
+    /// [`Error::Gltf`] for what is no glTF 2.0, [`Error::Part`] for a part that cannot be taken.
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let file = document::parse(&self.name, &self.bytes)?;
+        read::scene(&self.name, &file, self.folder.as_deref())
+    }
+}

@@ -1,0 +1,87 @@
+//! glTF 2.0 binary: the lit mesh for any viewer.
+use super::super::Error;
+use super::buffer::{Buffer, container};
+use super::lit::{materials, primitives};
+use crate::expose::Exposure;
+use crate::{Asset, Camera, Record};
+use glam::{DMat3, DMat4, DVec3};
+use serde_json::{Value, json};
+
+/// The bytes of a GLB file: one mesh with `POSITION`, `COLOR_0` (exposed, linear) and `_RADIOSITY` (red, green and blue,
+/// W/m², as it is), unlit materials, and the scene's cameras.
+///
+/// Patches that show a picture have primitives of their own: `COLOR_0` is the exposed irradiance there, which viewers
+/// multiply with the picture, and `_IRRADIANCE` the irradiance as it is. The root node turns the scene's up axis to y and
+/// its unit to metres. Positions are single precision, relative to the middle of the mesh.
+///
+/// # Errors
+/// [`Error::Size`] when the data do not fit into the format's 4 GiB.
+pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, Error> {
+    let (middle, radius) = ball(&record.vertices);
+    let mut buffer = Buffer::default();
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": concat!("radiosity ", env!("CARGO_PKG_VERSION"))},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+    });
+    let mut nodes = vec![json!({"name": "scene", "matrix": upright(&record.asset).to_cols_array()})];
+    if !record.elements.is_empty() {
+        let primitives = primitives(&mut buffer, record, middle, exposure);
+        document["meshes"] = json!([{"name": "light", "primitives": primitives}]);
+        materials(&mut document, record);
+        document["extensionsUsed"] = json!(["KHR_materials_unlit"]);
+        document["accessors"] = buffer.accessors.clone().into();
+        document["bufferViews"] = buffer.views.clone().into();
+        document["buffers"] = json!([{"byteLength": buffer.bytes.len()}]);
+        nodes.push(json!({"name": "light", "mesh": 0, "translation": middle.to_array()}));
+    }
+    let near = 1e-3 * radius * record.asset.unit;
+    let lenses: Vec<Value> = record.cameras.iter().map(|camera| lens(camera, near)).collect();
+    if !lenses.is_empty() {
+        document["cameras"] = lenses.into();
+        nodes.extend(record.cameras.iter().enumerate().map(|(index, camera)| camera_node(index, camera)));
+    }
+    if nodes.len() > 1 {
+        nodes[0]["children"] = (1..nodes.len()).collect();
+    }
+    document["nodes"] = nodes.into();
+    container(&document, buffer.bytes)
+}
+
+/// The middle of the box around some points, and half the box's diagonal.
+fn ball(points: &[DVec3]) -> (DVec3, f64) {
+    let boxes = points.iter().map(|point| (*point, *point));
+    let around = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    let (low, high) = around.unwrap_or((DVec3::ZERO, DVec3::ONE));
+    (low.midpoint(high), (high - low).length() / 2.0)
+}
+
+/// From the file's units and axes to metres with y up; right stays right where the format has a right.
+fn upright(asset: &Asset) -> DMat4 {
+    let turn = if asset.up.z > 0.0 {
+        DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y)
+    } else if asset.up.x > 0.0 {
+        DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z)
+    } else {
+        DMat3::IDENTITY
+    };
+    DMat4::from_mat3(turn * asset.unit)
+}
+
+fn lens(camera: &Camera, near: f64) -> Value {
+    let near = if near > 0.0 { near } else { 1e-3 };
+    json!({
+        "name": camera.name,
+        "type": "perspective",
+        "perspective": {"yfov": camera.vertical_fov, "aspectRatio": camera.aspect, "znear": near},
+    })
+}
+
+/// A camera looks along its node's −z with y up.
+fn camera_node(index: usize, camera: &Camera) -> Value {
+    let back = -camera.direction.normalize();
+    let right = camera.up.cross(back).normalize();
+    let turn = DMat4::from_mat3(DMat3::from_cols(right, back.cross(right), back));
+    let matrix = DMat4::from_translation(camera.position) * turn;
+    json!({"name": camera.name, "camera": index, "matrix": matrix.to_cols_array()})
+}

@@ -1,0 +1,212 @@
+//! Into the world: transformed, checked, split where needed, named.
+use super::split::split;
+use super::warn::Flaws;
+use super::{Corner, Facet, Finish, Polygon, Surface, bits};
+use crate::{Origin, Patch, Texture};
+use formfactor::PlanarPolygon;
+use glam::{DMat4, DVec3};
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// More polygons than any solver takes; what instances multiply must end somewhere.
+pub(crate) const MAX_PATCHES: usize = 1_000_000;
+
+/// Why a surface was refused.
+#[derive(Debug)]
+pub(crate) enum Refusal {
+    /// More polygons than [`MAX_PATCHES`].
+    TooMany,
+    /// A polygon that the form factors refuse, by its index in the primitive.
+    Shape { polygon: usize, source: formfactor::Error },
+}
+
+/// The patches so far.
+#[derive(Debug, Default)]
+pub(crate) struct Surfaces {
+    drafts: Vec<Draft>,
+    /// How many polygons each node's name has.
+    counts: BTreeMap<String, usize>,
+    /// How many smoothing groups there are.
+    groups: usize,
+}
+
+/// A patch before it has its name: `base`, the number of its polygon among those of that base, and its piece.
+#[derive(Debug)]
+struct Draft {
+    base: String,
+    number: usize,
+    piece: Option<usize>,
+    /// What follows the name: the side, where a surface has two.
+    side: &'static str,
+    patch: Patch,
+}
+
+impl Surfaces {
+    /// Adds a surface's patches.
+    pub(crate) fn add(&mut self, surface: &Surface<'_>, warnings: &mut Vec<String>) -> Result<(), Refusal> {
+        let world = &surface.world;
+        if !(world.determinant().is_normal() && world.inverse().is_finite()) {
+            warnings.push(format!(
+                "{}: the node's transform flattens it to nothing; it is left out",
+                surface.place
+            ));
+            return Ok(());
+        }
+        let groups = self.smoothing(surface.facets);
+        let mut flaws = Flaws::default();
+        for (facet, group) in surface.facets.iter().zip(groups) {
+            self.add_facet(surface, facet, group, &mut flaws)?;
+        }
+        warnings.extend(flaws.sentences().map(|flaw| format!("{}: {}: {flaw}", surface.place, surface.name)));
+        Ok(())
+    }
+
+    fn add_facet(
+        &mut self,
+        surface: &Surface<'_>,
+        facet: &Facet,
+        smoothing: Option<usize>,
+        flaws: &mut Flaws,
+    ) -> Result<(), Refusal> {
+        if self.drafts.len() >= MAX_PATCHES {
+            return Err(Refusal::TooMany);
+        }
+        let count = self.counts.entry(surface.name.into()).or_default();
+        *count += 1;
+        let number = *count;
+        let polygon = facet.number;
+        let loops = transformed(&facet.loops, &surface.world);
+        let pieces = planar(&loops, polygon, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
+        let texture = texture(&loops, facet, surface);
+        let origin = Origin { polygon, ..surface.origin };
+        let draft = |(piece, polygon, side)| {
+            let mut patch = finished(polygon, &surface.finish, texture.clone());
+            (patch.origin, patch.smoothing) = (origin, smoothing);
+            Draft { base: surface.name.into(), number, piece, side, patch }
+        };
+        for (piece, polygon) in pieces {
+            let back = if surface.two_sided { turned(&polygon) } else { None };
+            self.drafts.push(draft((piece, polygon, "")));
+            self.drafts.extend(back.map(|polygon| draft((piece, polygon, ".back"))));
+        }
+        Ok(())
+    }
+
+    /// For each facet the number of its smoothing group: facets that share a vertex and the normal there.
+    fn smoothing(&mut self, facets: &[Facet]) -> Vec<Option<usize>> {
+        let mut leaders: Vec<usize> = (0..facets.len()).collect();
+        let lead = |leaders: &[usize], mut index: usize| {
+            while leaders[index] != index {
+                index = leaders[index];
+            }
+            index
+        };
+        let mut first = HashMap::new();
+        for (index, facet) in facets.iter().enumerate() {
+            for corner in facet.loops.iter().flatten().filter(|corner| corner.normal != DVec3::ZERO) {
+                let known = *first.entry((bits(corner.point), bits(corner.normal))).or_insert(index);
+                let (a, b) = (lead(&leaders, known), lead(&leaders, index));
+                leaders[a.max(b)] = a.min(b);
+            }
+        }
+        let leaders: Vec<usize> = (0..facets.len()).map(|index| lead(&leaders, index)).collect();
+        let mut sizes = vec![0; facets.len()];
+        leaders.iter().for_each(|&leader| sizes[leader] += 1);
+        let base = self.groups;
+        self.groups += facets.len();
+        leaders.into_iter().map(|leader| (sizes[leader] > 1).then_some(base + leader)).collect()
+    }
+
+    /// Names the patches: the base alone where it has one polygon, `base.k` (from 1, in the order of the file, polygons
+    /// left out counted) where it has several, `base.k.m` for the pieces of a split one. Nodes of the same name are
+    /// numbered together; a name that is taken gets a `'`.
+    pub(crate) fn named(self) -> Vec<Patch> {
+        let mut taken = HashSet::new();
+        let counts = self.counts;
+        let patch = |draft: Draft| {
+            let mut name = match draft.piece {
+                Some(piece) => format!("{}.{}.{piece}", draft.base, draft.number),
+                None if counts[&draft.base] > 1 => format!("{}.{}", draft.base, draft.number),
+                None => draft.base,
+            };
+            name.push_str(draft.side);
+            while !taken.insert(name.clone()) {
+                name.push('\'');
+            }
+            Patch { name, ..draft.patch }
+        };
+        self.drafts.into_iter().map(patch).collect()
+    }
+}
+
+/// The same points seen from the other side.
+fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
+    let loops = polygon.loops().map(|points| points.iter().rev().copied().collect::<Vec<_>>());
+    PlanarPolygon::new(loops).ok()
+}
+
+/// A patch without a name; its reflectance is the texture's mean where it has one.
+fn finished(polygon: PlanarPolygon, finish: &Finish, texture: Option<Texture>) -> Patch {
+    let reflectance = texture.as_ref().map_or(finish.reflectance, |texture| texture.overall());
+    let patch = Patch::new("", polygon, reflectance.into(), finish.emission.into());
+    Patch { texture, ..patch }
+}
+
+/// The picture laid over the polygon, if it has one.
+fn texture(loops: &Polygon, facet: &Facet, surface: &Surface<'_>) -> Option<Texture> {
+    let image = surface.finish.image.clone()?;
+    let parts = match facet.parts.as_slice() {
+        [] => split(loops),
+        parts => parts.iter().map(|part| part.map(|corner| moved(corner, &surface.world))).collect(),
+    };
+    let map = parts.into_iter().map(|part| part.map(|corner| (corner.point, corner.place))).collect();
+    Some(Texture { image, factor: surface.finish.reflectance, map })
+}
+
+/// The polygon as it is, or, where it is not planar, its pieces, numbered from 1; nothing where it has no area.
+fn planar(
+    loops: &Polygon,
+    polygon: usize,
+    flaws: &mut Flaws,
+) -> Result<Vec<(Option<usize>, PlanarPolygon)>, formfactor::Error> {
+    let points = loops.iter().map(|ring| ring.iter().map(|corner| corner.point).collect::<Vec<_>>());
+    match PlanarPolygon::new(points) {
+        Ok(polygon) => Ok(vec![(None, polygon)]),
+        Err(formfactor::Error::NotPlanar { distance, .. }) => {
+            flaws.bent.push((polygon, distance));
+            let triangles = split(loops).into_iter().map(|part| part.map(|corner| corner.point));
+            let pieces = triangles.filter_map(|corners| PlanarPolygon::new([corners]).ok());
+            Ok(pieces.zip(1..).map(|(piece, number)| (Some(number), piece)).collect())
+        }
+        Err(
+            formfactor::Error::ZeroArea
+            | formfactor::Error::NoLoops
+            | formfactor::Error::TooFewVertices { .. },
+        ) => {
+            flaws.empty.push(polygon);
+            Ok(Vec::new())
+        }
+        Err(other) => Err(other),
+    }
+}
+
+/// Into the world, without repeated vertices and holes of fewer than three; a mirrored solid keeps its outside outside.
+fn transformed(loops: &Polygon, world: &DMat4) -> Polygon {
+    let mirrored = world.determinant() < 0.0;
+    let turn = |ring: &Vec<Corner>| {
+        let mut corners: Vec<Corner> = ring.iter().map(|corner| moved(*corner, world)).collect();
+        corners.dedup_by_key(|corner| corner.point);
+        if corners.len() > 1 && corners.first().map(|c| c.point) == corners.last().map(|c| c.point) {
+            corners.pop();
+        }
+        if mirrored {
+            corners.reverse();
+        }
+        corners
+    };
+    let loops = loops.iter().map(turn).enumerate();
+    loops.filter(|(index, corners)| *index == 0 || corners.len() > 2).map(|(_, corners)| corners).collect()
+}
+
+fn moved(corner: Corner, world: &DMat4) -> Corner {
+    Corner { point: world.transform_point3(corner.point), ..corner }
+}

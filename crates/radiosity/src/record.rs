@@ -1,0 +1,224 @@
+//! A solution as it is written: all that pictures, pages and tables need, apart from the scene's own file.
+use crate::expose::{Exposure, rgb};
+use crate::{Asset, Camera, Element, Mesh, Patch, Scene, Solution};
+use base64::Engine;
+use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A solution with what it is a solution of. It is written as JSON and read back.
+///
+/// Values stand one after the other, band by band: those of the first vertex (element), then those of the second, …
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// The scene's file.
+    pub scene: String,
+    /// What its coordinates mean.
+    pub asset: Asset,
+    /// Its cameras.
+    pub cameras: Vec<Camera>,
+    /// Number of bands of every value.
+    pub bands: usize,
+    /// Per band, a bound on the algebraic error of every radiosity, W/m²; see [`Solution::bound`].
+    pub bound: Vec<f64>,
+    /// The patches, in the scene's order.
+    pub patches: Vec<PatchRecord>,
+    /// Positions of the mesh's vertices.
+    pub vertices: Vec<DVec3>,
+    /// Interpolated radiosity at the vertices, W/m².
+    pub vertex_radiosity: Vec<f64>,
+    /// Interpolated irradiance at the vertices, W/m².
+    pub vertex_irradiance: Vec<f64>,
+    /// Where in the picture of its patch each vertex lies; none where no patch has one.
+    pub places: Vec<DVec2>,
+    /// The elements: the patch, and the vertices at the three corners, counter-clockwise seen from the front.
+    pub elements: Vec<[usize; 4]>,
+    /// Radiosity of the elements, W/m².
+    pub radiosity: Vec<f64>,
+    /// Irradiance of the elements, W/m².
+    pub irradiance: Vec<f64>,
+    /// The pictures, as `data:` addresses.
+    pub pictures: Vec<String>,
+}
+
+/// A patch as it is written.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PatchRecord {
+    /// Its name.
+    pub name: String,
+    /// Its area, in the file's unit squared.
+    pub area: f64,
+    /// Reflectance per band; the mean of its texture where it has one.
+    pub reflectance: Vec<f64>,
+    /// Emitted radiance per band.
+    pub emission: Vec<f64>,
+    /// Mean irradiance per band, W/m².
+    pub irradiance: Vec<f64>,
+    /// Mean radiosity per band, W/m².
+    pub radiosity: Vec<f64>,
+    /// Index of its picture.
+    pub picture: Option<usize>,
+}
+
+impl Record {
+    /// Takes down a solution of `scene`, which was read from the file `name`.
+    #[must_use]
+    pub fn new(name: &str, scene: &Scene, solution: &Solution) -> Record {
+        let mesh = &solution.mesh;
+        let (pictures, numbers) = pictures(scene);
+        let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
+        let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
+        let means = irradiance.into_iter().zip(radiosity);
+        let patches = scene.patches.iter().zip(means).enumerate();
+        Record {
+            scene: name.into(),
+            asset: scene.asset,
+            cameras: scene.cameras.clone(),
+            bands: solution.bands,
+            bound: solution.bound.clone(),
+            patches: patches
+                .map(|(index, (patch, (irradiance, radiosity)))| PatchRecord {
+                    name: patch.name.clone(),
+                    area: patch.polygon.area(),
+                    reflectance: patch.reflectance.clone(),
+                    emission: patch.emission.clone(),
+                    irradiance,
+                    radiosity,
+                    picture: numbers.get(&index).copied(),
+                })
+                .collect(),
+            vertices: mesh.vertices.clone(),
+            vertex_radiosity: solution.vertex_radiosity(),
+            vertex_irradiance: solution.vertex_irradiance(),
+            places: if pictures.is_empty() { Vec::new() } else { places(scene, mesh) },
+            elements: mesh.elements.iter().map(|element| indices(*element)).collect(),
+            radiosity: solution.radiosity.clone(),
+            irradiance: solution.irradiance.clone(),
+            pictures,
+        }
+    }
+
+    /// Checks that what was read is whole: every index within its list, every list as long as it must be.
+    ///
+    /// # Errors
+    /// A sentence that says what is wrong.
+    pub fn check(&self) -> Result<(), String> {
+        let (vertices, elements) = (self.vertices.len(), self.elements.len());
+        let lists = [
+            ("bound", self.bound.len(), 1),
+            ("vertex_radiosity", self.vertex_radiosity.len(), vertices),
+            ("vertex_irradiance", self.vertex_irradiance.len(), vertices),
+            ("radiosity", self.radiosity.len(), elements),
+            ("irradiance", self.irradiance.len(), elements),
+        ];
+        for (name, found, rows) in lists {
+            let wanted = rows.saturating_mul(self.bands);
+            if found != wanted || self.bands == 0 {
+                return Err(format!("{name} has {found} values where {wanted} are needed"));
+            }
+        }
+        if ![0, vertices].contains(&self.places.len()) {
+            return Err(format!("places has {} rows where {vertices} are needed", self.places.len()));
+        }
+        let pictured = self.patches.iter().any(|patch| patch.picture.is_some());
+        if pictured && self.places.is_empty() && vertices > 0 {
+            return Err("a patch has a picture, but places is empty".to_owned());
+        }
+        if let Some(camera) = self.cameras.iter().find(|camera| !camera.is_sound()) {
+            return Err(format!("camera {} sees nothing", camera.name));
+        }
+        let outside = |[patch, a, b, c]: &[usize; 4]| {
+            *patch >= self.patches.len() || [a, b, c].iter().any(|corner| **corner >= vertices)
+        };
+        if let Some(element) = self.elements.iter().position(outside) {
+            return Err(format!("element {element} names a patch or a vertex that is not there"));
+        }
+        let bands = |patch: &PatchRecord| {
+            let lists = [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity];
+            lists.iter().any(|list| list.len() != self.bands)
+                || patch.picture.is_some_and(|picture| picture >= self.pictures.len())
+        };
+        match self.patches.iter().find(|patch| bands(patch)) {
+            Some(patch) => {
+                Err(format!("patch {} has other bands, or a picture that is not there", patch.name))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The elements.
+    #[must_use]
+    pub fn mesh(&self) -> Mesh {
+        let element = |&[patch, a, b, c]: &[usize; 4]| Element { patch, corners: [a, b, c] };
+        let elements = self.elements.iter().map(element).collect();
+        Mesh { vertices: self.vertices.clone(), elements }
+    }
+
+    /// Red, green and blue radiosity at the vertices: the first three bands.
+    #[must_use]
+    pub fn colours(&self) -> Vec<[f64; 3]> {
+        rgb(&self.vertex_radiosity, self.bands)
+    }
+
+    /// The exposure that suits the light; see [`Exposure::automatic`].
+    #[must_use]
+    pub fn exposure(&self) -> Exposure {
+        let (mesh, colours) = (self.mesh(), rgb(&self.radiosity, self.bands));
+        let lit = colours.iter().enumerate().map(|(index, colour)| {
+            let lamp = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
+            (*colour, mesh.area(index), lamp)
+        });
+        Exposure::of(lit)
+    }
+
+    /// The camera of that name, or the first; where there is none, one that sees everything.
+    #[must_use]
+    pub fn camera(&self, name: Option<&str>) -> Option<Camera> {
+        match name {
+            Some(name) => self.cameras.iter().find(|camera| camera.name == name).cloned(),
+            None => Some(self.cameras.first().cloned().unwrap_or_else(|| self.framing())),
+        }
+    }
+
+    fn framing(&self) -> Camera {
+        let boxes = self.vertices.iter().map(|point| [*point, *point]);
+        let extent = boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        crate::picture::framing(extent.unwrap_or([DVec3::ZERO, DVec3::ONE]), self.asset.up)
+    }
+}
+
+fn indices(element: Element) -> [usize; 4] {
+    let [a, b, c] = element.corners;
+    [element.patch, a, b, c]
+}
+
+/// Every picture once, and which of them each patch shows.
+fn pictures(scene: &Scene) -> (Vec<String>, BTreeMap<usize, usize>) {
+    let (mut pictures, mut numbers) = (Vec::new(), BTreeMap::new());
+    let mut known: BTreeMap<*const crate::Image, usize> = BTreeMap::new();
+    let shown = |patch: &Patch| patch.texture.as_ref().map(|texture| texture.image.clone());
+    for (index, image) in scene.patches.iter().enumerate().filter_map(|(i, patch)| Some((i, shown(patch)?))) {
+        let number = *known.entry(std::sync::Arc::as_ptr(&image)).or_insert_with(|| {
+            let text = base64::engine::general_purpose::STANDARD.encode(&image.bytes);
+            pictures.push(format!("data:{};base64,{text}", image.mime));
+            pictures.len() - 1
+        });
+        numbers.insert(index, number);
+    }
+    (pictures, numbers)
+}
+
+/// Where each vertex lies in the picture of its patch.
+fn places(scene: &Scene, mesh: &Mesh) -> Vec<DVec2> {
+    let mut places = vec![DVec2::ZERO; mesh.vertices.len()];
+    for element in &mesh.elements {
+        if let Some(texture) = &scene.patches[element.patch].texture {
+            for corner in element.corners {
+                places[corner] = texture.place(mesh.vertices[corner]);
+            }
+        }
+    }
+    places
+}

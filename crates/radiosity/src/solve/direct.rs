@@ -1,0 +1,53 @@
+//! The final gather: light straight from the lamps, exact at every vertex.
+use super::run::Run;
+use crate::interpolate::Direct;
+use crate::{Error, Mesh, Scene};
+use formfactor::DifferentialArea;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// How far towards the elements around it a vertex is moved: F is discontinuous at the feet of walls, and there the
+/// limit from the vertex's own side is wanted.
+const INWARD: f64 = 1e-3;
+
+/// The lamps' light on every element and at every vertex.
+pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Direct, Error> {
+    let (mesh, bands) = (&run.factors.subdivision.mesh, run.light.bands);
+    let receivers = receivers(scene, mesh)?;
+    let mut elements = vec![0.0; mesh.elements.len() * bands];
+    let mut vertices = vec![0.0; mesh.vertices.len() * bands];
+    for (lamp, patch) in scene.patches.iter().enumerate().filter(|(_, patch)| patch.emits()) {
+        let shine = |values: &mut [f64], place: usize, factor: f64| {
+            let irradiance = values[place * bands..].iter_mut().zip(&patch.emission);
+            irradiance.for_each(|(h, radiance)| *h += PI * radiance * factor);
+        };
+        for (element, factor) in run.factors.column(lamp)?.iter() {
+            shine(&mut elements, element, factor);
+        }
+        let factors: Vec<f64> =
+            receivers.par_iter().with_min_len(8).map(|from| run.factors.seen_from(from, lamp)).collect();
+        factors.into_iter().enumerate().for_each(|(vertex, factor)| shine(&mut vertices, vertex, factor));
+    }
+    Ok(Direct { elements, vertices })
+}
+
+/// A receiver for every vertex, a little inside the elements around it.
+fn receivers(scene: &Scene, mesh: &Mesh) -> Result<Vec<DifferentialArea>, Error> {
+    let mut around = vec![(DVec3::ZERO, 0.0, 0); mesh.vertices.len()];
+    for (index, element) in mesh.elements.iter().enumerate() {
+        let (area, centroid) = (mesh.area(index), mesh.centroid(index));
+        for corner in element.corners {
+            let (sum, weight, _) = around[corner];
+            around[corner] = (sum + area * (centroid - mesh.vertices[corner]), weight + area, element.patch);
+        }
+    }
+    let receiver = |(vertex, (sum, weight, patch)): (usize, (DVec3, f64, usize))| {
+        let inward = if weight > 0.0 { sum / weight * INWARD } else { DVec3::ZERO };
+        let area =
+            DifferentialArea::new(mesh.vertices[vertex] + inward, scene.patches[patch].polygon.normal());
+        area.map(|area| area.owned_by(patch))
+            .map_err(|source| Error::Shape { patch: scene.patches[patch].name.clone(), source })
+    };
+    around.into_iter().enumerate().map(receiver).collect()
+}

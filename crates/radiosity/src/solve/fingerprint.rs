@@ -1,0 +1,43 @@
+//! Short numbers that tell scenes, meshes and files apart.
+use crate::{Scene, mesh::Subdivision};
+use fnv::FnvHasher;
+use glam::DVec3;
+use std::hash::Hasher;
+
+/// The fingerprint of some bytes: FNV-1a, 64 bits, the same on every machine.
+pub(super) fn of(bytes: &[u8]) -> u64 {
+    let mut hasher = FnvHasher::default();
+    hasher.write(bytes);
+    hasher.finish()
+}
+
+/// The fingerprint of all that form factors depend on: what hides, and what is cut how.
+pub(super) fn of_mesh(scene: &Scene, subdivision: &Subdivision) -> u64 {
+    let mut hasher = FnvHasher::default();
+    for patch in &scene.patches {
+        patch.polygon.loops().for_each(|points| write_points(&mut hasher, points));
+        write_number(&mut hasher, usize::MAX);
+    }
+    let Subdivision { mesh, nodes, .. } = subdivision;
+    write_points(&mut hasher, &mesh.vertices);
+    for element in &mesh.elements {
+        element.corners.iter().chain([&element.patch]).for_each(|number| write_number(&mut hasher, *number));
+    }
+    for node in nodes {
+        [node.elements.start, node.elements.end].iter().for_each(|number| write_number(&mut hasher, *number));
+    }
+    hasher.finish()
+}
+
+/// Points, and how many there are.
+fn write_points(hasher: &mut FnvHasher, points: &[DVec3]) {
+    write_number(hasher, points.len());
+    for coordinate in points.iter().flat_map(DVec3::to_array) {
+        hasher.write(&coordinate.to_le_bytes());
+    }
+}
+
+/// A number, as wide on every machine.
+fn write_number(hasher: &mut FnvHasher, number: usize) {
+    hasher.write(&(number as u64).to_le_bytes());
+}

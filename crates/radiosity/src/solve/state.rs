@@ -1,0 +1,147 @@
+//! Work that lasts: the form factors found so far, so that a run that was stopped can be gone on with.
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeMap, sync::Arc};
+use thiserror::Error;
+
+/// How many factors are kept: 1.5 GB.
+const KEPT: usize = 1 << 27;
+/// What a file starts with; the digit counts the formats.
+const MAGIC: &[u8] = b"radiosity state 1\n";
+
+/// The form factors that a run has found, by far the most of its work.
+///
+/// A run that starts from the state of another one of the same scene finds all of these where it needs them. Form
+/// factors are pure functions of the scene and the mesh, so it ends with the bits of a run that was never stopped, and
+/// may ask for another tolerance or another method.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub struct State {
+    /// By the fingerprint of the mesh: the columns by piece.
+    meshes: BTreeMap<u64, BTreeMap<usize, Arc<Column>>>,
+    /// How many factors there are.
+    count: usize,
+}
+
+/// Form factors from elements to one piece; those that are 0 are left out.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Column {
+    elements: Vec<u32>,
+    factors: Vec<f64>,
+}
+
+/// Why bytes are not a state.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StateError {
+    /// They were written by something else, or by another version.
+    #[error("not a state of this version of radiosity; start the run anew")]
+    Format,
+    /// They were cut short or changed.
+    #[error("the state is damaged; start the run anew")]
+    Damaged,
+}
+
+impl Column {
+    /// Keeps what is not 0 of one factor for each element.
+    pub(super) fn new(factors: &[f64]) -> Column {
+        let seen = || (0u32..).zip(factors).filter(|(_, factor)| **factor != 0.0);
+        Column {
+            elements: seen().map(|(element, _)| element).collect(),
+            factors: seen().map(|(_, factor)| *factor).collect(),
+        }
+    }
+
+    /// Elements and the factors from them, by ascending element.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.elements.iter().map(|element| *element as usize).zip(self.factors.iter().copied())
+    }
+
+    /// The same for elements from `start` on.
+    pub(super) fn from(&self, start: usize) -> impl Iterator<Item = (usize, f64)> {
+        let first = self.elements.partition_point(|element| (*element as usize) < start);
+        let elements = self.elements[first..].iter().map(|element| *element as usize);
+        elements.zip(self.factors[first..].iter().copied())
+    }
+}
+
+impl State {
+    /// The state as bytes, for a file: about 12 for each factor that is not 0.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let body = postcard::to_stdvec(self).expect("maps of plain numbers can be written");
+        let sum = super::fingerprint::of(&body);
+        [MAGIC, &sum.to_le_bytes(), &body].concat()
+    }
+
+    /// The state that [`State::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// [`StateError`] for other bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<State, StateError> {
+        let rest = bytes.strip_prefix(MAGIC).ok_or(StateError::Format)?;
+        let (sum, body) = rest.split_first_chunk().ok_or(StateError::Damaged)?;
+        if super::fingerprint::of(body) != u64::from_le_bytes(*sum) {
+            return Err(StateError::Damaged);
+        }
+        postcard::from_bytes(body).map_err(|_| StateError::Format)
+    }
+
+    /// Whether nothing is known yet.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.meshes.is_empty()
+    }
+
+    /// Whether something is known of a mesh.
+    pub(super) fn knows(&self, mesh: u64) -> bool {
+        self.meshes.contains_key(&mesh)
+    }
+
+    /// A column that is known.
+    pub(super) fn column(&self, mesh: u64, node: usize) -> Option<Arc<Column>> {
+        self.meshes.get(&mesh)?.get(&node).cloned()
+    }
+
+    /// Keeps a column while memory lasts.
+    pub(super) fn keep(&mut self, mesh: u64, node: usize, column: &Arc<Column>) {
+        if self.count + column.factors.len() <= KEPT {
+            self.count += column.factors.len();
+            self.meshes.entry(mesh).or_default().insert(node, Arc::clone(column));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state() -> State {
+        let mut state = State::default();
+        let column = Arc::new(Column::new(&[0.0, 0.1 + 0.2, 0.0, f64::MIN_POSITIVE]));
+        state.keep(7, 3, &column);
+        state.keep(7, 9, &Arc::new(Column::default()));
+        state
+    }
+
+    #[test]
+    fn a_state_comes_back_bit_for_bit() {
+        let again = State::from_bytes(&state().to_bytes()).unwrap();
+        let column = again.column(7, 3).unwrap();
+        assert_eq!(column.iter().collect::<Vec<_>>(), [(1, 0.1 + 0.2), (3, f64::MIN_POSITIVE)]);
+        assert_eq!(column.from(2).collect::<Vec<_>>(), [(3, f64::MIN_POSITIVE)]);
+        assert!(again.knows(7) && !again.knows(8) && again.column(7, 4).is_none());
+        assert_eq!(again.to_bytes(), state().to_bytes());
+    }
+
+    #[test]
+    fn any_cut_and_any_changed_byte_is_found() {
+        let bytes = state().to_bytes();
+        for end in 0..bytes.len() {
+            assert!(State::from_bytes(&bytes[..end]).is_err(), "cut at {end}");
+        }
+        for place in 0..bytes.len() {
+            let mut bytes = bytes.clone();
+            bytes[place] ^= 0x10;
+            assert!(State::from_bytes(&bytes).is_err(), "byte {place}");
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! glTF files in: what they mean as patches, and what is refused.
+use radiosity::glam::DVec3;
+use radiosity::io::gltf::Gltf;
+use radiosity::{Scene, scenes};
+use serde_json::{Value, json};
+
+/// A file of one buffer: four corners of the unit square, and two triangles of them as 16-bit indices.
+fn square() -> Value {
+    let points = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut bytes: Vec<u8> = points.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+    bytes.extend([0_u16, 1, 2, 0, 2, 3].iter().flat_map(|index| index.to_le_bytes()));
+    json!({
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "square", "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "materials": [{
+            "name": "m",
+            "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1.0]},
+            "emissiveFactor": [1.0, 0.5, 0.0],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4.0}},
+        }],
+        "extensionsUsed": ["KHR_materials_emissive_strength"],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": 48},
+            {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+        ],
+        "buffers": [{"byteLength": 60, "uri": format!("data:application/octet-stream;base64,{}", base64(&bytes))}],
+    })
+}
+
+fn base64(bytes: &[u8]) -> String {
+    let digit = |value: u32| {
+        let alphabet = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        char::from(alphabet[usize::try_from(value & 63).unwrap()])
+    };
+    assert_eq!(bytes.len() % 3, 0, "no padding is written");
+    let word = |three: &[u8]| three.iter().fold(0_u32, |word, byte| word << 8 | u32::from(*byte));
+    bytes.chunks(3).flat_map(|three| [18, 12, 6, 0].map(|shift| digit(word(three) >> shift))).collect()
+}
+
+fn read(document: &Value) -> Scene {
+    Gltf::from_bytes("test.gltf", document.to_string()).scene().unwrap()
+}
+
+fn refusal(document: &Value) -> String {
+    Gltf::from_bytes("test.gltf", document.to_string()).scene().unwrap_err().to_string()
+}
+
+#[test]
+fn two_triangles_are_a_square_with_its_material() {
+    let scene = read(&square());
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    assert_eq!(scene.patches.len(), 1);
+    let patch = &scene.patches[0];
+    assert_eq!(
+        (patch.name.as_str(), patch.polygon.area(), patch.polygon.normal()),
+        ("square", 1.0, DVec3::Z)
+    );
+    assert_eq!(patch.reflectance, [0.25, 0.5, 0.75]);
+    assert_eq!(patch.emission, [4.0, 2.0, 0.0]);
+    assert_eq!((scene.asset.up, scene.asset.unit), (DVec3::Y, 1.0));
+}
+
+#[test]
+fn nodes_move_what_hangs_on_them() {
+    let mut document = square();
+    document["nodes"] = json!([
+        {"children": [1], "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]},
+        {"name": "square", "mesh": 0, "scale": [2, 1, 1], "translation": [0, 0, 3]},
+    ]);
+    let outline = read(&document).patches[0].polygon.loops().next().unwrap().to_vec();
+    // Stretched along x, lifted, a quarter turn about z, moved along x.
+    let expected = [[5.0, 0.0, 3.0], [5.0, 2.0, 3.0], [4.0, 2.0, 3.0], [4.0, 0.0, 3.0]].map(DVec3::from);
+    let first = outline.iter().position(|point| *point == expected[0]).unwrap();
+    assert!((0..4).all(|i| outline[(first + i) % 4] == expected[i]), "{outline:?}");
+}
+
+#[test]
+fn a_mirror_keeps_the_outside_outside() {
+    let mut document = square();
+    document["nodes"][0]["scale"] = json!([-1, 1, 1]);
+    assert_eq!(read(&document).patches[0].polygon.normal(), DVec3::Z);
+}
+
+#[test]
+fn a_double_sided_material_makes_two_patches() {
+    let mut document = square();
+    document["materials"][0]["doubleSided"] = json!(true);
+    let scene = read(&document);
+    let names: Vec<_> = scene.patches.iter().map(|patch| patch.name.as_str()).collect();
+    assert_eq!(names, ["square", "square.back"]);
+    assert_eq!(scene.patches[1].polygon.normal(), DVec3::NEG_Z);
+}
+
+#[test]
+fn strips_and_fans_are_triangles_too() {
+    for mode in [5, 6] {
+        let mut document = square();
+        let primitive = &mut document["meshes"][0]["primitives"][0];
+        primitive["mode"] = json!(mode);
+        primitive.as_object_mut().unwrap().remove("indices");
+        let scene = read(&document);
+        // As a strip the corners of the square make two triangles that overlap; as a fan they are the square.
+        let areas: Vec<f64> = scene.patches.iter().map(|patch| patch.polygon.area()).collect();
+        assert_eq!(areas, if mode == 6 { vec![1.0] } else { vec![0.5, 0.5] }, "{mode}");
+    }
+}
+
+#[test]
+fn what_is_not_read_draws_a_warning() {
+    let mut document = square();
+    document["materials"][0]["alphaMode"] = json!("BLEND");
+    document["meshes"][0]["primitives"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({"attributes": {"POSITION": 0}, "mode": 1}));
+    document["cameras"] =
+        json!([{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 1}}]);
+    document["nodes"][0]["camera"] = json!(0);
+    let warnings = read(&document).warnings.join("\n");
+    for word in ["transparency", "lines have no area", "perspective"] {
+        assert!(warnings.contains(word), "{word}: {warnings}");
+    }
+}
+
+#[test]
+fn every_fault_is_named_with_its_part() {
+    let change = |path: &str, value: Value| {
+        let mut document = square();
+        *document.pointer_mut(path).expect(path) = value;
+        refusal(&document)
+    };
+    let cases = [
+        (change("/asset/version", json!("1.0")), "asset"),
+        (change("/accessors/1/count", json!(7)), "buffer view 1"),
+        (change("/accessors/0/count", json!(1_u64 << 40)), "buffer view 0"),
+        (change("/accessors/0/count", json!(3)), "mesh 0, primitive 0"),
+        (change("/accessors/0/type", json!("VEC2")), "accessor 0"),
+        (change("/bufferViews/1/byteOffset", json!(4_294_967_295_u64)), "buffer view 1"),
+        (change("/buffers/0/uri", json!("data:;base64,AAAA")), "buffer 0"),
+        (change("/buffers/0/uri", json!("missing.bin")), "buffer 0"),
+        (change("/nodes/0/mesh", json!(9)), "not glTF 2.0"),
+    ];
+    for (message, part) in cases {
+        assert!(message.starts_with("test.gltf: ") && message.contains(part), "{message}");
+    }
+}
+
+#[test]
+fn a_node_that_contains_itself_is_refused() {
+    let mut document = square();
+    document["nodes"][0]["children"] = json!([0]);
+    assert!(refusal(&document).contains("node 0"));
+}
+
+#[test]
+fn damaged_files_are_refused_or_read_but_never_worse() {
+    let text = square().to_string();
+    let step = 7;
+    for cut in (0..text.len()).step_by(step) {
+        let _ = Gltf::from_bytes("cut.gltf", &text.as_bytes()[..cut]).scene();
+        let mut bytes = text.clone().into_bytes();
+        bytes[cut] = b'9';
+        let _ = Gltf::from_bytes("changed.gltf", bytes).scene();
+    }
+}
+
+/// A scene written as a lit GLB of its patches' outlines, then read.
+#[test]
+fn a_written_file_has_the_same_areas() {
+    let before = scenes::scene("cornell-box").unwrap();
+    let options = radiosity::Options { elements: 100, max_shots: 1, ..Default::default() };
+    let solution = radiosity::solve(&before, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
+    let record = radiosity::Record::new("box", &before, &solution);
+    let bytes = radiosity::io::gltf::glb(&record, record.exposure()).unwrap();
+    let after = Gltf::from_bytes("box.glb", bytes).scene().unwrap();
+    assert!(after.warnings.is_empty(), "{:?}", after.warnings);
+    let area = |scene: &Scene| scene.patches.iter().map(|patch| patch.polygon.area()).sum::<f64>();
+    // Millimetres there, metres here, single precision in between.
+    assert!((area(&after) * 1e6 / area(&before) - 1.0).abs() < 1e-6);
+    assert!(after.cameras[0].position.distance(before.cameras[0].position * 1e-3) < 1e-6);
+}

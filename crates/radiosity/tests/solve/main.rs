@@ -1,0 +1,6 @@
+//! What the solver promises, on scenes built here.
+mod build;
+mod extreme;
+mod interpolation;
+mod lasting;
+mod stiff;
