@@ -17,7 +17,7 @@
 use crate::chains::Chains;
 use crate::edges::Edges;
 use crate::predicates::{
-    Area, Parameter, Segment, Side, crossing_order, doubled_area, is_inside, lexicographic,
+    Area, Clear, Parameter, Segment, Side, crossing_order, doubled_area, is_inside, lexicographic,
     point_crossing_order, side_of,
 };
 use crate::strips::Strips;
@@ -159,18 +159,16 @@ impl Contacts {
     fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut Suspects) {
         let (s, t) = (edges.segment(e), edges.segment(f));
         let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
-        if suspects.are_apart(s, ends_of_f) {
+        if suspects.margins().are_apart(s, ends_of_f) {
             return;
         }
         let ends_of_e = [doubled_area(t[0], t[1], s[0]), doubled_area(t[0], t[1], s[1])];
-        if suspects.are_apart(t, ends_of_e) {
-            return;
+        match suspects.margins().relation([s, t], ends_of_f, ends_of_e) {
+            Clear::Apart => {}
+            Clear::CrossFromLeft => self.cross(edges, [e, f], ends_of_f, ends_of_e, true),
+            Clear::CrossFromRight => self.cross(edges, [e, f], ends_of_f, ends_of_e, false),
+            Clear::Unclear => self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, suspects),
         }
-        if suspects.is_clear_crossing([s, t], ends_of_f, ends_of_e) {
-            let from_left = ends_of_f[0].value > 0.0;
-            return self.cross(edges, [e, f], ends_of_f, ends_of_e, from_left);
-        }
-        self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, suspects);
     }
 
     fn cross(
@@ -223,7 +221,8 @@ impl Contacts {
         }
         self.touch(edges, [e, f], [p0, p1, q0, q1]);
         let line_up = [p0, p1, q0, q1] == [Side::On; 4];
-        let steep = ends_of_f.iter().chain(&ends_of_e).any(|&area| suspects.is_steep(s, t, area));
+        let steep =
+            ends_of_f.iter().chain(&ends_of_e).any(|&area| suspects.margins().are_steep([s, t], area));
         if !line_up && !steep {
             suspects.add(e, f);
         }
@@ -239,7 +238,7 @@ impl Contacts {
         suspects: &mut Suspects,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        if !corner.is_straight() && !suspects.is_steep(s, t, area) {
+        if !corner.is_straight() && !suspects.margins().are_steep([s, t], area) {
             suspects.add(e, f);
         }
         let v = if s[0] == corner.common { e } else { edges.head(e) };

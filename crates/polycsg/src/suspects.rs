@@ -1,45 +1,30 @@
 //! Pairs of edges so close, or so flat to one another, that rounding crossings may make their pieces meet.
 //!
-//! Rounding moves a crossing by less than `2 u M` (`u = 2^-53`, `M` the largest coordinate's size) and never out of its
-//! edges' boxes. Say that two edges are *clear* of one another when either
-//!
-//! - all of one lies further than `4 u M` from the other's line, on one side; or
-//! - they meet in one point only, at an angle with a sine of at least `2^-15`, and every other point where something
-//!   happens on them (contact or end) lies further than `2^-36 M` from it along its edge, so further than
-//!   `2^-15 · 2^-36 M = 4 u M` from the other edge.
-//!
-//! Then no two of their pieces can meet after rounding but in a vertex that they share: pieces that do not end in the
-//! common point lie `4 u M` apart, and those that do keep different directions from it. All pairs of edges whose boxes
-//! meet are looked at anyway; those that are not clear are noted here, by tests that err on the safe side. When no
-//! piece of theirs meets another after rounding, nothing on the whole boundary does.
+//! All pairs of edges whose boxes meet are looked at when contacts are found, and rounded pieces stay in their edges'
+//! boxes; pairs that are not clear of one another (see [`Margins`]) are noted here, by tests that err on the safe side. When
+//! no piece of theirs meets another after rounding, nothing on the whole boundary does.
 
 use crate::chains::LONGEST;
 use crate::contacts::{Contact, Met, Partner};
 use crate::edges::{Edges, Ring};
-use crate::predicates::{Area, Parameter, Segment, doubled_area};
+use crate::predicates::{Margins, Parameter, Segment, doubled_area};
 
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Suspects {
     pairs: Vec<[u32; 2]>,
-    /// `4 u M`, and `2^-36 M`.
-    close: f64,
-    gap: f64,
+    margins: Margins,
 }
-
-/// The least sine of an angle that is not flat.
-const FLAT: f64 = f64::from_bits((1023 - 15) << 52);
 
 impl Suspects {
     /// Starts over for coordinates up to a size.
     pub(crate) fn start(&mut self, size: f64) {
         self.pairs.clear();
-        self.gap = size * f64::from_bits((1023 - 36) << 52);
-        self.close = size * f64::from_bits((1023 - 51) << 52);
-        // Where the margins themselves lose bits nothing is clear.
-        if self.close < f64::MIN_POSITIVE {
-            (self.gap, self.close) = (f64::INFINITY, f64::INFINITY);
-        }
+        self.margins = Margins::for_size(size);
+    }
+
+    pub(crate) fn margins(&self) -> Margins {
+        self.margins
     }
 
     pub(crate) fn pairs(&self) -> &[[u32; 2]] {
@@ -48,38 +33,6 @@ impl Suspects {
 
     pub(crate) fn add(&mut self, e: u32, f: u32) {
         self.pairs.push([e, f]);
-    }
-
-    /// Whether both of two ends lie on one side of a line through an edge, clear of it, by their areas.
-    #[inline]
-    pub(crate) fn are_apart(&self, edge: Segment, ends: [Area; 2]) -> bool {
-        let margin = self.close * length_bound(edge);
-        ends.iter().all(|area| area.value - area.error > margin)
-            || ends.iter().all(|area| area.value + area.error < -margin)
-    }
-
-    /// Whether two edges cross clearly, by the areas of each one's ends against the other.
-    #[inline]
-    pub(crate) fn is_clear_crossing(
-        &self,
-        [e, f]: [Segment; 2],
-        ends_of_f: [Area; 2],
-        ends_of_e: [Area; 2],
-    ) -> bool {
-        let (of_e, of_f) = (length_bound(e), length_bound(f));
-        let far = |areas: [Area; 2], length: f64| {
-            let margin = self.gap * length;
-            let beyond = |a: Area, b: Area| a.value - a.error > margin && b.value + b.error < -margin;
-            beyond(areas[0], areas[1]) || beyond(areas[1], areas[0])
-        };
-        let steep = ends_of_f[0].value.abs() + ends_of_f[1].value.abs() > 2.0 * FLAT * of_e * of_f;
-        steep && far(ends_of_f, of_e) && far(ends_of_e, of_f)
-    }
-
-    /// Two edges of a touch or a common end, the doubled area of the triangle between them.
-    #[inline]
-    pub(crate) fn is_steep(&self, e: Segment, f: Segment, area: Area) -> bool {
-        area.value.abs() - area.error > FLAT * length_bound(e) * length_bound(f)
     }
 
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
@@ -92,16 +45,16 @@ impl Suspects {
         let edge = contacts[0].edge;
         let ring = edges.ring(edge);
         let segment = edges.segment(edge);
-        let least = self.gap / (segment[1] - segment[0]).abs().max_element();
-        let close = |a: Parameter, b: Parameter| !(b.distance_from(a) > least);
-        for pair in contacts.windows(2).filter(|pair| close(pair[0].at(), pair[1].at())) {
+        let least = self.margins.gap / (segment[1] - segment[0]).abs().max_element();
+        let far = |a: Parameter, b: Parameter| b.distance_from(a) > least;
+        for pair in contacts.windows(2).filter(|pair| !far(pair[0].at(), pair[1].at())) {
             self.add_group(edges, edge, [pair[0].partner, pair[1].partner]);
         }
         let (first, last) = (contacts[0], contacts[contacts.len() - 1]);
-        if close(Parameter::START, first.at()) && first.partner.met() != Met::Start {
+        if !far(Parameter::START, first.at()) && first.partner.met() != Met::Start {
             self.add_group(edges, edge, [first.partner, Partner::vertex(edge)]);
         }
-        if close(last.at(), Parameter::END) {
+        if !far(last.at(), Parameter::END) {
             self.add_group(edges, edge, [last.partner, Partner::vertex(ring.next(edge))]);
         }
         self.look_around(edges, ring, edge);
@@ -133,7 +86,7 @@ impl Suspects {
             let end = if t[0] == corner { t[1] } else { t[0] };
             let start = if s[0] == corner { s[1] } else { s[0] };
             let turns_back = (end - corner).dot(start - corner) > 0.0;
-            if turns_back && !self.is_steep(s, t, doubled_area(corner, start, end)) {
+            if turns_back && !self.margins.are_steep([s, t], doubled_area(corner, start, end)) {
                 self.add(edge, other);
             }
             for _ in 0..LONGEST {
@@ -141,20 +94,14 @@ impl Suspects {
                 let t = edges.segment(other);
                 let gap =
                     (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
-                if other == edge || gap > self.close {
+                if other == edge || gap > self.margins.close {
                     break;
                 }
                 let areas = |line: Segment, ends: Segment| ends.map(|p| doubled_area(line[0], line[1], p));
-                if !self.are_apart(s, areas(s, t)) && !self.are_apart(t, areas(t, s)) {
+                if !self.margins.are_apart(s, areas(s, t)) && !self.margins.are_apart(t, areas(t, s)) {
                     self.add(edge, other);
                 }
             }
         }
     }
-}
-
-/// Not less than the length, and less than 1.5 times it.
-#[inline]
-fn length_bound([a, b]: Segment) -> f64 {
-    (b.x - a.x).abs() + (b.y - a.y).abs()
 }

@@ -10,8 +10,10 @@
 //! | [`crossing_order`] | which of two crossings comes first along an edge | 4 |
 //! | [`height_order`] | which of two edges is lower at an abscissa | 3 |
 //! | [`crossing_x_order`] | does a crossing lie left of an abscissa | 3 |
+//! | [`Margins`] | do two edges cross, or not meet, whatever rounding does | 2 |
 //! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
 
+mod clear;
 mod exact;
 mod order;
 mod orient;
@@ -20,6 +22,7 @@ mod round;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use clear::{Clear, Margins};
 pub(crate) use exact::Ratio;
 pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
