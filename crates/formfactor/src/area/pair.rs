@@ -26,6 +26,9 @@ pub(super) fn mean(
     tolerance: f64,
     is_cancelled: &(impl Fn() -> bool + ?Sized),
 ) -> Option<Integral> {
+    if is_cancelled() {
+        return None;
+    }
     let pair = Pair::new(enclosure, source, target);
     if !(is_before(pair.from, pair.to) && is_before(pair.to, pair.from)) {
         return Some(Integral { value: 0.0, error: 0.0, evaluations: 0 });
