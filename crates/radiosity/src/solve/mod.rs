@@ -4,6 +4,7 @@
 //! check      refuse what has no solution: negative emission, reflectance above 1
 //! overlap    refuse patches that lie on each other
 //! mesh       patches into elements; each patch with a binary tree of pieces
+//! surfaces   patches that continue each other hide as one polygon
 //! factors    column of exact form factors from every element's centroid to one piece; kept in the state
 //! rooms      which patches light reaches, and which of them close a room
 //! shooters   which pieces shoot, how much each has shot, when one is split
@@ -48,6 +49,7 @@ mod run;
 mod shoot;
 mod shooters;
 mod state;
+mod surfaces;
 
 pub use estimate::Norm;
 pub use ledger::Ledger;
