@@ -73,6 +73,7 @@ pub use glam::DVec3;
 pub mod approx;
 
 mod area;
+mod body;
 mod complement;
 mod cubature;
 mod cull;
