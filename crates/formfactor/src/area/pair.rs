@@ -13,6 +13,9 @@ use std::sync::Arc;
 /// Evaluations after which an integral is given back as it is.
 const MOST: u64 = 1 << 22;
 
+/// A tolerance for which cells are cut at the events among occluders too.
+const FINE: f64 = 1e-8;
+
 /// A cell is cut at its events when they make at most so many cells of it, and halved otherwise: so often before anything
 /// is evaluated, lest all nodes miss what is seen.
 const MOST_CUTS: usize = 64;
@@ -119,7 +122,7 @@ impl<'e> Pair<'e> {
         let size: f64 = whole.iter().map(area).sum();
         let occluders: Vec<&PlanarPolygon> =
             self.occluders.iter().map(|i| &self.enclosure.polygons()[*i]).collect();
-        let events = events(self.from, self.to, &occluders);
+        let events = events(self.from, self.to, &occluders, tolerance < FINE);
         let all: Arc<[usize]> = self.occluders.clone().into();
         let mut sum =
             Refinement { pair: self, size, tolerance, open: BinaryHeap::new(), evaluations: 0, count: 0 };
