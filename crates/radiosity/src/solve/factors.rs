@@ -1,5 +1,6 @@
 //! Exact form factors from the elements to the pieces.
 use super::fingerprint;
+use super::hemicube::Hemicubes;
 use super::state::{Column, State};
 use super::surfaces::Surfaces;
 use crate::{Error, Scene, mesh::Subdivision};
@@ -16,6 +17,8 @@ pub(super) struct Factors<'s> {
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
     receivers: Vec<DifferentialArea>,
+    /// What takes the place of exact factors, to compare with.
+    hemicubes: Option<Hemicubes>,
     /// The mesh in `state`.
     fingerprint: u64,
     pub(super) state: &'s mut State,
@@ -42,9 +45,16 @@ impl<'s> Factors<'s> {
             subdivision,
             enclosure: Enclosure::new(polygons),
             surface_of,
+            hemicubes: None,
             fingerprint: fingerprint::of_mesh(scene, subdivision),
             state,
         })
+    }
+
+    /// Takes the factors of hemicubes instead of exact ones.
+    pub(super) fn approximate(&mut self, hemicubes: Hemicubes, resolution: u32) {
+        self.hemicubes = Some(hemicubes);
+        self.fingerprint ^= u64::from(resolution);
     }
 
     /// Whether the state knows of this scene and mesh.
@@ -85,6 +95,9 @@ impl<'s> Factors<'s> {
     /// Finds the form factors from all elements to one piece: each by itself, so threads change nothing.
     fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
         let Subdivision { mesh, nodes, flat, .. } = self.subdivision;
+        if let Some(hemicubes) = &self.hemicubes {
+            return Ok(hemicubes.column(nodes[node].elements.clone()));
+        }
         let patch = nodes[node].patch;
         if node == patch {
             let whole = |from| self.seen_from(from, patch);
