@@ -51,7 +51,7 @@ fn is_wholly_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
 
 /// The error of a piece is taken as no less than this much of that of the cell it was part of, by area: should all nodes
 /// agree by chance.
-const FALL: f64 = 1e-3;
+const FALL: f64 = 1e-2;
 
 #[derive(Debug)]
 struct Pair<'e> {
