@@ -1,8 +1,8 @@
-//! The view factors of a room, from the middle of each surface to every other: `cargo run --release -p formfactor --example room_matrix`.
+//! The view-factor matrix of a room, each surface to every other: `cargo run --release -p formfactor --example room_matrix`.
 //!
-//! A room of 4 x 3 x 2.5 with a table in it. Rows are what a point sees: each adds to 1 within the sum of the bounds, as the room
-//! is closed. They are factors from points, so that reciprocity between surfaces need not hold.
-use formfactor::{DVec3, DifferentialArea, Enclosure, Error, FormFactor, PlanarPolygon};
+//! A room of 4 x 3 x 2.5 with a table in it. The room is closed: rows add to 1 within the tolerance. Reciprocity holds to
+//! rounding, as each pair is integrated once.
+use formfactor::{Enclosure, Error, PlanarPolygon, Row};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -19,34 +19,34 @@ const SURFACES: [(&str, Corners); 8] = [
     ("under it", [[1.0, 1.0, 0.75], [1.0, 2.0, 0.75], [2.5, 2.0, 0.75], [2.5, 1.0, 0.75]]),
 ];
 
+/// What a row's sum may be off by.
+const TOLERANCE: f64 = 1e-6;
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let polygons: Result<Vec<_>, Error> =
         SURFACES.iter().map(|(_, corners)| PlanarPolygon::new([corners])).collect();
     let room = Enclosure::new(polygons?);
+    let rows = room.area_matrix(TOLERANCE, || false)?.unwrap_or_default();
     let mut table = format!("{:>9}", "from / to");
     for (name, _) in &SURFACES {
         write!(table, "{name:>10}")?;
     }
-    writeln!(table, "{:>14}{:>10}", "sum - 1", "bound")?;
-    for (id, (name, corners)) in SURFACES.iter().enumerate() {
-        let normal = room.polygons()[id].normal();
-        let from = DifferentialArea::new(middle(corners), normal)?.owned_by(id);
-        write_row(&mut table, name, &room.row(&from))?;
+    writeln!(table, "{:>14}{:>10}{:>8}", "sum - 1", "estimate", "points")?;
+    for ((name, _), row) in SURFACES.iter().zip(&rows) {
+        write_row(&mut table, name, row)?;
     }
     io::stdout().lock().write_all(table.as_bytes())?;
     Ok(())
 }
 
-fn middle(corners: &Corners) -> DVec3 {
-    corners.iter().map(|corner| DVec3::from(*corner)).sum::<DVec3>() / 4.0
-}
-
-fn write_row(table: &mut String, name: &str, row: &[FormFactor]) -> std::fmt::Result {
+fn write_row(table: &mut String, name: &str, row: &Row) -> std::fmt::Result {
     write!(table, "{name:>9}")?;
-    for factor in row {
-        write!(table, "{:>10.6}", factor.value)?;
+    for id in 0..SURFACES.len() {
+        let factor = row.iter().find(|(to, _)| *to == id).map_or(0.0, |(_, factor)| factor.value);
+        write!(table, "{factor:>10.6}")?;
     }
-    let sum: f64 = row.iter().map(|factor| factor.value).sum();
-    let bound: f64 = row.iter().map(|factor| factor.error_bound).sum();
-    writeln!(table, "{:>14.1e}{bound:>10.1e}", sum - 1.0)
+    let sum: f64 = row.iter().map(|(_, factor)| factor.value).sum();
+    let estimate: f64 = row.iter().map(|(_, factor)| factor.error_estimate).sum();
+    let points: u64 = row.iter().map(|(_, factor)| factor.evaluations).sum();
+    writeln!(table, "{:>14.1e}{estimate:>10.1e}{points:>8}", sum - 1.0)
 }

@@ -1,5 +1,6 @@
 //! Many polygons that see and hide each other.
 use crate::area::shaft::Shaft;
+use crate::body::Bodies;
 use crate::cull::Pyramid;
 use crate::exact::{by_csg, unseen};
 use crate::pool::{Buffers, Pool};
@@ -16,6 +17,7 @@ use std::cmp::Ordering;
 pub struct Enclosure {
     polygons: Vec<PlanarPolygon>,
     tree: Tree,
+    bodies: Bodies,
     /// The largest deviation of a vertex from where it stands.
     deviation: f64,
     pool: Pool,
@@ -26,7 +28,13 @@ impl Enclosure {
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
-        Self { tree: Tree::over(&polygons), polygons, deviation, pool: Pool::default() }
+        Self {
+            tree: Tree::over(&polygons),
+            bodies: Bodies::among(&polygons),
+            polygons,
+            deviation,
+            pool: Pool::default(),
+        }
     }
 
     /// The polygons, by id.
@@ -137,7 +145,7 @@ impl Enclosure {
             return unseen(from, to);
         }
         self.pool.lend(|Buffers { quick, scratch, stats }| {
-            let others = || near.iter().filter(|i| !self.is_edge_on(from, **i)).map(|i| &self.polygons[*i]);
+            let others = || near.iter().filter(|i| self.can_hide(from, **i)).map(|i| &self.polygons[*i]);
             quick::form_factor(from, to, |_| others(), quick, stats)
                 .unwrap_or_else(|| by_csg(from, to, |_| others(), scratch, stats))
         })
@@ -151,7 +159,12 @@ impl Enclosure {
         found: Vec<usize>,
     ) -> impl Iterator<Item = &PlanarPolygon> {
         let found = found.into_iter();
-        found.filter(move |i| *i != id && !self.is_edge_on(from, *i)).map(|i| &self.polygons[i])
+        found.filter(move |i| *i != id && self.can_hide(from, *i)).map(|i| &self.polygons[i])
+    }
+
+    /// Whether polygon `id` can hide anything that no other one hides: not when it is edge-on, nor on the far side of a body.
+    fn can_hide(&self, from: &DifferentialArea, id: usize) -> bool {
+        !self.is_edge_on(from, id) && !self.bodies.is_far_side(&self.polygons, from, id)
     }
 
     /// Whether polygon `id` owns `from` or lies in the plane of the one that does.

@@ -1,9 +1,11 @@
-//! Gauss's rules on [0, 1]: nodes and weights.
+//! Rules on [0, 1], nodes and weights: Gauss's, and one that looks close to the ends.
 
-pub(crate) const RULE_3: [[f64; 2]; 3] = [
-    [0.112_701_665_379_258_31, 0.277_777_777_777_777_8],
-    [0.5, 0.444_444_444_444_444_4],
-    [0.887_298_334_620_741_7, 0.277_777_777_777_777_8],
+/// Four nodes, the outer two a thousandth from the ends, right for degree 5: it sees what begins at an end.
+pub(crate) const RULE_4: [[f64; 2]; 4] = [
+    [0.001, 0.084_171_688_397_549_07],
+    [0.276_843_115_326_702_3, 0.415_828_311_602_450_93],
+    [0.723_156_884_673_297_6, 0.415_828_311_602_450_93],
+    [0.999, 0.084_171_688_397_549_07],
 ];
 
 pub(crate) const RULE_5: [[f64; 2]; 5] = [

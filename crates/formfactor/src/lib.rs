@@ -35,6 +35,8 @@
 //!
 //! # How it works
 //!
+#![doc = include_str!("../docs/stages.svg")]
+//!
 //! | stage | what it does |
 //! | --- | --- |
 //! | `horizon` | cuts off what of the target lies below dA's horizon |
@@ -45,6 +47,29 @@
 //!
 //! The plane's coordinates are two of the three in space, so that a target's vertices keep theirs bit for bit and a shadow
 //! that is representable is cast exactly. No tolerance decides anything.
+//!
+//! **What is not needed is not done.** Before all that a route in plain doubles (`quick`) takes a convex target and convex
+//! occluders as cones from dA and clips edges against cones; every sign comes with a bound on its error, and where one is
+//! open the stages above decide. Occluders in the shadow of another one are dropped, and so is the far side of closed
+//! convex bodies. An [`Enclosure`] finds occluders in a tree of boxes; [`Stats`] tells what was left out.
+//!
+//! **Cancelling.** The contour's terms cancel for small, far and sliver targets, down to nothing: an unoccluded target whose
+//! sum is known to less than 1e-13 of itself is integrated instead (`cubature`), all terms positive, with a bound on the rule.
+//!
+//! **From area to area**, [`Enclosure::area_form_factor`] is the mean of point form factors: a double contour integral where
+//! nothing stands in between, and else a cubature on cells cut along the lines where the view changes its shape, with an
+//! estimate of its error.
+//!
+//! # Conventions and limits
+//!
+//! * *Sign.* With R_k the vertices relative to dA, counter-clockwise seen from the target's front, which faces dA,
+//!   2 pi F = sum of beta_k N . (R_{k+1} x R_k) / |R_{k+1} x R_k|. Seen along the target's normal the order turns round, and
+//!   with it the sign: sources that write R_k x R_{k+1} mean loops that are clockwise from the front.
+//! * *Horizon.* The sum is right for what lies above the horizon only: below it cos(theta) is negative and would be
+//!   subtracted. An edge along the horizon contributes its angle, as N . n = 1.
+//! * *An edge seen end-on* spans no angle and adds nothing. An edge through dA has no plane: the bound is then 1.
+//! * *dA on the target's plane* sees 0; just before a point inside the target it sees 1, or 1/2 before an edge: F jumps
+//!   there. Values at the vertices of a mesh are limits from one side, or interpolated.
 //!
 //! # The error bound
 //!
@@ -65,14 +90,18 @@
 //!
 //! [`approx`] has the methods that sample, from disks to hemicubes and rays, behind one trait.
 //!
+//! With the feature `rayon` rows and matrices between areas are found by all threads, with the same result for any number.
+//!
 //! Sources: Barreto, *Cálculo do Fator-de-Forma exato entre Áreas Diferencial e Finita Usando CSG* (2008), for the method;
-//! Lambert (1760) for the contour formula.
+//! Lambert (1760) for the contour formula; Stark and Riesenfeld (2000) for tracing visible edges; Sparrow (1963) for the double
+//! contour integral.
 pub use glam;
 pub use glam::DVec3;
 
 pub mod approx;
 
 mod area;
+mod body;
 mod complement;
 mod cubature;
 mod cull;

@@ -37,13 +37,13 @@ fn blockers_between_squares() {
 
 /// A source, a receiver, and an obstructor that shares a vertex with the source: View3D answers 1.31.
 fn three_triangles() -> Enclosure {
-    let (v1, v2) = ([2217.833_008, 1_853.818_848, 0.0], [2217.506_348, 1_853.365_601, 0.0]);
-    let v3 = [2217.833_008, 1_853.818_848, 66.900_002];
-    let v4 = [2218.230_957, 1_854.916_382, 0.0];
-    let v5 = [2218.230_957, 1_854.916_382, 66.900_002];
-    let v6 = [2201.107_910, 1_845.251_709, 66.900_002];
-    let v7 = [2217.864_990, 1_854.129_883, 0.0];
-    let v9 = [2217.864_990, 1_854.129_883, 66.900_002];
+    let (v1, v2) = ([2_217.833_008, 1_853.818_848, 0.0], [2_217.506_348, 1_853.365_601, 0.0]);
+    let v3 = [2_217.833_008, 1_853.818_848, 66.900_002];
+    let v4 = [2_218.230_957, 1_854.916_382, 0.0];
+    let v5 = [2_218.230_957, 1_854.916_382, 66.900_002];
+    let v6 = [2_201.107_910, 1_845.251_709, 66.900_002];
+    let v7 = [2_217.864_990, 1_854.129_883, 0.0];
+    let v9 = [2_217.864_990, 1_854.129_883, 66.900_002];
     let triangle = |corners: [[f64; 3]; 3]| PlanarPolygon::new([corners]).unwrap();
     Enclosure::new(vec![triangle([v1, v2, v3]), triangle([v4, v5, v6]), triangle([v7, v1, v9])])
 }
@@ -54,4 +54,176 @@ fn three_triangles_are_seen_as_by_rays() {
     println!("{found:?}");
     // 40 million rays: 0.753721 +- 0.000068.
     assert!((found.value - 0.753_721).abs() <= 3.0 * 0.000_068 && found.error_estimate <= 1e-9, "{found:?}");
+}
+
+/// The Cornell box, closed by a front wall, the blocks' footprints cut out of the floor and the lamp out of the ceiling.
+fn cornell_box() -> Enclosure {
+    let lamp = [[343.0, 548.8, 227.0], [343.0, 548.8, 332.0], [213.0, 548.8, 332.0], [213.0, 548.8, 227.0]];
+    let short = [[130.0, 65.0], [82.0, 225.0], [240.0, 272.0], [290.0, 114.0]];
+    let tall = [[423.0, 247.0], [265.0, 296.0], [314.0, 456.0], [472.0, 406.0]];
+    let at = |[x, z]: [f64; 2], y: f64| [x, y, z];
+    let level = |corners: [[f64; 2]; 4], y: f64| corners.map(|c| at(c, y)).to_vec();
+    let floor = [[552.8, 0.0], [0.0, 0.0], [0.0, 559.2], [549.6, 559.2]];
+    let ceiling = [[556.0, 0.0], [556.0, 559.2], [0.0, 559.2], [0.0, 0.0]];
+    let wall = |i: usize, j: usize| {
+        vec![vec![
+            at(floor[i], 0.0),
+            at(floor[j], 0.0),
+            at(ceiling[(4 - j) % 4], 548.8),
+            at(ceiling[(4 - i) % 4], 548.8),
+        ]]
+    };
+    let mut loops = vec![
+        vec![level(floor, 0.0), level(short, 0.0), level(tall, 0.0)],
+        vec![level(ceiling, 548.8), lamp.to_vec()],
+        vec![lamp.to_vec()],
+        wall(1, 0),
+        wall(2, 1),
+        wall(3, 2),
+        // Not planar: in two triangles.
+        vec![vec![at(floor[0], 0.0), at(floor[3], 0.0), at(ceiling[1], 548.8)]],
+        vec![vec![at(floor[0], 0.0), at(ceiling[1], 548.8), at(ceiling[0], 548.8)]],
+    ];
+    for (base, height) in [(short, 165.0), (tall, 330.0)] {
+        loops.push(vec![level(base, height)]);
+        for i in 0..4 {
+            let j = (i + 1) % 4;
+            loops.push(vec![vec![
+                at(base[j], 0.0),
+                at(base[j], height),
+                at(base[i], height),
+                at(base[i], 0.0),
+            ]]);
+        }
+    }
+    Enclosure::new(loops.into_iter().map(|l| PlanarPolygon::new(l).unwrap()).collect())
+}
+
+#[test]
+fn the_cornell_box_closes_within_the_tolerance() {
+    let tolerance = 1e-3;
+    let rows = cornell_box().area_matrix(tolerance, || false).unwrap().unwrap();
+    for (id, row) in rows.iter().enumerate() {
+        let sum: f64 = row.iter().map(|(_, factor)| factor.value).sum();
+        assert!((sum - 1.0).abs() <= tolerance, "row {id} adds to {sum}");
+    }
+}
+
+#[test]
+fn from_the_cornell_boxs_lamp_all_is_seen_once() {
+    let (room, tolerance) = (cornell_box(), 1e-5);
+    let sum: f64 = room.area_row(2, tolerance).unwrap().iter().map(|(_, factor)| factor.value).sum();
+    assert!((sum - 1.0).abs() <= tolerance, "{sum}");
+}
+
+#[test]
+fn reciprocity_holds() {
+    let room = cornell_box();
+    let areas: Vec<f64> = room.polygons().iter().map(PlanarPolygon::area).collect();
+    for (i, j) in [(0, 3), (1, 9), (2, 12), (8, 4)] {
+        let [forth, back] = [(i, j), (j, i)].map(|(i, j)| room.area_form_factor(i, j, 1e-3).unwrap().value);
+        assert!((areas[i] * forth - areas[j] * back).abs() <= 1e-14 * areas[i] * forth, "{i} and {j}");
+    }
+}
+
+/// What a closed form of the file gives.
+fn closed_form(id: &str) -> f64 {
+    let data: serde_json::Value = serde_json::from_str(include_str!("data/closed_forms.json")).unwrap();
+    let forms = data["closed_forms"].as_array().unwrap();
+    let form = forms.iter().find(|f| f["id"] == id).unwrap_or_else(|| panic!("no closed form {id}"));
+    let value: f64 = form["value"].as_str().unwrap().parse().unwrap();
+    if form["gives"] == "complement" { 1.0 - value } else { value }
+}
+
+fn above(x: [f64; 2], y: [f64; 2], z: f64) -> Enclosure {
+    Enclosure::new(vec![rectangle(UNIT, UNIT, 0.0), turned(&rectangle(x, y, z))])
+}
+
+#[test]
+fn closed_forms_hold() {
+    let standing = |width: f64, height: f64| {
+        let wall = [[0.0, 0.0, 0.0], [width, 0.0, 0.0], [width, 0.0, height], [0.0, 0.0, height]];
+        let wall = PlanarPolygon::new([wall]).unwrap();
+        let wall = if wall.normal().y > 0.0 { wall } else { turned(&wall) };
+        Enclosure::new(vec![rectangle([0.0, width], UNIT, 0.0), wall])
+    };
+    // C-11 and C-14 are given for sides relative to the gap and to the common edge.
+    let parallel = Enclosure::new(vec![
+        rectangle([0.0, 2.0], [0.0, 3.0], 0.0),
+        turned(&rectangle([0.0, 2.0], [0.0, 3.0], 1.0)),
+    ]);
+    let cases = [
+        ("AA-par-1-1", above(UNIT, UNIT, 1.0)),
+        ("AA-par-2-3", parallel),
+        ("AA-par-gap-1e-1", above(UNIT, UNIT, 0.1)),
+        ("AA-par-gap-1e-3", above(UNIT, UNIT, 1e-3)),
+        ("AA-par-gap-1e-6", above(UNIT, UNIT, 1e-6)),
+        ("AA-par-gap-1e1", above(UNIT, UNIT, 10.0)),
+        ("AA-perp-1-1", standing(1.0, 1.0)),
+        ("AA-C13 offset", above([2.0, 3.0], [1.0, 3.0], 1.0)),
+    ];
+    for (id, enclosure) in cases {
+        let found = enclosure.area_form_factor(0, 1, 1e-12).unwrap();
+        assert!((found.value - closed_form(id)).abs() <= 1e-12, "{id}: {found:?}");
+    }
+}
+
+#[test]
+fn far_squares_keep_their_digits() {
+    let cases = [
+        ("AA-par-gap-1e3", above(UNIT, UNIT, 1e3)),
+        ("AA-par-gap-1e6", above(UNIT, UNIT, 1e6)),
+        ("AA-C13 far offset 1e3", above([1000.0, 1001.0], [1000.0, 1001.0], 1.0)),
+    ];
+    for (id, enclosure) in cases {
+        let expected = closed_form(id);
+        let found = enclosure.area_form_factor(0, 1, 1e-10 * expected).unwrap();
+        assert!((found.value - expected).abs() <= 1e-10 * expected, "{id}: {found:?} is not {expected:e}");
+    }
+}
+
+#[test]
+fn what_turns_its_back_is_not_seen() {
+    let back = Enclosure::new(vec![rectangle(UNIT, UNIT, 0.0), rectangle(UNIT, UNIT, 1.0)]);
+    assert_eq!(back.area_form_factor(0, 1, 1e-6).unwrap(), AreaFormFactor::default());
+    assert_eq!(back.area_form_factor(0, 0, 1e-6).unwrap(), AreaFormFactor::default());
+    assert!(back.area_row(0, 1e-6).unwrap().is_empty());
+}
+
+#[test]
+fn a_bad_tolerance_is_refused_and_a_cancelled_matrix_is_none() {
+    for tolerance in [0.0, -1.0, f64::NAN] {
+        assert_eq!(squares(None).area_form_factor(0, 1, tolerance), Err(Error::BadTolerance));
+    }
+    let room = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));
+    assert_eq!(room.area_matrix(1e-9, || true), Ok(None));
+}
+
+#[test]
+fn many_points_see_what_each_sees() {
+    let room = cornell_box();
+    let points: Vec<DifferentialArea> = (0..25u32)
+        .map(|i| DVec3::new(250.0 + f64::from(i % 5), 0.0, 30.0 + 4.0 * f64::from(i / 5)))
+        .map(|p| DifferentialArea::new(p, DVec3::Y).unwrap().owned_by(0))
+        .collect();
+    for id in 0..room.polygons().len() {
+        for (from, found) in points.iter().zip(room.form_factors(&points, id)) {
+            let alone = room.form_factor(from, id);
+            let allowed = alone.error_bound + found.error_bound;
+            assert!((found.value - alone.value).abs() <= allowed, "{id}: {found:?} is not {alone:?}");
+        }
+    }
+}
+
+/// With the feature `rayon` pairs go to threads in any order: each is a function of its own input alone.
+#[test]
+fn a_matrix_is_its_pairs_bit_for_bit() {
+    let room = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));
+    let rows = room.area_matrix(3e-4, || false).unwrap().unwrap();
+    for (from, row) in rows.iter().enumerate() {
+        assert_eq!(*row, room.area_row(from, 3e-4).unwrap());
+        for (to, factor) in row {
+            assert_eq!(*factor, room.area_form_factor(from, *to, 1e-4).unwrap());
+        }
+    }
 }

@@ -75,3 +75,38 @@ fn counts_add_up() {
     assert_eq!((sum.partial, sum.total, sum.looked_at), (1, 1, a.looked_at + b.looked_at));
     assert_eq!(sum, a + b);
 }
+
+/// The faces of a box, fronts outward.
+fn cuboid(low: DVec3, high: DVec3) -> Vec<PlanarPolygon> {
+    let corner = |i: usize| {
+        let pick = |bit: usize, axis: usize| if i & bit == 0 { low[axis] } else { high[axis] };
+        DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2))
+    };
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    faces.iter().map(|face| PlanarPolygon::new([face.map(corner)]).unwrap()).collect()
+}
+
+#[test]
+fn of_a_closed_body_only_the_near_side_is_looked_at() {
+    let solid = cuboid(DVec3::new(-0.3, -0.2, 0.8), DVec3::new(-0.1, 0.1, 1.2));
+    // dA sees its underside and one of its sides.
+    let near: Vec<PlanarPolygon> = [0, 5].map(|i| solid[i].clone()).to_vec();
+    let polygons =
+        |occluders: Vec<PlanarPolygon>| Enclosure::new([vec![square(1.0, 2.0)], occluders].concat());
+    let from = DifferentialArea::new(DVec3::new(0.05, 0.02, 0.0), DVec3::Z).unwrap();
+    let (whole, stats) = polygons(solid.clone()).form_factor_with_stats(&from, 0);
+    let (silhouette, near) = polygons(near).form_factor_with_stats(&from, 0);
+    assert_eq!(whole, silhouette);
+    assert_eq!((stats.looked_at, stats.csg_edges, near.looked_at), (2, 0, 2));
+    // With a hole in it it is no body: the far side counts.
+    let open = polygons(solid[..5].to_vec()).form_factor_with_stats(&from, 0);
+    assert_eq!(open.1.looked_at, 5);
+}
+
+#[test]
+fn from_inside_a_body_its_walls_hide() {
+    let solid = cuboid(DVec3::new(-0.3, -0.2, -0.5), DVec3::new(0.3, 0.3, 1.2));
+    let from = DifferentialArea::new(DVec3::new(0.05, 0.02, 0.0), DVec3::Z).unwrap();
+    let polygons = [vec![square(1.0, 2.0)], solid].concat();
+    assert_eq!(Enclosure::new(polygons).form_factor(&from, 0).value, 0.0);
+}

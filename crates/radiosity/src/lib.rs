@@ -4,6 +4,29 @@
 //! [`solve()`] cuts the patches into triangular elements ([`Mesh`]) and shoots light until almost none is left
 //! unshot; the [`Solution`] holds the radiosity of every element, an energy ledger and a bound on the
 //! algebraic error.
+//!
+//! ```no_run
+//! use radiosity::{Options, Record, io::Source, solve};
+//! use std::ops::ControlFlow;
+//!
+//! let scene = Source::open("room.glb")?.scene()?;
+//! let solution = solve(&scene, &Options::default(), |progress| {
+//!     eprintln!("{:.1e} unshot", progress.unshot);
+//!     ControlFlow::Continue(())
+//! })?;
+//! println!("error of every radiosity at most {:?} W/m²", solution.bound);
+//! let record = Record::new("room.glb", &scene, &solution);
+//! let page = radiosity::viewer::page(&record, record.exposure());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | what | where |
+//! | --- | --- |
+//! | scene files in, results out | [`io`]: COLLADA, glTF, View3D |
+//! | what is wrong with a scene, and its mend | [`inspect`], [`mend()`] |
+//! | the scenes of the literature | [`scenes`] |
+//! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
+//! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
 pub use formfactor;
 pub use glam;
 

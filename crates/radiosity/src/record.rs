@@ -1,6 +1,8 @@
 //! A solution as it is written: all that pictures, pages and tables need, apart from the scene's own file.
 use crate::expose::{Exposure, rgb};
-use crate::{Asset, Camera, Element, Mesh, Patch, Scene, Solution};
+use crate::io::fetch;
+use crate::picture::Paint;
+use crate::{Asset, Camera, Element, Image, Mesh, Patch, Scene, Solution};
 use base64::Engine;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -60,6 +62,8 @@ pub struct PatchRecord {
     pub radiosity: Vec<f64>,
     /// Index of its picture.
     pub picture: Option<usize>,
+    /// What the picture's colours are multiplied by.
+    pub tint: [f64; 3],
 }
 
 impl Record {
@@ -87,6 +91,7 @@ impl Record {
                     irradiance,
                     radiosity,
                     picture: numbers.get(&index).copied(),
+                    tint: patch.texture.as_ref().map_or([1.0; 3], |texture| texture.factor),
                 })
                 .collect(),
             vertices: mesh.vertices.clone(),
@@ -162,6 +167,39 @@ impl Record {
         rgb(&self.vertex_radiosity, self.bands)
     }
 
+    /// The bytes of a PNG, as [`draw`](crate::picture::draw) draws it; pictures on patches are shown under the light that
+    /// falls on them, unless they cannot be read any more.
+    #[must_use]
+    pub fn draw(&self, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
+        let pictures: Vec<Option<Image>> =
+            self.pictures.iter().map(|address| fetch(address, None).ok()).collect();
+        let shown = |patch: &PatchRecord| pictures[patch.picture?].as_ref();
+        let images: Vec<Option<&Image>> = self.patches.iter().map(shown).collect();
+        let (mut light, under) = (self.colours(), self.under_pictures());
+        for &[_, a, b, c] in self.elements.iter().filter(|element| images[element[0]].is_some()) {
+            for corner in [a, b, c] {
+                light[corner] = under[corner];
+            }
+        }
+        let paint = Paint { mesh: &self.mesh(), light: &light, places: &self.places, images: &images };
+        crate::picture::paint(&paint, camera, exposure, width)
+    }
+
+    /// What a picture's colours are multiplied with at every vertex: the irradiance times the patch's tint.
+    pub(crate) fn under_pictures(&self) -> Vec<[f64; 3]> {
+        let mut light = rgb(&self.vertex_irradiance, self.bands);
+        let mut tinted = vec![false; light.len()];
+        for &[patch, a, b, c] in &self.elements {
+            let tint = self.patches[patch].tint;
+            for corner in [a, b, c] {
+                if !std::mem::replace(&mut tinted[corner], true) {
+                    light[corner] = std::array::from_fn(|band| tint[band] * light[corner][band]);
+                }
+            }
+        }
+        light
+    }
+
     /// The exposure that suits the light; see [`Exposure::automatic`].
     #[must_use]
     pub fn exposure(&self) -> Exposure {
@@ -197,7 +235,7 @@ fn indices(element: Element) -> [usize; 4] {
 /// Every picture once, and which of them each patch shows.
 fn pictures(scene: &Scene) -> (Vec<String>, BTreeMap<usize, usize>) {
     let (mut pictures, mut numbers) = (Vec::new(), BTreeMap::new());
-    let mut known: BTreeMap<*const crate::Image, usize> = BTreeMap::new();
+    let mut known: BTreeMap<*const Image, usize> = BTreeMap::new();
     let shown = |patch: &Patch| patch.texture.as_ref().map(|texture| texture.image.clone());
     for (index, image) in scene.patches.iter().enumerate().filter_map(|(i, patch)| Some((i, shown(patch)?))) {
         let number = *known.entry(std::sync::Arc::as_ptr(&image)).or_insert_with(|| {

@@ -1,7 +1,8 @@
 //! Where on a polygon the view of another one changes its shape: lines along which a form factor from a point has kinks.
 //!
 //! From there a vertex of the target lies behind an edge of an occluder, or an edge of the target behind a vertex of one; or
-//! the target turns from its front to its back. Kinks that three edges make together are curved and left to refinement.
+//! the target turns from its front to its back; or an occluder's vertex lies behind another one's edge, which may open or
+//! close a slit. Kinks that three edges make together are curved and left to refinement.
 use crate::PlanarPolygon;
 use glam::{DVec2, DVec3};
 
@@ -11,28 +12,39 @@ const MOST: usize = 1 << 14;
 /// A segment in the source's two kept coordinates.
 pub(super) type Event = [DVec2; 2];
 
-/// The events on `source` of its view of `target` past `occluders`.
+/// The events on `source` of its view of `target` past `occluders`; those among the occluders where they are asked for.
 pub(super) fn events(
     source: &PlanarPolygon,
     target: &PlanarPolygon,
     occluders: &[&PlanarPolygon],
+    is_fine: bool,
 ) -> Vec<Event> {
     let vertices: usize = occluders.iter().map(|o| o.points().len()).sum();
     let mut found = turn(source, target);
-    if 2 * vertices * target.points().len() > MOST {
-        return found;
+    if 2 * vertices * target.points().len() <= MOST {
+        found.extend(occluders.iter().flat_map(|occluder| between(source, target, occluder)));
     }
-    for occluder in occluders {
-        for (a, b) in occluder.edges() {
-            found.extend(target.points().iter().filter_map(|t| shadow(source, [*t, *t], [a, b])));
-        }
-        for (s, t) in target.edges() {
-            found.extend(occluder.points().iter().filter_map(|a| shadow(source, [s, t], [*a, *a])));
+    if is_fine && vertices * vertices <= MOST {
+        let apart = |one: &PlanarPolygon, other: &PlanarPolygon| {
+            one.points().iter().all(|p| !other.points().contains(p))
+        };
+        for (i, one) in occluders.iter().enumerate() {
+            let others = occluders[..i].iter().filter(|other| apart(one, other));
+            found.extend(
+                others.flat_map(|other| [between(source, one, other), between(source, other, one)].concat()),
+            );
         }
     }
     found.sort_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
     found.dedup();
     found
+}
+
+/// Where vertices of one polygon are seen behind edges of a nearer one, or the other way round.
+fn between(source: &PlanarPolygon, far: &PlanarPolygon, near: &PlanarPolygon) -> Vec<Event> {
+    let vertices = far.points().iter().flat_map(|t| near.edges().map(|(a, b)| ([*t, *t], [a, b])));
+    let edges = far.edges().flat_map(|(s, t)| near.points().iter().map(move |a| ([s, t], [*a, *a])));
+    vertices.chain(edges).filter_map(|(from, through)| shadow(source, from, through)).collect()
 }
 
 fn key([a, b]: &Event) -> [f64; 4] {

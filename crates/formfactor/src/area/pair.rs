@@ -13,11 +13,13 @@ use std::sync::Arc;
 /// Evaluations after which an integral is given back as it is.
 const MOST: u64 = 1 << 22;
 
-/// A tolerance from which cells are cut at the events before anything is evaluated.
-const FINE: f64 = 1e-6;
+/// A tolerance for which cells are cut at the events among occluders too.
+const FINE: f64 = 1e-8;
 
-/// A cell is cut at its events when they make at most so many cells of it, and halved otherwise.
+/// A cell is cut at its events when they make at most so many cells of it, and halved otherwise: so often before anything
+/// is evaluated, lest all nodes miss what is seen.
 const MOST_CUTS: usize = 64;
+const BLIND_HALVINGS: u32 = 4;
 
 /// The integral over polygon `source` of the form factor to polygon `target`, by the source's area; `None` when
 /// `is_cancelled` says so.
@@ -27,6 +29,9 @@ pub(super) fn mean(
     tolerance: f64,
     is_cancelled: &(impl Fn() -> bool + ?Sized),
 ) -> Option<Integral> {
+    if is_cancelled() {
+        return None;
+    }
     let pair = Pair::new(enclosure, source, target);
     if !(is_before(pair.from, pair.to) && is_before(pair.to, pair.from)) {
         return Some(Integral { value: 0.0, error: 0.0, evaluations: 0 });
@@ -43,6 +48,10 @@ fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
 fn is_wholly_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
     polygon.points().iter().all(|p| other.plane().side_of(*p) != Ordering::Less)
 }
+
+/// The error of a piece is taken as no less than this much of that of the cell it was part of, by area: should all nodes
+/// agree by chance.
+const FALL: f64 = 1e-2;
 
 #[derive(Debug)]
 struct Pair<'e> {
@@ -61,7 +70,8 @@ struct Open {
     cell: Cell,
     found: Integral,
     occluders: Arc<[usize]>,
-    is_cut: bool,
+    /// Whether no event passes through it.
+    is_smooth: bool,
     number: usize,
 }
 
@@ -112,14 +122,16 @@ impl<'e> Pair<'e> {
         let size: f64 = whole.iter().map(area).sum();
         let occluders: Vec<&PlanarPolygon> =
             self.occluders.iter().map(|i| &self.enclosure.polygons()[*i]).collect();
-        let events = events(self.from, self.to, &occluders);
+        let events = events(self.from, self.to, &occluders, tolerance < FINE);
         let all: Arc<[usize]> = self.occluders.clone().into();
         let mut sum =
             Refinement { pair: self, size, tolerance, open: BinaryHeap::new(), evaluations: 0, count: 0 };
-        for cell in whole {
-            match cut_at(cell, &events).filter(|_| tolerance <= FINE) {
-                Some(pieces) => pieces.into_iter().for_each(|piece| sum.add(piece, &all, true)),
-                None => sum.add(cell, &all, false),
+        let mut coarse: Vec<(Cell, u32)> = whole.into_iter().map(|cell| (cell, BLIND_HALVINGS)).collect();
+        while let Some((cell, halvings)) = coarse.pop() {
+            match cut_at(cell, &events) {
+                Some(pieces) => pieces.into_iter().for_each(|piece| sum.add(piece, &all, true, 0.0)),
+                None if halvings > 0 => coarse.extend(halves(cell).map(|half| (half, halvings - 1))),
+                None => sum.add(cell, &all, false, 0.0),
             }
         }
         sum.refine(&events, is_cancelled)
@@ -153,15 +165,16 @@ struct Refinement<'p, 'e> {
 }
 
 impl Refinement<'_, '_> {
-    fn add(&mut self, cell: Cell, occluders: &Arc<[usize]>, is_cut: bool) {
+    /// Integrates over a cell whose error is at least `least`.
+    fn add(&mut self, cell: Cell, occluders: &Arc<[usize]>, is_smooth: bool, least: f64) {
         let occluders = self.pair.between(&cell, occluders);
         let share = self.tolerance * area(&cell).abs() / 2.0;
-        let mut found = integrate(&cell, share, |point| self.pair.point_factor(point, &occluders));
+        let mut found = integrate(&cell, share, is_smooth, |point| self.pair.point_factor(point, &occluders));
         found.value /= self.size;
-        found.error /= self.size;
+        found.error = (found.error / self.size).max(least);
         self.evaluations += found.evaluations;
         self.count += 1;
-        self.open.push(Open { cell, found, occluders, is_cut, number: self.count });
+        self.open.push(Open { cell, found, occluders, is_smooth, number: self.count });
     }
 
     fn refine(mut self, events: &[Event], is_cancelled: &(impl Fn() -> bool + ?Sized)) -> Option<Integral> {
@@ -170,10 +183,14 @@ impl Refinement<'_, '_> {
                 return None;
             }
             let Some(worst) = self.open.pop() else { break };
-            let pieces = if worst.is_cut { None } else { cut_at(worst.cell, events) };
-            let is_cut = worst.is_cut || pieces.is_some();
-            for piece in pieces.unwrap_or_else(|| halves(worst.cell).to_vec()) {
-                self.add(piece, &worst.occluders, is_cut);
+            let Open { cell, found, occluders, is_smooth, .. } = worst;
+            for half in halves(cell) {
+                let pieces = cut_at(half, events).filter(|_| !is_smooth);
+                let is_smooth = is_smooth || pieces.is_some();
+                for piece in pieces.unwrap_or_else(|| vec![half]) {
+                    let share = area(&piece).abs() / area(&cell).abs();
+                    self.add(piece, &occluders, is_smooth, FALL * share * found.error);
+                }
             }
         }
         let (error, evaluations) = (self.error(), self.evaluations);
@@ -193,7 +210,7 @@ impl Refinement<'_, '_> {
     }
 }
 
-/// A cell cut at all events that pass through it; `None` when there are none or too many.
+/// A cell cut at all events that pass through it; `None` when they are too many.
 fn cut_at(cell: Cell, events: &[Event]) -> Option<Vec<Cell>> {
     let mut pieces = vec![cell];
     for event in events {
@@ -203,5 +220,5 @@ fn cut_at(cell: Cell, events: &[Event]) -> Option<Vec<Cell>> {
             return None;
         }
     }
-    (pieces.len() > 1).then_some(pieces)
+    Some(pieces)
 }

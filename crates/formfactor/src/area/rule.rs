@@ -1,6 +1,6 @@
 //! Products of Gauss's rules on a cell, one finer than the other, and what they say of their error.
 use super::cell::Cell;
-use crate::gauss::{RULE_3, RULE_5, RULE_8, RULE_11};
+use crate::gauss::{RULE_4, RULE_5, RULE_8, RULE_11};
 use glam::DVec2;
 
 /// An integral, an estimate of its error, and how many values of the integrand it took.
@@ -11,37 +11,37 @@ pub(super) struct Integral {
     pub(super) evaluations: u64,
 }
 
-/// A smooth integrand's error falls by a power of the number of nodes. The estimate takes this many times what is left of
-/// it by that law.
-const CAUTION: f64 = 10.0;
-
-/// The integral over a cell: rules of 3, 5, 8 and 11 nodes a side until the error seems to be within `tolerance`, or
-/// falls too slowly for the next one to help.
+/// The integral over a cell: rules of 4, 5, 8 and 11 nodes a side until the error seems to be within `tolerance`, or
+/// falls too slowly for the next one to help. The first one looks close to the cell's sides, for what is seen only there.
 ///
-/// With errors e and e' of the two rules before the last, both seen from it, the last one's is e' (e' / e)^p, where p is how
-/// many times further the last step goes than the one before. Two rules alone say that the error of the second is
-/// below their difference.
-pub(super) fn integrate(cell: &Cell, tolerance: f64, mut f: impl FnMut(DVec2) -> f64) -> Integral {
+/// A rule errs by less than it differs from the one before. Where the integrand is smooth the differences fall by a factor
+/// from rule to rule, and the last one's error is the last difference times that factor: ten times that is taken, when
+/// both of the last two factors are below a tenth. One small difference alone may be chance: it counts as no less than a
+/// hundredth of the one before. Where there may be kinks no law is relied upon.
+pub(super) fn integrate(
+    cell: &Cell,
+    tolerance: f64,
+    is_smooth: bool,
+    mut f: impl FnMut(DVec2) -> f64,
+) -> Integral {
     let mut sum = |rule: &[[f64; 2]]| over(cell, rule, &mut f);
-    let (first, second) = (sum(&RULE_3), sum(&RULE_5));
-    let mut found = Integral { value: second, error: (second - first).abs(), evaluations: 34 };
-    if found.error <= tolerance {
-        return found;
+    let (first, second) = (sum(&RULE_4), sum(&RULE_5));
+    let coarse = (second - first).abs();
+    if coarse <= tolerance && is_smooth {
+        return Integral { value: second, error: coarse, evaluations: 41 };
     }
     let third = sum(&RULE_8);
-    found = Integral { value: third, error: left([first, second, third], 1.5), evaluations: 98 };
-    let falls = (third - second).abs() < 0.3 * (second - first).abs();
+    let middle = (third - second).abs();
+    let (seen, falls) =
+        if is_smooth { (0.01 * coarse, middle < 0.1 * coarse) } else { (0.25 * coarse, false) };
+    let found = Integral { value: third, error: middle.max(seen), evaluations: 105 };
     if found.error <= tolerance || !falls {
         return found;
     }
     let fourth = sum(&RULE_11);
-    Integral { value: fourth, error: left([second, third, fourth], 1.0), evaluations: 219 }
-}
-
-/// What is left of the error after the last of three rules.
-fn left([first, second, last]: [f64; 3], power: f64) -> f64 {
-    let (before, after) = ((last - first).abs(), (last - second).abs());
-    if after >= before { after } else { after * (CAUTION * (after / before).powf(power)).min(1.0) }
+    let fine = (fourth - third).abs().max(1e-4 * middle);
+    let left = if fine < 0.1 * middle { (10.0 * fine / middle).max(1e-3) } else { 1.0 };
+    Integral { value: fourth, error: left * fine, evaluations: 226 }
 }
 
 /// The product of a rule with itself on the bilinear image of the unit square.

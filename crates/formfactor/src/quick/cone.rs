@@ -27,6 +27,8 @@ pub(super) struct Edge {
     reach: f64,
     /// (|start| + |along|) |along|, in sums of components: no direction turns faster than by this over |inward|.
     pub(super) spread: f64,
+    /// What makes dot products of directions to it at most 1: the inverse square of the larger size.
+    pub(super) scale: f64,
 }
 
 /// A component of `inward` has the terms |along_j start_k| + |along_k start_j|. Rounding of both factors, the product and
@@ -60,6 +62,7 @@ impl Edge {
             error: doubt.element_sum(),
             reach,
             spread,
+            scale: 1.0 / (reach * reach),
         }
     }
 

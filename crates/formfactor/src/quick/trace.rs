@@ -1,6 +1,6 @@
 //! What is left of every edge: the visible boundary, piece by piece.
 use super::cone::{Cones, Edge, Extent, Frame};
-use super::contour::Sum;
+use super::contour::{Parts, Sum};
 use super::held::{Held, held};
 use super::near::Neighbours;
 use super::sieve::Target;
@@ -105,7 +105,9 @@ fn trace(
     if spans.is_empty() && whole == Span::WHOLE {
         sum.add_whole(edge, &line);
     } else {
-        for_each_gap(whole, spans, |gap| sum.add_part(edge, &line, gap));
+        let mut parts = Parts::default();
+        for_each_gap(whole, spans, |gap| sum.add_part(edge, &line, gap, &mut parts));
+        sum.add_parts(edge, &line, parts);
     }
     Some(())
 }

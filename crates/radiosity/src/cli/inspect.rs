@@ -64,11 +64,10 @@ fn text(inspection: &Inspection) -> String {
         ),
     );
     for finding in &inspection.findings {
-        let kind = json::word(&finding.kind);
-        line(
-            "finding",
-            format!("{kind}: {}: {}; mend: {}", finding.patches.join(", "), finding.what, finding.mend),
-        );
+        let who = finding.patches.join(", ");
+        let gap = if who.is_empty() { "" } else { ": " };
+        let (kind, what, mend) = (json::word(&finding.kind), &finding.what, &finding.mend);
+        line("finding", format!("{kind}: {who}{gap}{what}; mend: {mend}"));
     }
     line("findings", inspection.findings.len().to_string());
     text

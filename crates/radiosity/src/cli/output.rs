@@ -1,7 +1,7 @@
 //! Results to files, by extension, and data to stdout.
 use super::{Failure, json, look::Look};
 use radiosity::io::{self, Source, gltf};
-use radiosity::{Record, Scene, element_table, patch_table, picture, viewer};
+use radiosity::{Record, Scene, element_table, patch_table, viewer};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -79,7 +79,7 @@ impl Findings<'_> {
     fn picture(&self) -> Result<Vec<u8>, Failure> {
         let (record, look) = (self.record, self.look);
         let camera = look.camera(record)?;
-        Ok(picture::draw(&record.mesh(), &record.colours(), &camera, look.exposure(record), look.width))
+        Ok(record.draw(&camera, look.exposure(record), look.width))
     }
 
     /// The scene's own COLLADA with the unscaled radiosity at the vertices.

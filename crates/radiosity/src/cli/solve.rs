@@ -43,6 +43,9 @@ pub(super) struct Solve {
     /// Split a shooter while it deviates from a uniform one by more than this share of all power [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = super::positive)]
     pub(super) spread: Option<f64>,
+    /// Take form factors from hemicubes of N × N cells instead of exact ones, to compare
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=4096))]
+    pub(super) hemicube: Option<u32>,
     /// Stop after so many shots
     #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
     pub(super) max_shots: usize,
@@ -188,6 +191,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         shadows: arguments.shadows.map_or(given.shadows, usize::from),
         tolerance: arguments.tolerance.unwrap_or(given.tolerance),
         spread: arguments.spread.unwrap_or(given.spread),
+        hemicube: arguments.hemicube,
         gather: given.gather,
         max_shots: arguments.max_shots,
         max_seconds: arguments.time,

@@ -184,6 +184,12 @@ pub enum Fault {
     /// Bytes that are not there.
     #[error("its bytes cannot be had: {0}; put them beside the scene or into it")]
     Missing(String),
+    /// A file that ends before its part does.
+    #[error("it is cut short after {found} bytes; export the file again")]
+    Short {
+        /// How many bytes there are.
+        found: usize,
+    },
     /// Rows of another width than needed.
     #[error("it has another number of {0} than its use needs; export the file again")]
     Kind(&'static str),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const MAX_TEXELS: u64 = 1 << 26;
 
 /// A picture from a `data:` address, or from a file whose name is relative to a folder.
-pub(super) fn fetch(address: &str, folder: Option<&Path>) -> Result<Image, String> {
+pub(crate) fn fetch(address: &str, folder: Option<&Path>) -> Result<Image, String> {
     let name = if address.starts_with("data:") { "embedded" } else { address };
     decode(name, bytes(address, folder)?)
 }

@@ -8,6 +8,8 @@ mod source;
 mod surface;
 pub mod vs3;
 
+pub(crate) use image::fetch;
+
 pub use error::{Error, Fault};
 pub use save::save;
 pub use source::Source;

@@ -5,8 +5,9 @@ mod raster;
 pub use framing::framing;
 
 use crate::expose::{Exposure, srgb};
-use crate::{Camera, Mesh};
-use raster::{Eye, SAMPLES, Triangle, raster};
+use crate::{Camera, Image, Mesh};
+use glam::DVec2;
+use raster::{Eye, SAMPLES, raster};
 use rayon::prelude::*;
 
 /// Rows drawn at a time by one thread.
@@ -25,9 +26,25 @@ const MAX_SIDE: u32 = 16_384;
 /// When `radiosity` is shorter than the mesh's vertices.
 #[must_use]
 pub fn draw(mesh: &Mesh, radiosity: &[[f64; 3]], camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
+    paint(&Paint { mesh, light: radiosity, places: &[], images: &[] }, camera, exposure, width)
+}
+
+/// What is drawn.
+pub(crate) struct Paint<'p> {
+    pub(crate) mesh: &'p Mesh,
+    /// At every vertex: radiosity, or what falls on a patch that shows a picture.
+    pub(crate) light: &'p [[f64; 3]],
+    /// Where in its picture each vertex of such a patch lies.
+    pub(crate) places: &'p [DVec2],
+    /// The picture of each patch that shows one.
+    pub(crate) images: &'p [Option<&'p Image>],
+}
+
+/// Draws as [`draw`] does; pictures are multiplied with the light that falls on them.
+pub(crate) fn paint(paint: &Paint<'_>, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
     let (width, height) = size(camera, width);
     let eye = Eye::new(camera, width, height);
-    let triangles: Vec<Triangle> = eye.triangles(mesh, radiosity);
+    let triangles = eye.triangles(paint);
     let mut bytes = vec![0; 3 * width * height];
     let bands = bytes.par_chunks_mut(3 * width * BAND).enumerate();
     bands.for_each(|(band, bytes)| {

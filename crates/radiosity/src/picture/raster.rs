@@ -4,8 +4,9 @@
 //! d·(v1×v0) are all at least 0; these are also its perspective-correct barycentric weights, and their sum, over the
 //! volume −v0·(v1×v2), is 1 / depth (Olano and Greer 1997). Corners behind the eye need no care. Neighbours share the
 //! plane through their edge to the last bit, so that no ray passes between them.
-use crate::{Camera, Mesh};
-use glam::DVec3;
+use super::Paint;
+use crate::{Camera, Image};
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// Samples per pixel.
@@ -24,12 +25,14 @@ pub(super) struct Eye {
 }
 
 /// A triangle that faces the eye.
-pub(super) struct Triangle {
+pub(super) struct Triangle<'p> {
     /// For each corner the plane through the eye and the opposite edge: its value at pixel (0, 0), per pixel to the right,
     /// per pixel down.
     planes: [[f64; 3]; 3],
     volume: f64,
     colours: [[f64; 3]; 3],
+    /// The picture that the colours fall on, and where in it the corners lie.
+    cloth: Option<(&'p Image, [DVec2; 3])>,
     columns: Range<usize>,
     rows: Range<usize>,
 }
@@ -47,22 +50,31 @@ impl Eye {
         Self { position: camera.position, forward, corner, right, down, width, height }
     }
 
-    /// The triangles of the mesh that face the eye and may be in the picture.
-    pub(super) fn triangles(&self, mesh: &Mesh, radiosity: &[[f64; 3]]) -> Vec<Triangle> {
-        let elements = mesh.elements.iter().map(|element| element.corners);
-        let seen = elements.filter_map(|corners| {
-            self.triangle(corners.map(|c| mesh.vertices[c] - self.position), corners.map(|c| radiosity[c]))
+    /// The triangles that face the eye and may be in the picture.
+    pub(super) fn triangles<'p>(&self, paint: &Paint<'p>) -> Vec<Triangle<'p>> {
+        let seen = paint.mesh.elements.iter().filter_map(|element| {
+            let corners = element.corners.map(|corner| paint.mesh.vertices[corner] - self.position);
+            let colours = element.corners.map(|corner| paint.light[corner]);
+            let image = paint.images.get(element.patch).copied().flatten();
+            let cloth = image.map(|image| (image, element.corners.map(|corner| paint.places[corner])));
+            self.triangle(corners, colours, cloth)
         });
         seen.collect()
     }
 
-    fn triangle(&self, corners: [DVec3; 3], colours: [[f64; 3]; 3]) -> Option<Triangle> {
+    fn triangle<'p>(
+        &self,
+        corners: [DVec3; 3],
+        colours: [[f64; 3]; 3],
+        cloth: Option<(&'p Image, [DVec2; 3])>,
+    ) -> Option<Triangle<'p>> {
         let [a, b, c] = corners;
         let normals = [c.cross(b), a.cross(c), b.cross(a)];
         let volume = a.dot(normals[0]);
         let (columns, rows) = self.extent(corners)?;
         let plane = |normal: DVec3| [self.corner, self.right, self.down].map(|axis| axis.dot(normal));
-        (volume > 0.0).then(|| Triangle { planes: normals.map(plane), volume, colours, columns, rows })
+        let planes = normals.map(plane);
+        (volume > 0.0).then_some(Triangle { planes, volume, colours, cloth, columns, rows })
     }
 
     /// The pixels that the corners span; all when a corner is not in front of the eye, none when no corner is.
@@ -96,7 +108,7 @@ fn span(places: [f64; 3], len: usize) -> Range<usize> {
 }
 
 /// The nearest triangle's radiosity at every sample of some rows: [`SAMPLES`] for each pixel, row after row.
-pub(super) fn raster(triangles: &[Triangle], rows: Range<usize>, width: usize) -> Vec<[f64; 3]> {
+pub(super) fn raster(triangles: &[Triangle<'_>], rows: Range<usize>, width: usize) -> Vec<[f64; 3]> {
     let count = rows.len() * width * SAMPLES;
     let mut samples = Samples { colours: vec![[0.0; 3]; count], nearness: vec![0.0; count] };
     for triangle in triangles {
@@ -118,7 +130,7 @@ struct Samples {
 
 impl Samples {
     /// Draws a triangle into one pixel, whose samples start at `first`.
-    fn cover(&mut self, triangle: &Triangle, first: usize, column: usize, row: usize) {
+    fn cover(&mut self, triangle: &Triangle<'_>, first: usize, column: usize, row: usize) {
         for sample in 0..SAMPLES {
             let (x, y) = place(sample);
             let (x, y) = (column as f64 + x, row as f64 + y);
@@ -130,7 +142,7 @@ impl Samples {
             let nearness = sum / triangle.volume;
             if nearness > self.nearness[first + sample] {
                 self.nearness[first + sample] = nearness;
-                self.colours[first + sample] = mix(&triangle.colours, weights, sum);
+                self.colours[first + sample] = triangle.colour(weights.map(|weight| weight / sum));
             }
         }
     }
@@ -143,6 +155,18 @@ fn place(sample: usize) -> (f64, f64) {
     ((i + (j + 0.5) / side) / side, (j + (i + 0.5) / side) / side)
 }
 
-fn mix(colours: &[[f64; 3]; 3], weights: [f64; 3], sum: f64) -> [f64; 3] {
-    std::array::from_fn(|band| (0..3).map(|corner| weights[corner] / sum * colours[corner][band]).sum())
+impl Triangle<'_> {
+    /// The colour at barycentric weights: interpolated, and multiplied with the picture where there is one.
+    fn colour(&self, weights: [f64; 3]) -> [f64; 3] {
+        let mixed = |band: usize| (0..3).map(|corner| weights[corner] * self.colours[corner][band]).sum();
+        let light: [f64; 3] = std::array::from_fn(mixed);
+        match self.cloth {
+            None => light,
+            Some((image, places)) => {
+                let place: DVec2 = (0..3).map(|corner| weights[corner] * places[corner]).sum();
+                let texel = image.texel(place);
+                std::array::from_fn(|band| light[band] * texel[band])
+            }
+        }
+    }
 }

@@ -34,7 +34,7 @@ pub struct Texture {
 
 impl Image {
     /// The texel that holds a point; the picture repeats.
-    fn texel(&self, place: DVec2) -> [f64; 3] {
+    pub(crate) fn texel(&self, place: DVec2) -> [f64; 3] {
         let height = self.texels.len() / self.width;
         let row = index(place.y, height);
         self.texels[row * self.width + index(place.x, self.width)]

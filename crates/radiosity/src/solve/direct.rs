@@ -1,11 +1,11 @@
 //! The final gather: light straight from the lamps, exact at every vertex.
-use super::run::Run;
+use super::{factors::Factors, run::Run};
 use crate::interpolate::Direct;
 use crate::{Error, Mesh, Scene};
 use formfactor::DifferentialArea;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::{collections::BTreeSet, f64::consts::PI};
 
 /// How far towards the elements around it a vertex is moved: F is discontinuous at the feet of walls, and there the
 /// limit from the vertex's own side is wanted.
@@ -14,7 +14,7 @@ const INWARD: f64 = 1e-3;
 /// The lamps' light on every element and at every vertex.
 pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Direct, Error> {
     let (mesh, bands) = (&run.factors.subdivision.mesh, run.light.bands);
-    let receivers = receivers(scene, mesh)?;
+    let receivers = receivers(scene, &run.factors)?;
     let mut elements = vec![0.0; mesh.elements.len() * bands];
     let mut vertices = vec![0.0; mesh.vertices.len() * bands];
     for (lamp, patch) in scene.patches.iter().enumerate().filter(|(_, patch)| patch.emits()) {
@@ -32,8 +32,11 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Direct, Error> 
     Ok(Direct { elements, vertices })
 }
 
-/// A receiver for every vertex, a little inside the elements around it.
-fn receivers(scene: &Scene, mesh: &Mesh) -> Result<Vec<DifferentialArea>, Error> {
+/// A receiver for every vertex; on the rim of a patch, and at the foot of what stands on it, a little inside the elements
+/// around it.
+fn receivers(scene: &Scene, factors: &Factors<'_>) -> Result<Vec<DifferentialArea>, Error> {
+    let mesh = &factors.subdivision.mesh;
+    let rim = rim(mesh);
     let mut around = vec![(DVec3::ZERO, 0.0, 0); mesh.vertices.len()];
     for (index, element) in mesh.elements.iter().enumerate() {
         let (area, centroid) = (mesh.area(index), mesh.centroid(index));
@@ -43,11 +46,25 @@ fn receivers(scene: &Scene, mesh: &Mesh) -> Result<Vec<DifferentialArea>, Error>
         }
     }
     let receiver = |(vertex, (sum, weight, patch)): (usize, (DVec3, f64, usize))| {
-        let inward = if weight > 0.0 { sum / weight * INWARD } else { DVec3::ZERO };
+        let inward = if weight > 0.0 && rim[vertex] { sum / weight * INWARD } else { DVec3::ZERO };
         let area =
             DifferentialArea::new(mesh.vertices[vertex] + inward, scene.patches[patch].polygon.normal());
-        area.map(|area| area.owned_by(patch))
+        area.map(|area| factors.on_patch(area, patch))
             .map_err(|source| Error::Shape { patch: scene.patches[patch].name.clone(), source })
     };
     around.into_iter().enumerate().map(receiver).collect()
+}
+
+/// Which vertices have a side that only one element has.
+fn rim(mesh: &Mesh) -> Vec<bool> {
+    let sides = mesh.elements.iter().flat_map(|element| {
+        let [a, b, c] = element.corners;
+        [[a, b], [b, c], [c, a]]
+    });
+    let sides: BTreeSet<[usize; 2]> = sides.collect();
+    let mut rim = vec![false; mesh.vertices.len()];
+    for [a, b] in sides.iter().filter(|[a, b]| !sides.contains(&[*b, *a])) {
+        (rim[*a], rim[*b]) = (true, true);
+    }
+    rim
 }

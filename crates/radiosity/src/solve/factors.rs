@@ -1,8 +1,10 @@
 //! Exact form factors from the elements to the pieces.
 use super::fingerprint;
+use super::hemicube::Hemicubes;
 use super::state::{Column, State};
+use super::surfaces::Surfaces;
 use crate::{Error, Scene, mesh::Subdivision};
-use formfactor::{DifferentialArea, Enclosure};
+use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -12,7 +14,11 @@ pub(super) struct Factors<'s> {
     scene: &'s Scene,
     pub(super) subdivision: &'s Subdivision,
     enclosure: Enclosure,
+    /// The polygon of the enclosure that each patch is a part of.
+    surface_of: Vec<usize>,
     receivers: Vec<DifferentialArea>,
+    /// What takes the place of exact factors, to compare with.
+    hemicubes: Option<Hemicubes>,
     /// The mesh in `state`.
     fingerprint: u64,
     pub(super) state: &'s mut State,
@@ -26,20 +32,29 @@ impl<'s> Factors<'s> {
         state: &'s mut State,
     ) -> Result<Factors<'s>, Error> {
         let mesh = &subdivision.mesh;
+        let Surfaces { polygons, of_patch: surface_of } = Surfaces::join(scene);
         let receiver = |(index, element): (usize, &crate::Element)| {
             let patch = &scene.patches[element.patch];
             DifferentialArea::new(mesh.centroid(index), patch.polygon.normal())
-                .map(|area| area.owned_by(element.patch))
+                .map(|area| area.owned_by(surface_of[element.patch]))
                 .map_err(|source| Error::Shape { patch: patch.name.clone(), source })
         };
         Ok(Factors {
+            receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
             scene,
             subdivision,
-            enclosure: Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect()),
-            receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
+            enclosure: Enclosure::new(polygons),
+            surface_of,
+            hemicubes: None,
             fingerprint: fingerprint::of_mesh(scene, subdivision),
             state,
         })
+    }
+
+    /// Takes the factors of hemicubes instead of exact ones.
+    pub(super) fn approximate(&mut self, hemicubes: Hemicubes, resolution: u32) {
+        self.hemicubes = Some(hemicubes);
+        self.fingerprint ^= u64::from(resolution);
     }
 
     /// Whether the state knows of this scene and mesh.
@@ -62,23 +77,36 @@ impl<'s> Factors<'s> {
         Ok(column)
     }
 
+    /// A point of a patch, as the enclosure knows it.
+    pub(super) fn on_patch(&self, from: DifferentialArea, patch: usize) -> DifferentialArea {
+        from.owned_by(self.surface_of[patch])
+    }
+
     /// The form factor from any point to a whole patch.
     pub(super) fn seen_from(&self, from: &DifferentialArea, patch: usize) -> f64 {
-        self.enclosure.form_factor(from, patch).value
+        self.to_part(from, patch, &self.scene.patches[patch].polygon)
+    }
+
+    /// The form factor to a part of a patch.
+    fn to_part(&self, from: &DifferentialArea, patch: usize, part: &PlanarPolygon) -> f64 {
+        self.enclosure.form_factor_to_part(from, self.surface_of[patch], part).value
     }
 
     /// Finds the form factors from all elements to one piece: each by itself, so threads change nothing.
     fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
         let Subdivision { mesh, nodes, flat, .. } = self.subdivision;
+        if let Some(hemicubes) = &self.hemicubes {
+            return Ok(hemicubes.column(nodes[node].elements.clone()));
+        }
         let patch = nodes[node].patch;
         if node == patch {
-            let whole = |from| self.enclosure.form_factor(from, patch).value;
+            let whole = |from| self.seen_from(from, patch);
             return Ok(self.receivers.par_iter().with_min_len(8).map(whole).collect());
         }
         let piece = flat
             .outline(mesh, &mesh.elements[nodes[node].elements.clone()])
             .map_err(|source| Error::Shape { patch: self.scene.patches[patch].name.clone(), source })?;
-        let part = |from| self.enclosure.form_factor_to_part(from, patch, &piece).value;
+        let part = |from| self.to_part(from, patch, &piece);
         Ok(self.receivers.par_iter().with_min_len(8).map(part).collect())
     }
 

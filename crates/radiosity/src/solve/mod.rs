@@ -4,6 +4,7 @@
 //! check      refuse what has no solution: negative emission, reflectance above 1
 //! overlap    refuse patches that lie on each other
 //! mesh       patches into elements; each patch with a binary tree of pieces
+//! surfaces   patches that continue each other hide as one polygon
 //! factors    column of exact form factors from every element's centroid to one piece; kept in the state
 //! rooms      which patches light reaches, and which of them close a room
 //! shooters   which pieces shoot, how much each has shot, when one is split
@@ -38,6 +39,7 @@ mod fingerprint;
 mod gather;
 mod gauss;
 mod gmres;
+mod hemicube;
 mod ledger;
 mod light;
 mod overlap;
@@ -48,6 +50,7 @@ mod run;
 mod shoot;
 mod shooters;
 mod state;
+mod surfaces;
 
 pub use estimate::Norm;
 pub use ledger::Ledger;
@@ -85,6 +88,8 @@ pub struct Options {
     pub norm: Norm,
     /// Of so many of the strongest lamps the edges of shadows become edges of elements.
     pub shadows: usize,
+    /// Take form factors from hemicubes of so many cells across, instead of exact ones: to see what that costs and brings.
+    pub hemicube: Option<u32>,
     /// In the end, find the light straight from the lamps exactly at every vertex.
     pub gather: bool,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
@@ -108,6 +113,7 @@ impl Default for Options {
             passes: 0,
             norm: Norm::L2,
             shadows: 0,
+            hemicube: None,
             gather: false,
             tolerance: 1e-3,
             spread: 2e-4,
@@ -266,7 +272,8 @@ pub fn solve_from(
         if passes_left == options.passes {
             run.recognise()?;
         }
-        let converged = match run.choose(scene)? {
+        let choice = if run.sample(scene)? { run.choose(scene)? } else { None };
+        let converged = match choice {
             None => false,
             Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
             Some(method) => relax::relax(&mut run, method)?,

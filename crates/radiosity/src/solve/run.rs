@@ -1,5 +1,6 @@
 //! A run of the solver: all that its steps share.
 use super::factors::Factors;
+use super::hemicube::Hemicubes;
 use super::rooms::Rooms;
 use super::{
     Ledger, Method, Options, Progress, Solution, State, direct, ledger, light::Light, shooters::Shooters,
@@ -73,6 +74,16 @@ impl<'r> Run<'r> {
     pub(super) fn recognise(&self) -> Result<(), Error> {
         let foreign = !self.factors.state.is_empty() && !self.factors.are_known();
         if foreign { Err(Error::Foreign) } else { Ok(()) }
+    }
+
+    /// Draws hemicubes where they are asked for; false when the watcher wants to stop.
+    pub(super) fn sample(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let Some(resolution) = self.options.hemicube else { return Ok(true) };
+        let subdivision = self.factors.subdivision;
+        let drawn = Hemicubes::draw(scene, subdivision, resolution, || self.report().is_break())?;
+        let Some(hemicubes) = drawn else { return Ok(false) };
+        self.factors.approximate(hemicubes, resolution);
+        Ok(true)
     }
 
     /// Chooses how to solve; follows the light through the rooms where that decides, and refuses what has no solution.

@@ -108,6 +108,24 @@ fn a_textured_patch_shows_its_picture_under_what_falls_on_it() {
     assert_eq!(primitives.len(), 2);
     assert!(primitives[0]["attributes"]["TEXCOORD_0"].is_null());
     assert!(!primitives[1]["attributes"]["TEXCOORD_0"].is_null());
+    // In a picture too: of the eight fields along the front edge every second one is much darker.
+    let camera = radiosity::Camera {
+        name: "above".into(),
+        position: [0.0, -1.75, 10.0].into(),
+        direction: [0.0, 0.0, -1.0].into(),
+        up: [0.0, 1.0, 0.0].into(),
+        vertical_fov: 2.0 * 0.025_f64.atan(),
+        aspect: 8.0,
+    };
+    let file = record.draw(&camera, Exposure::new(0.2).unwrap(), 64);
+    let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    let field = |i: usize| u32::from(pixels[3 * (4 * 64 + 8 * i + 4)]);
+    for i in 0..7 {
+        let (dark, light) = if i % 2 == 0 { (field(i), field(i + 1)) } else { (field(i + 1), field(i)) };
+        assert!(2 * dark < light, "field {i}: {dark} {light}");
+    }
     let uri = document["images"][0]["uri"].as_str().unwrap();
     assert!(uri.starts_with("data:image/png;base64,iVBORw0KGgo"));
 }

@@ -171,6 +171,30 @@ fn damaged_files_are_refused_or_read_but_never_worse() {
     }
 }
 
+#[test]
+fn a_damaged_container_is_refused() {
+    let document = square().to_string().into_bytes();
+    let length = |bytes: usize| u32::try_from(bytes).unwrap().to_le_bytes();
+    let whole = |version: u32, document_length: usize, kind: &[u8]| {
+        let total = length(20 + document.len());
+        let parts = [b"glTF", &version.to_le_bytes()[..], &total, &length(document_length), kind, &document];
+        Gltf::from_bytes("box.glb", parts.concat())
+    };
+    assert!(whole(2, document.len(), b"JSON").scene().is_ok());
+    for damaged in [
+        whole(1, document.len(), b"JSON"),
+        whole(2, document.len() + 1, b"JSON"),
+        whole(2, document.len(), b"BIN\0"),
+    ] {
+        assert!(damaged.scene().unwrap_err().to_string().starts_with("box.glb: "));
+    }
+    // A header that is all there is, and that claims less than itself.
+    for length in 4..20 {
+        let bytes = [&b"glTF\x02\0\0\0\x01\0\0\0\0\0\0\0JSON"[..length]].concat();
+        assert!(Gltf::from_bytes("box.glb", bytes).scene().is_err());
+    }
+}
+
 /// A scene written as a lit GLB of its patches' outlines, then read.
 #[test]
 fn a_written_file_has_the_same_areas() {

@@ -107,6 +107,7 @@ pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
                 irradiance: vec![0.0; 3],
                 radiosity: light.to_vec(),
                 picture: None,
+                tint: [1.0; 3],
             })
             .collect(),
         vertex_radiosity: values.clone(),

@@ -3,4 +3,5 @@ mod build;
 mod extreme;
 mod interpolation;
 mod lasting;
+mod sources;
 mod stiff;

@@ -1,5 +1,6 @@
 //! The document: parsed, checked by the `gltf` crate, and before that by us where the crate would panic.
 use super::super::{Error, Fault};
+use super::container::chunks;
 use gltf::json::Root;
 
 /// A document and the bytes of its binary chunk.
@@ -10,15 +11,10 @@ pub(super) struct File {
 
 pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<File, Error> {
     let refused = |source| Error::Gltf { file: name.into(), source: Box::new(source) };
-    let (text, blob) = if bytes.starts_with(b"glTF") {
-        let chunks = gltf::Glb::from_slice(bytes).map_err(refused)?;
-        (chunks.json.into_owned(), chunks.bin.map(|bin| bin.into_owned()))
-    } else {
-        (bytes.to_vec(), None)
-    };
-    let root = Root::from_slice(&text).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
+    let (text, binary) = chunks(name, bytes)?;
+    let root = Root::from_slice(text).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
     check(&root).map_err(|(part, fault)| Error::Part { file: name.into(), part, fault })?;
-    Ok(File { document: gltf::Document::from_json(root).map_err(refused)?, blob })
+    Ok(File { document: gltf::Document::from_json(root).map_err(refused)?, blob: binary.map(<[u8]>::to_vec) })
 }
 
 /// What the crate takes for granted: the version, that attributes name accessors, and that images have a source.

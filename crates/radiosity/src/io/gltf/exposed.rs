@@ -1,6 +1,7 @@
 //! A lit GLB with other colours: `COLOR_0` anew from `_RADIOSITY`.
 use super::super::{Error, Fault};
 use super::buffer::{container, single};
+use super::container::chunks;
 use crate::expose::Exposure;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -15,10 +16,10 @@ pub fn exposed(path: impl AsRef<Path>, exposure: Option<Exposure>) -> Result<Vec
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
     let refused = |source: gltf::Error| Error::Gltf { file: name.clone(), source: Box::new(source) };
-    let chunks = gltf::Glb::from_slice(&bytes).map_err(refused)?;
+    let (text, binary) = chunks(&name, &bytes)?;
     let mut document: Value =
-        serde_json::from_slice(&chunks.json).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
-    let mut binary = chunks.bin.map(|bin| bin.into_owned()).unwrap_or_default();
+        serde_json::from_slice(text).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
+    let mut binary = binary.map(<[u8]>::to_vec).unwrap_or_default();
     let lit = lit(&document, &binary).ok_or_else(|| Error::Part {
         file: name.clone(),
         part: "meshes".into(),

@@ -18,7 +18,7 @@ pub(super) fn primitives(
         groups.entry(record.patches[patch].picture).or_default().push([a, b, c]);
     }
     let light = rgb(&record.vertex_radiosity, record.bands);
-    let received = rgb(&record.vertex_irradiance, record.bands);
+    let received = record.under_pictures();
     let mut primitives = Vec::new();
     for (picture, triangles) in groups {
         let (used, indices) = own(&triangles);

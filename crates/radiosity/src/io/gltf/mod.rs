@@ -6,6 +6,7 @@
 //! `.back`. What is left out draws a warning. Lengths are metres, y is up.
 mod accessor;
 mod buffer;
+mod container;
 mod document;
 mod exposed;
 mod lit;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 /// W/m², as it is), unlit materials, and the scene's cameras.
 ///
 /// Patches that show a picture have primitives of their own: `COLOR_0` is the exposed irradiance there, which viewers
-/// multiply with the picture, and `_IRRADIANCE` the irradiance as it is. The root node turns the scene's up axis to y and
+/// multiply with the picture, and `_IRRADIANCE` the irradiance, times the factor of the picture's colours. The root node turns the scene's up axis to y and
 /// its unit to metres. Positions are single precision, relative to the middle of the mesh.
 ///
 /// # Errors
