@@ -27,6 +27,7 @@ use crate::suspects::Suspects;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// An exact abscissa: that of a vertex.
 #[derive(Clone, Debug)]
@@ -59,11 +60,22 @@ struct Fragment {
 /// A cut of a part at a vertex's abscissa.
 type CutAt = (u32, u32);
 
+/// Fragments with the same ends, as a span of `alike`, and whether any has a rounded end.
+#[derive(Clone, Debug)]
+struct Class {
+    members: Range<usize>,
+    moved: bool,
+}
+
 /// The buffers of the stage.
 #[derive(Debug, Default)]
 pub(crate) struct Mending {
     parts: Vec<Part>,
     fragments: Vec<Fragment>,
+    /// The fragments that are not empty, by their ends, and the spans of those with the same ends.
+    alike: Vec<u32>,
+    classes: Vec<Class>,
+    /// Pairs of classes.
     conflicts: Vec<[u32; 2]>,
     /// The cuts, sorted by part.
     cuts: Vec<CutAt>,
@@ -114,7 +126,8 @@ fn are_sound(f: &Fragment, g: &Fragment) -> bool {
     let same_vertex = |i: usize, j: usize| f.ends[i] == g.ends[j];
     let ends_agree =
         [(0, 0), (0, 1), (1, 0), (1, 1)].iter().all(|&(i, j)| same_point(i, j) == same_vertex(i, j));
-    ends_agree && matches!(meeting(f.segment, g.segment), Meeting::Apart)
+    let common_ends = g.segment.iter().filter(|p| f.segment.contains(p)).count();
+    ends_agree && common_ends < 2 && !in_conflict([f.segment, g.segment])
 }
 
 /// Puts the pieces into an outline: no two of its edges meet but in their ends.
@@ -123,8 +136,9 @@ pub(crate) fn mend(rounded: Rounded<'_>, strips: &mut Strips, mending: &mut Mend
     rounded.list_parts(None, &mut mending.parts);
     loop {
         rounded.cut_up(&mending.parts, &mending.cuts, &mut mending.fragments);
-        let may_coincide = find_conflicts(&mending.fragments, strips, &mut mending.conflicts);
+        mending.find_conflicts(strips);
         if mending.conflicts.is_empty() {
+            let may_coincide = mending.classes.len() < mending.alike.len();
             return outline.build(mending.fragments.iter().map(|f| f.segment), may_coincide);
         }
         if !rounded.add_cuts(mending) {
@@ -138,47 +152,71 @@ fn bounds([a, b]: Segment) -> [DVec2; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Finds the pairs of fragments, one at least with a rounded end, that meet otherwise than in common ends; returns
-/// whether any have both ends in common.
-fn find_conflicts(fragments: &[Fragment], strips: &mut Strips, conflicts: &mut Vec<[u32; 2]>) -> bool {
-    conflicts.clear();
-    let mut coincide = false;
-    if fragments.iter().any(|f| f.moved) {
-        strips.build(fragments.iter().map(|f| bounds(f.segment)));
-        strips.pairs(|i, j| {
-            let (f, g) = (&fragments[i as usize], &fragments[j as usize]);
-            if (f.moved || g.moved) && f.part != g.part {
-                match meeting(f.segment, g.segment) {
-                    Meeting::Apart => {}
-                    Meeting::Coincide => coincide = true,
-                    Meeting::Conflict => conflicts.push([i, j]),
+impl Mending {
+    /// Groups the fragments with the same ends; those that rounding shrank to a point are left out.
+    ///
+    /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
+    fn find_alike(&mut self) {
+        let Mending { fragments, alike, classes, .. } = self;
+        alike.clear();
+        alike.extend((0..index(fragments.len())).filter(|&i| {
+            let [a, b] = fragments[i as usize].segment;
+            a != b
+        }));
+        let compare = |i: u32, j: u32| {
+            let (s, t) = (rightward(fragments[i as usize].segment), rightward(fragments[j as usize].segment));
+            lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]))
+        };
+        alike.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
+        classes.clear();
+        let mut start = 0;
+        for class in alike.chunk_by(|&i, &j| compare(i, j) == Ordering::Equal) {
+            let end = start + class.len();
+            let moved = class.iter().any(|&i| fragments[i as usize].moved);
+            classes.push(Class { members: start..end, moved });
+            start = end;
+        }
+    }
+
+    fn members(&self, class: u32) -> impl Iterator<Item = &Fragment> + Clone {
+        self.alike[self.classes[class as usize].members.clone()].iter().map(|&i| &self.fragments[i as usize])
+    }
+
+    /// The first of a class.
+    fn one_of(&self, class: usize) -> &Fragment {
+        &self.fragments[self.alike[self.classes[class].members.start] as usize]
+    }
+
+    /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
+    fn find_conflicts(&mut self, strips: &mut Strips) {
+        self.find_alike();
+        let mut conflicts = std::mem::take(&mut self.conflicts);
+        conflicts.clear();
+        if self.classes.iter().any(|class| class.moved) {
+            strips.build((0..self.classes.len()).map(|class| bounds(self.one_of(class).segment)));
+            strips.pairs(|i, j| {
+                let moved = self.classes[i as usize].moved || self.classes[j as usize].moved;
+                let segments = || [i, j].map(|class| self.one_of(class as usize).segment);
+                if moved && in_conflict(segments()) {
+                    conflicts.push([i, j]);
                 }
-            }
-        });
+            });
+        }
+        self.conflicts = conflicts;
     }
-    coincide
 }
 
-/// What two fragments have in common: single ends or nothing, both ends, or anything else.
-enum Meeting {
-    Apart,
-    Coincide,
-    Conflict,
-}
-
-fn meeting(s: Segment, t: Segment) -> Meeting {
-    if (s[0] == t[0] && s[1] == t[1]) || (s[0] == t[1] && s[1] == t[0]) {
-        return Meeting::Coincide;
-    }
+/// Whether two segments have more in common than single ends, or nothing.
+fn in_conflict([s, t]: [Segment; 2]) -> bool {
     let (p, q) = (side(s[0], s[1], t[0]), side(s[0], s[1], t[1]));
     if p == q && p != Side::On {
-        return Meeting::Apart;
+        return false;
     }
     let (r, o) = (side(t[0], t[1], s[0]), side(t[0], t[1], s[1]));
     let touches = |side: Side, segment: Segment, point: DVec2| side == Side::On && is_inside(segment, point);
     let touch = touches(p, s, t[0]) || touches(q, s, t[1]) || touches(r, t, s[0]) || touches(o, t, s[1]);
     let cross = p == q.reversed() && p != Side::On && r == o.reversed() && r != Side::On;
-    if touch || cross { Meeting::Conflict } else { Meeting::Apart }
+    touch || cross
 }
 
 impl Rounded<'_> {
@@ -321,14 +359,16 @@ impl Rounded<'_> {
         DVec2::new(self.abscissa(vertex).rounded, y.to_f64())
     }
 
-    /// Cuts the parts of conflicting fragments at each other's ends; whether that added any cut.
+    /// Cuts the parts of conflicting fragments at the ends of one of those that they conflict with; whether that added any
+    /// cut.
     fn add_cuts(&self, mending: &mut Mending) -> bool {
         let mut added: Vec<CutAt> = Vec::new();
         for &[i, j] in &mending.conflicts {
-            let (f, g) = (&mending.fragments[i as usize], &mending.fragments[j as usize]);
-            for (fragment, vertex) in [(f, g.ends[0]), (f, g.ends[1]), (g, f.ends[0]), (g, f.ends[1])] {
-                if self.is_strictly_between(fragment.ends, vertex) {
-                    added.push((fragment.part, vertex));
+            for (class, other) in [(i, j), (j, i)] {
+                let ends = mending.one_of(other as usize).ends;
+                for fragment in mending.members(class) {
+                    let inside = ends.into_iter().filter(|&end| self.is_strictly_between(fragment.ends, end));
+                    added.extend(inside.map(|end| (fragment.part, end)));
                 }
             }
         }
