@@ -126,7 +126,7 @@ fn rotation() -> impl Strategy<Value = glam::DMat3> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
     fn occlusion_takes_away_and_never_all_plus_more(

@@ -14,7 +14,7 @@ use std::sync::Arc;
 const MOST: u64 = 1 << 22;
 
 /// A tolerance for which cells are cut at the events among occluders too.
-const FINE: f64 = 1e-8;
+const FINE: f64 = 1e-6;
 
 /// A cell is cut at its events when they make at most so many cells of it, and halved otherwise: so often before anything
 /// is evaluated, lest all nodes miss what is seen.

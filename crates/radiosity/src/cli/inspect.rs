@@ -5,6 +5,9 @@ use radiosity::inspect::{Inspection, inspect};
 use radiosity::io::{self, collada::Collada};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
+/// How many lamps are listed for people.
+const LAMPS: usize = 20;
+
 /// `radiosity inspect`
 #[derive(Args, Debug)]
 pub(super) struct Inspect {
@@ -51,15 +54,18 @@ fn text(inspection: &Inspection) -> String {
     line("extent", format!("{low:?} to {high:?}; the unit is {unit} m, up is {:?}", inspection.up));
     line("bands", inspection.bands.to_string());
     line("cameras", inspection.cameras.to_string());
-    for lamp in &inspection.lamps {
+    for lamp in inspection.lamps.iter().take(LAMPS) {
         line("lamp", format!("{} emits {:?} W (in units of {unit} m)", lamp.name, lamp.power));
+    }
+    if inspection.lamps.len() > LAMPS {
+        line("lamps", format!("{} in all; --json lists them", inspection.lamps.len()));
     }
     line("openness", openness(inspection));
     let cost = &inspection.cost;
     line(
         "cost",
         format!(
-            "{} elements, {} form factors or more, about {:.2} s of them",
+            "{} elements with {} form factors to patches, about {:.2} s",
             cost.elements, cost.factors, cost.seconds
         ),
     );

@@ -8,9 +8,11 @@ pub(super) struct Figures<'s> {
     scene: &'s str,
     elements: usize,
     shots: usize,
+    products: usize,
     seconds: f64,
     bound: &'s [f64],
     closure: Option<f64>,
+    scaling: Option<f64>,
     energy: Energy<'s>,
     patches: Vec<PatchFigures<'s>>,
 }
@@ -53,9 +55,11 @@ impl<'s> Figures<'s> {
             scene: name,
             elements: solution.mesh.elements.len(),
             shots: solution.shots,
+            products: solution.products,
             seconds: solution.seconds,
             bound: &solution.bound,
             closure: solution.closure,
+            scaling: solution.scaling,
             energy: Energy {
                 emitted: &ledger.emitted,
                 absorbed: &ledger.absorbed,

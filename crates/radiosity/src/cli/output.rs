@@ -36,7 +36,7 @@ const KINDS: [(&str, Kind); 7] = [
 ];
 
 /// What was found, and what it was found from.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Findings<'s> {
     pub(super) look: &'s Look,
     pub(super) record: &'s Record,
@@ -57,6 +57,11 @@ impl Output {
         })?;
         probe(path)?;
         Ok(Output { path: path.to_owned(), kind })
+    }
+
+    /// Whether it is for eyes alone.
+    pub(super) fn is_picture(&self) -> bool {
+        matches!(self.kind, Kind::Picture)
     }
 
     /// Writes the file, whole or not at all.

@@ -149,7 +149,12 @@ impl Desk<'_> {
         if !outputs.is_empty() {
             let (look, record) = (&arguments.look, &Record::new(&name, scene, solution));
             let findings = Findings { look, record, source: Some((source, scene)), figures: Some(&figures) };
-            outputs.iter().try_for_each(|output| output.write(&findings))?;
+            // A picture of a stopped run shows what is unshot as if it had spread evenly.
+            let shown = Record::new(&name, scene, &solution.with_ambient());
+            let picture = Findings { record: if solution.converged { record } else { &shown }, ..findings };
+            let write =
+                |output: &Output| output.write(if output.is_picture() { &picture } else { &findings });
+            outputs.iter().try_for_each(write)?;
         }
         Ok(json::line(&figures))
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 pub struct Cost {
     /// Elements that `solve` cuts the scene into by default.
     pub elements: usize,
-    /// Form factors from every element to every patch: what is needed at least.
+    /// Form factors from every element to every patch. Lamps that are split need more, patches that never shoot fewer.
     pub factors: usize,
     /// Seconds that they will take on these threads.
     pub seconds: f64,

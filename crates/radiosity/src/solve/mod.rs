@@ -213,6 +213,34 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// The irradiance that is still missing everywhere, if what is unshot spread evenly, per band: for the display of a
+    /// run that was stopped, whose dark places are not meant to be dark.
+    ///
+    /// ΣAΔB / ΣA / (1 − ρ̄), ρ̄ the mean reflectance: all its reflections to come (Cohen, Chen, Wallace and Greenberg 1988).
+    #[must_use]
+    pub fn ambient(&self) -> Vec<f64> {
+        let areas: Vec<f64> = (0..self.mesh.elements.len()).map(|element| self.mesh.area(element)).collect();
+        let in_band = |band: usize| {
+            let kept = self.reflectance.iter().skip(band).step_by(self.bands).map(|rho| 1.0 - rho);
+            let absorbed: f64 = kept.zip(&areas).map(|(kept, area)| kept * area).sum();
+            let unshot = self.ledger.unshot[band].max(0.0);
+            if unshot == 0.0 || absorbed == 0.0 { 0.0 } else { unshot / absorbed }
+        };
+        (0..self.bands).map(in_band).collect()
+    }
+
+    /// The solution with the ambient irradiance added to every element: to be looked at, not to be measured.
+    #[must_use]
+    pub fn with_ambient(&self) -> Solution {
+        let ambient = self.ambient();
+        let mut lit = self.clone();
+        for (at, h) in lit.irradiance.iter_mut().enumerate() {
+            *h += ambient[at % self.bands];
+            lit.radiosity[at] += self.reflectance[at] * ambient[at % self.bands];
+        }
+        lit
+    }
+
     /// Area-weighted means of element values over every patch of the scene, `patches` × bands.
     #[must_use]
     pub fn patch_means(&self, values: &[f64], patches: usize) -> Vec<Vec<f64>> {

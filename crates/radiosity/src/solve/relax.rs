@@ -152,8 +152,8 @@ fn settle(
     (ledger.absorbed[band], ledger.escaped[band], ledger.unshot[band]) = (absorbed, escaped, unshot);
     ledger.defect[band] = ledger.remainder(band);
     // A method may know less of the residual itself than of its largest entry.
-    run.unshot = power(&mut residual.iter().map(|r| r.abs().min(largest))) / emitted;
+    run.unshot[band] = power(&mut residual.iter().map(|r| r.abs().min(largest))) / emitted;
     let reflected: Vec<f64> = x.iter().zip(&balance.emittance).map(|(x, e)| (x - e).abs()).collect();
     let brightness = light::mean_by_itself(&reflected, areas, 1)[0];
-    run.unshot <= run.options.tolerance && run.within(run.bound[band], brightness)
+    run.unshot[band] <= run.options.tolerance && run.within(run.bound[band], brightness)
 }

@@ -1,4 +1,5 @@
 //! A run of the solver: all that its steps share.
+use super::balance::largest;
 use super::factors::Factors;
 use super::hemicube::Hemicubes;
 use super::rooms::Rooms;
@@ -32,8 +33,8 @@ pub(super) struct Run<'r> {
     /// As of the last step.
     pub(super) bound: Vec<f64>,
     pub(super) ledger: Ledger,
-    /// Σ|AΔB| over the emitted power, the worst band.
-    pub(super) unshot: f64,
+    /// Σ|AΔB| over the emitted power, per band.
+    pub(super) unshot: Vec<f64>,
     gaps: Vec<f64>,
     /// See [`interpolate::welds`].
     welds: Vec<usize>,
@@ -59,13 +60,13 @@ impl<'r> Run<'r> {
             shooters: Shooters::new(0..scene.patches.len(), subdivision, &light),
             gaps: ledger::gaps(&light, None),
             welds: interpolate::welds(scene, &subdivision.mesh),
-            bound: vec![f64::INFINITY; light.bands],
+            bound: live(&light, f64::INFINITY),
+            unshot: live(&light, 1.0),
             ledger: Ledger::dark(&light),
             light,
             rooms: None,
             products: 0,
             scaling: None,
-            unshot: 1.0,
             watch,
         })
     }
@@ -118,7 +119,7 @@ impl<'r> Run<'r> {
         self.bound = ledger::bound(&self.light, &self.shooters, &self.gaps);
         self.ledger = Ledger::new(&self.light, &self.shooters);
         let brightness = self.light.brightness();
-        self.unshot <= self.options.tolerance
+        largest(&self.unshot) <= self.options.tolerance
             && (0..self.light.bands).all(|band| self.within(self.bound[band], brightness[band]))
     }
 
@@ -133,7 +134,7 @@ impl<'r> Run<'r> {
         (self.watch)(&Progress {
             shots: self.shooters.shots,
             products: self.products,
-            unshot: self.unshot,
+            unshot: largest(&self.unshot),
             bound: &self.bound,
             ledger: &self.ledger,
             seconds,
@@ -150,7 +151,7 @@ impl<'r> Run<'r> {
     pub(super) fn is_solved(&self) -> bool {
         let brightness = self.light.brightness();
         let within = |band: usize| self.within(self.bound[band], brightness[band]);
-        self.unshot <= self.options.tolerance && self.light.live().all(within)
+        largest(&self.unshot) <= self.options.tolerance && self.light.live().all(within)
     }
 
     /// The solution; direct light is gathered for the last mesh only.
@@ -194,4 +195,9 @@ impl<'r> Run<'r> {
         let sums = self.factors.sums(pieces)?;
         Ok(Some(sums.iter().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max)))
     }
+}
+
+/// A value for the bands in which something emits, and 0 for the others.
+fn live(light: &Light, value: f64) -> Vec<f64> {
+    light.emitted.iter().map(|&emitted| if emitted > 0.0 { value } else { 0.0 }).collect()
 }

@@ -37,8 +37,8 @@ impl<'s> Shooters<'s> {
         Shooters { nodes, front, sent: none, shots: 0 }
     }
 
-    /// Weighs what every piece has yet to shoot; gives its share of the emitted power in the worst band.
-    pub(super) fn weigh(&mut self, light: &Light) -> f64 {
+    /// Weighs what every piece has yet to shoot; gives its share of the emitted power per band.
+    pub(super) fn weigh(&mut self, light: &Light) -> Vec<f64> {
         for shooter in &mut self.front {
             shooter.weigh(&self.nodes[shooter.node], light);
         }
@@ -46,7 +46,7 @@ impl<'s> Shooters<'s> {
             let unshot: f64 = self.front.iter().map(|shooter| shooter.unshot[band].abs()).sum();
             if unshot == 0.0 { 0.0 } else { unshot / emitted }
         };
-        light.emitted.iter().enumerate().map(share).fold(0.0, f64::max)
+        light.emitted.iter().enumerate().map(share).collect()
     }
 
     /// The piece with the most power to shoot, over all bands; of equal ones the first.

@@ -103,3 +103,20 @@ fn the_bound_holds_at_every_shot() {
     });
     assert!(watched.is_ok() && previous < 1e-9);
 }
+
+#[test]
+fn the_ambient_term_is_what_is_missing_of_a_furnace() {
+    // In a closed room of one reflectance all unshot power ends as absorbed, evenly: Σ A (1 − ρ) H.
+    let scene = cube(1, 0.8, 1.0);
+    let whole = solved(&scene, &Options { elements: 100, tolerance: 1e-9, ..Options::default() });
+    let stopped = solve(&scene, &Options { elements: 100, ..Options::default() }, |progress| {
+        if progress.shots >= 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let stopped = stopped.expect("light");
+    let power = |solution: &radiosity::Solution| {
+        (0..solution.mesh.elements.len()).map(|e| solution.mesh.area(e) * solution.irradiance[e]).sum::<f64>()
+    };
+    assert!(power(&stopped) < 0.5 * power(&whole));
+    assert!((power(&stopped.with_ambient()) / power(&whole) - 1.0).abs() < 0.02);
+    assert!(whole.ambient()[0] < 1e-6);
+}

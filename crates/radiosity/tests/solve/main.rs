@@ -1,4 +1,5 @@
 //! What the solver promises, on scenes built here.
+mod bands;
 mod build;
 mod extreme;
 mod interpolation;

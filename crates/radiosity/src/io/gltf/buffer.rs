@@ -44,6 +44,15 @@ impl Buffer {
         self.add(indices.iter().flat_map(|index| index.to_le_bytes()), ELEMENT_ARRAY_BUFFER, accessor)
     }
 
+    /// Adds bytes that no accessor reads; returns the view. What follows is aligned to four bytes.
+    pub(super) fn view(&mut self, bytes: Vec<u8>) -> usize {
+        let (offset, length) = (self.bytes.len(), bytes.len());
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.views.push(json!({"buffer": 0, "byteOffset": offset, "byteLength": length}));
+        self.views.len() - 1
+    }
+
     fn add(&mut self, bytes: impl Iterator<Item = u8>, target: u32, accessor: Value) -> usize {
         let offset = self.bytes.len();
         self.bytes.extend(bytes);

@@ -1,4 +1,5 @@
 //! The lit mesh's primitives: one of all plain patches, one for each picture.
+use super::super::image::bytes;
 use super::buffer::Buffer;
 use crate::Record;
 use crate::expose::{Exposure, rgb};
@@ -53,7 +54,7 @@ fn own(triangles: &[[usize; 3]]) -> (Vec<usize>, Vec<usize>) {
 }
 
 /// Unlit materials, and the pictures as they came.
-pub(super) fn materials(document: &mut Value, record: &Record) {
+pub(super) fn materials(document: &mut Value, buffer: &mut Buffer, record: &Record) {
     let unlit = json!({"KHR_materials_unlit": {}});
     let mut materials = vec![json!({"name": "radiosity", "extensions": unlit})];
     materials.extend((0..record.pictures.len()).map(|picture| {
@@ -62,8 +63,16 @@ pub(super) fn materials(document: &mut Value, record: &Record) {
     }));
     document["materials"] = materials.into();
     if !record.pictures.is_empty() {
-        let images = record.pictures.iter().map(|address| json!({"uri": address}));
-        document["images"] = images.collect();
+        document["images"] = record.pictures.iter().map(|address| picture(buffer, address)).collect();
         document["textures"] = (0..record.pictures.len()).map(|picture| json!({"source": picture})).collect();
+    }
+}
+
+/// A picture's bytes in the binary chunk; one whose address cannot be resolved stays an address.
+fn picture(buffer: &mut Buffer, address: &str) -> Value {
+    let kind = address.strip_prefix("data:").and_then(|data| data.split_once(';')).map(|(kind, _)| kind);
+    match (kind, bytes(address, None)) {
+        (Some(kind), Ok(bytes)) => json!({"mimeType": kind, "bufferView": buffer.view(bytes)}),
+        _ => json!({"uri": address}),
     }
 }

@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 /// The bytes of a GLB file: one mesh with `POSITION`, `COLOR_0` (exposed, linear) and `_RADIOSITY` (red, green and blue,
 /// W/m², as it is), unlit materials, and the scene's cameras.
 ///
-/// Patches that show a picture have primitives of their own: `COLOR_0` is the exposed irradiance there, which viewers
-/// multiply with the picture, and `_IRRADIANCE` the irradiance, times the factor of the picture's colours. The root node turns the scene's up axis to y and
-/// its unit to metres. Positions are single precision, relative to the middle of the mesh.
+/// Patches that show a picture have primitives of their own: `_IRRADIANCE` is what falls on them, times the factor of the
+/// picture's colours, and `COLOR_0` is that exposed; viewers multiply it with the picture. The root node turns the scene's
+/// up axis to y and its unit to metres. Positions are single precision, relative to the middle of the mesh.
 ///
 /// # Errors
 /// [`Error::Size`] when the data do not fit into the format's 4 GiB.
@@ -28,7 +28,7 @@ pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, Error> {
     if !record.elements.is_empty() {
         let primitives = primitives(&mut buffer, record, middle, exposure);
         document["meshes"] = json!([{"name": "light", "primitives": primitives}]);
-        materials(&mut document, record);
+        materials(&mut document, &mut buffer, record);
         document["extensionsUsed"] = json!(["KHR_materials_unlit"]);
         document["accessors"] = buffer.accessors.clone().into();
         document["bufferViews"] = buffer.views.clone().into();
