@@ -13,9 +13,9 @@ pub(crate) fn leaf(loops: &[Vec<DVec2>]) -> Csg<'_> {
     Csg::rings(loops, FillRule::EvenOdd).expect("coordinates are kept within finite bounds")
 }
 
-/// Whether a counter-clockwise loop is convex; decided exactly, and never said of a loop that is not.
+/// Whether a counter-clockwise loop is convex and has an area; decided exactly, and never said of a loop that is not.
 ///
-/// Every corner turns left or goes straight on, and the direction passes from leftward to rightward once.
+/// Every corner turns left or goes straight on, one at least turns, and the direction passes from leftward to rightward once.
 pub(crate) fn is_convex(points: &[DVec2]) -> bool {
     let count = points.len();
     let point = |i: usize| points[i % count];
@@ -24,12 +24,17 @@ pub(crate) fn is_convex(points: &[DVec2]) -> bool {
         end.x > start.x || (end.x == start.x && end.y > start.y)
     };
     let starts = (0..count).filter(|i| !rightward(*i) && rightward(i + 1)).count();
-    starts == 1 && (0..count).all(|i| left_turn(point(i), point(i + 1), point(i + 2)))
+    let turn = |i: usize| turn(point(i), point(i + 1), point(i + 2));
+    starts == 1 && (0..count).all(|i| turn(i) >= 0.0) && (0..count).any(|i| turn(i) > 0.0)
 }
 
-/// `orient2d` is exact within this window of magnitudes; outside of it nothing is called convex.
-fn left_turn(a: DVec2, b: DVec2, c: DVec2) -> bool {
+/// Positive for a turn to the left; exact in its sign within this window of magnitudes, outside of it NaN.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let exact = |x: f64| x == 0.0 || (x.abs() > 1e-90 && x.abs() < 1e90);
     let coord = |p: DVec2| Coord { x: p.x, y: p.y };
-    [a, b, c].iter().all(|p| exact(p.x) && exact(p.y)) && orient2d(coord(a), coord(b), coord(c)) >= 0.0
+    if [a, b, c].iter().all(|p| exact(p.x) && exact(p.y)) {
+        orient2d(coord(a), coord(b), coord(c))
+    } else {
+        f64::NAN
+    }
 }

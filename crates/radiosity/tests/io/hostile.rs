@@ -116,6 +116,18 @@ fn a_bent_polygon_that_crosses_itself_is_cut_or_left_out() {
     }
 }
 
+/// Planar within rounding, but a line once it lies in a coordinate plane.
+#[test]
+fn a_vertex_too_far_for_the_others_leaves_no_area() {
+    let body = "<ph><p>0 1 2 3</p><h>4 5 6 7</h></ph>";
+    let points = "0 0 2 4 0 0 4 4 0 0 4 1e53 1 1 0 2 1 0 2 2 0 0 1 0";
+    let far = geometry("g", points, &primitive("polygons", "g", body));
+    let text = file(&format!("<library_geometries>{far}</library_geometries>"), &node("n", "", "g"));
+    if let Ok(scene) = Collada::from_text("test.dae", text).scene() {
+        assert!(scene.patches.iter().all(|patch| patch.polygon.area() > 0.0));
+    }
+}
+
 #[test]
 fn holes_of_too_few_points_are_left_out() {
     let body = "<ph><p>0 1 2 3</p><h>0 0 0</h><h></h></ph>";
