@@ -20,6 +20,7 @@ use crate::predicates::{
     Area, Clear, Parameter, Segment, Side, crossing_order, doubled_area, is_inside, lexicographic,
     point_crossing_order, side_of,
 };
+use crate::slabs::Slabs;
 use crate::strips::Strips;
 use crate::suspects::Suspects;
 use crate::truth::index;
@@ -28,6 +29,24 @@ use std::cmp::Ordering;
 
 /// No edge, no node.
 const NONE: u32 = u32::MAX;
+
+/// How long boxes of chains are looked at before [`Slabs`] are built: up to so many pairs of edges for each edge and for
+/// each node found, and up to so many blocks of boxes for each edge.
+///
+/// Where edges do cross, boxes are quicker: among many long edges in all directions about 4 pairs make a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patience {
+    pub(crate) pairs: usize,
+    pub(crate) pairs_per_edge: usize,
+    pub(crate) pairs_per_node: usize,
+    pub(crate) blocks_per_edge: usize,
+}
+
+impl Default for Patience {
+    fn default() -> Patience {
+        Patience { pairs: 1000, pairs_per_edge: 12, pairs_per_node: 8, blocks_per_edge: 32 }
+    }
+}
 
 /// What meets an edge in a contact: a kind in the top bits, and the id of an edge or vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,8 +117,28 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
-    /// Finds the contacts of all pairs of edges.
-    pub(crate) fn find(&mut self, edges: &Edges, chains: &Chains, strips: &Strips, suspects: &mut Suspects) {
+    /// Finds the contacts of all pairs of edges: of those whose chains' boxes meet, or, where that turns out to be far
+    /// more than what meets, of those that [`Slabs`] finds.
+    pub(crate) fn find(
+        &mut self,
+        edges: &Edges,
+        chains: &Chains,
+        strips: &Strips,
+        slabs: &mut Slabs,
+        suspects: &mut Suspects,
+        patience: Patience,
+    ) {
+        self.start(edges, chains, suspects);
+        if !self.find_by_boxes(edges, chains, strips, suspects, patience) {
+            self.start(edges, chains, suspects);
+            suspects.give_up();
+            self.find_by_slabs(edges, slabs, suspects);
+        }
+        self.bucket(edges.len());
+        self.sort(edges, suspects);
+    }
+
+    fn start(&mut self, edges: &Edges, chains: &Chains, suspects: &mut Suspects) {
         self.found.clear();
         self.nodes.clear();
         self.classes.reset(0);
@@ -107,12 +146,41 @@ impl Contacts {
         self.rings.reset(edges.rings().len());
         self.degenerate = false;
         suspects.start(chains.size());
-        strips.pairs(|a, b| {
+    }
+
+    /// Returns false, with some contacts found, when it would take too long.
+    fn find_by_boxes(
+        &mut self,
+        edges: &Edges,
+        chains: &Chains,
+        strips: &Strips,
+        suspects: &mut Suspects,
+        patience: Patience,
+    ) -> bool {
+        let Patience { pairs, pairs_per_edge, pairs_per_node, blocks_per_edge } = patience;
+        let most = pairs + pairs_per_edge * edges.len();
+        let mut met = 0;
+        strips.pairs_within(pairs + blocks_per_edge * edges.len(), |a, b| {
             let (a, b) = (chains.chain(a), chains.chain(b));
-            a.meet(b, edges.points(), |e, f| self.meet(edges, e.min(f), e.max(f), suspects));
-        });
-        self.bucket(edges.len());
-        self.sort(edges, suspects);
+            a.meet(b, edges.points(), |e, f| {
+                met += 1;
+                self.meet(edges, e.min(f), e.max(f), suspects);
+            });
+            met < most + pairs_per_node * self.nodes.len()
+        })
+    }
+
+    fn find_by_slabs(&mut self, edges: &Edges, slabs: &mut Slabs, suspects: &mut Suspects) {
+        let is_edge = |slot: u32| edges.ring(slot).end != slot;
+        let all = (0..index(edges.len())).filter(|&slot| is_edge(slot));
+        slabs.build(edges.points().iter().copied(), all.map(|edge| (edge, [edge, edge + 1])));
+        for place in slabs.places() {
+            let mut vertices = place.filter(|&slot| is_edge(slot));
+            let first = vertices.next();
+            vertices.for_each(|vertex| first.into_iter().for_each(|first| self.join(edges, first, vertex)));
+        }
+        slabs.copies().for_each(|[e, f]| self.meet(edges, e, f, suspects));
+        slabs.pairs(|e, f| self.meet(edges, e.min(f), e.max(f), suspects));
     }
 
     /// The contacts by edge and in order along it, each node once on each edge.

@@ -107,6 +107,7 @@ mod scratch;
 mod select;
 #[cfg(feature = "serde")]
 mod serde;
+mod slabs;
 mod strips;
 mod suspects;
 #[cfg(feature = "triangulate")]

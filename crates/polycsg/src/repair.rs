@@ -22,7 +22,7 @@ use crate::edges::Edges;
 use crate::outline::Outline;
 use crate::predicates::{Ratio, Segment, Side, crossing_ratio, is_inside, lexicographic, rightward, side};
 use crate::select::{End, Piece, Selection};
-use crate::strips::Strips;
+use crate::slabs::Slabs;
 use crate::suspects::Suspects;
 use crate::truth::index;
 use glam::DVec2;
@@ -93,9 +93,17 @@ pub(crate) struct Rounded<'a> {
 
 /// Whether rounding left every piece where it was, as seen from the others: of the suspected pairs of edges, which are
 /// the only ones that can, no two fragments meet but in a vertex of both.
-pub(crate) fn is_sound(rounded: Rounded<'_>, suspects: &Suspects, mending: &mut Mending) -> bool {
+pub(crate) fn is_sound(
+    rounded: Rounded<'_>,
+    suspects: &Suspects,
+    slabs: &mut Slabs,
+    mending: &mut Mending,
+) -> bool {
+    if suspects.all() {
+        return rounded.is_sound_throughout(slabs, mending);
+    }
     let sound = suspects.pairs().is_empty() || are_all_sound(rounded, suspects, mending);
-    debug_assert!(!sound || rounded.is_sound_throughout());
+    debug_assert!(!sound || rounded.is_sound_throughout(slabs, mending));
     sound
 }
 
@@ -131,12 +139,12 @@ fn are_sound(f: &Fragment, g: &Fragment) -> bool {
 }
 
 /// Puts the pieces into an outline: no two of its edges meet but in their ends.
-pub(crate) fn mend(rounded: Rounded<'_>, strips: &mut Strips, mending: &mut Mending, outline: &mut Outline) {
+pub(crate) fn mend(rounded: Rounded<'_>, slabs: &mut Slabs, mending: &mut Mending, outline: &mut Outline) {
     mending.cuts.clear();
     rounded.list_parts(None, &mut mending.parts);
     loop {
         rounded.cut_up(&mending.parts, &mending.cuts, &mut mending.fragments);
-        mending.find_conflicts(strips);
+        mending.find_conflicts(slabs);
         if mending.conflicts.is_empty() {
             let may_coincide = mending.classes.len() < mending.alike.len();
             return outline.build(mending.fragments.iter().map(|f| f.segment), may_coincide);
@@ -145,11 +153,6 @@ pub(crate) fn mend(rounded: Rounded<'_>, strips: &mut Strips, mending: &mut Mend
             return outline.build(cut_verticals(&mending.fragments).iter().copied(), true);
         }
     }
-}
-
-/// The smallest box around a segment.
-fn bounds([a, b]: Segment) -> [DVec2; 2] {
-    [a.min(b), a.max(b)]
 }
 
 impl Mending {
@@ -188,13 +191,15 @@ impl Mending {
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
-    fn find_conflicts(&mut self, strips: &mut Strips) {
+    fn find_conflicts(&mut self, slabs: &mut Slabs) {
         self.find_alike();
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
-            strips.build((0..self.classes.len()).map(|class| bounds(self.one_of(class).segment)));
-            strips.pairs(|i, j| {
+            let points = (0..self.classes.len()).flat_map(|class| self.one_of(class).segment);
+            let classes = 0..index(self.classes.len());
+            slabs.build(points, classes.map(|class| (class, [2 * class, 2 * class + 1])));
+            slabs.pairs(|i, j| {
                 let moved = self.classes[i as usize].moved || self.classes[j as usize].moved;
                 let segments = || [i, j].map(|class| self.one_of(class as usize).segment);
                 if moved && in_conflict(segments()) {
@@ -220,14 +225,27 @@ fn in_conflict([s, t]: [Segment; 2]) -> bool {
 }
 
 impl Rounded<'_> {
-    /// The law behind [`is_sound`]: no two fragments at all meet but in common vertices.
-    fn is_sound_throughout(&self) -> bool {
-        let (mut parts, mut fragments, mut strips) = (Vec::new(), Vec::new(), Strips::default());
-        self.list_parts(None, &mut parts);
-        self.cut_up(&parts, &[], &mut fragments);
-        let mut sound = fragments.iter().all(|f| f.segment[0] != f.segment[1]);
-        strips.build(fragments.iter().map(|f| bounds(f.segment)));
-        strips.pairs(|i, j| sound = sound && are_sound(&fragments[i as usize], &fragments[j as usize]));
+    /// Whether no two fragments at all meet but in common vertices: the law behind [`is_sound`].
+    fn is_sound_throughout(&self, slabs: &mut Slabs, mending: &mut Mending) -> bool {
+        let Mending { parts, fragments, .. } = mending;
+        self.list_parts(None, parts);
+        self.cut_up(parts, &[], fragments);
+        if fragments.iter().any(|f| f.segment[0] == f.segment[1]) {
+            return false;
+        }
+        slabs.build(
+            fragments.iter().flat_map(|f| f.segment),
+            (0..index(fragments.len())).map(|i| (i, [2 * i, 2 * i + 1])),
+        );
+        let vertex = |end: u32| fragments[end as usize / 2].ends[end as usize % 2];
+        let one_vertex = slabs.places().all(|mut place| {
+            let first = place.next().map(vertex);
+            place.all(|end| Some(vertex(end)) == first)
+        });
+        let mut sound = one_vertex && slabs.copies().next().is_none();
+        if sound {
+            slabs.pairs(|i, j| sound = sound && are_sound(&fragments[i as usize], &fragments[j as usize]));
+        }
         sound
     }
 

@@ -2,7 +2,7 @@
 
 use crate::arrangement::Arrangement;
 use crate::chains::Chains;
-use crate::contacts::Contacts;
+use crate::contacts::{Contacts, Patience};
 use crate::copies::Copies;
 use crate::edges::Edges;
 use crate::labels::Labels;
@@ -11,6 +11,7 @@ use crate::nest::Nesting;
 use crate::outline::Outline;
 use crate::repair::Mending;
 use crate::select::Selection;
+use crate::slabs::Slabs;
 use crate::strips::Strips;
 use crate::suspects::Suspects;
 use crate::truth::Truth;
@@ -34,6 +35,8 @@ pub struct Scratch {
     pub(crate) chains: Chains,
     pub(crate) copies: Copies,
     pub(crate) strips: Strips,
+    pub(crate) slabs: Slabs,
+    pub(crate) patience: Patience,
     pub(crate) suspects: Suspects,
     pub(crate) contacts: Contacts,
     pub(crate) arrangement: Arrangement,

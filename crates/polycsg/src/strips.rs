@@ -169,25 +169,34 @@ impl Strips {
     }
 
     /// Calls `visit` once for each pair of boxes that meet, in an order that depends on the boxes alone.
-    pub(crate) fn pairs(&self, mut visit: impl FnMut(u32, u32)) {
+    ///
+    /// Gives up, and returns false, when `visit` does, or when more than so many blocks of boxes must be looked at.
+    pub(crate) fn pairs_within(&self, mut blocks: usize, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
         if self.boxes.len() <= FEW {
-            return self.few_pairs(visit);
+            self.few_pairs(visit);
+            return true;
         }
         let count = self.starts.len() - 1;
         for strip in 0..count {
             let entries = self.entries(strip);
             for i in entries.clone() {
-                self.above(i, entries.end, |j| {
+                let mut go_on = true;
+                let looked_at = self.above(i, entries.end, |j| {
                     let left = self.x0[i].max(self.x0[j]);
-                    if count == 1 || Strips::strip(left, count) == strip {
-                        visit(self.ids[i], self.ids[j]);
+                    if go_on && (count == 1 || Strips::strip(left, count) == strip) {
+                        go_on = visit(self.ids[i], self.ids[j]);
                     }
                 });
+                if !go_on || looked_at > blocks {
+                    return false;
+                }
+                blocks -= looked_at;
             }
         }
+        true
     }
 
-    fn few_pairs(&self, mut visit: impl FnMut(u32, u32)) {
+    fn few_pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) {
         for (i, a) in self.boxes.iter().enumerate() {
             for (j, b) in self.boxes.iter().enumerate().skip(i + 1) {
                 let meets = (a.x0 <= b.x1) & (b.x0 <= a.x1) & (a.y0 <= b.y1) & (b.y0 <= a.y1);
@@ -198,9 +207,9 @@ impl Strips {
         }
     }
 
-    /// Calls `visit` for the entries behind `i` whose boxes meet that of `i`.
+    /// Calls `visit` for the entries behind `i` whose boxes meet that of `i`; returns how many blocks it looked at.
     #[inline]
-    fn above(&self, i: usize, end: usize, mut visit: impl FnMut(usize)) {
+    fn above(&self, i: usize, end: usize, mut visit: impl FnMut(usize)) -> usize {
         let (x0, x1, y1) = (self.x0[i], self.x1[i], self.y1[i]);
         let mut j = i + 1;
         while j < end && self.y0[j] <= y1 {
@@ -217,6 +226,7 @@ impl Strips {
             }
             j += LANES;
         }
+        (j - i) / LANES
     }
 
     /// Calls `visit` for the boxes at abscissa `x` that reach below `y`, from the highest lower side down, until no

@@ -12,6 +12,8 @@ use crate::predicates::{Margins, Parameter, Segment, doubled_area};
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Suspects {
+    /// Whether all edges are suspected.
+    all: bool,
     pairs: Vec<[u32; 2]>,
     margins: Margins,
 }
@@ -19,8 +21,19 @@ pub(crate) struct Suspects {
 impl Suspects {
     /// Starts over for coordinates up to a size.
     pub(crate) fn start(&mut self, size: f64) {
+        self.all = false;
         self.pairs.clear();
         self.margins = Margins::for_size(size);
+    }
+
+    /// Suspects all edges, where not all pairs whose boxes meet are looked at.
+    pub(crate) fn give_up(&mut self) {
+        self.all = true;
+    }
+
+    /// Whether all edges are suspected, not the listed pairs alone.
+    pub(crate) fn all(&self) -> bool {
+        self.all
     }
 
     pub(crate) fn margins(&self) -> Margins {

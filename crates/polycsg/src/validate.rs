@@ -3,20 +3,31 @@
 use crate::predicates::{Segment, Side, is_inside, side};
 use crate::region::{Invalid, Region};
 use crate::rings::ring_edges;
-use crate::strips::Strips;
+use crate::slabs::Slabs;
+use crate::truth::index;
 
 /// See [`Region::validate`].
 pub(crate) fn validate(region: &Region) -> Result<(), Invalid> {
     let edges: Vec<Segment> = region.rings().flat_map(ring_edges).collect();
-    let mut strips = Strips::default();
-    strips.build(edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]));
-    let mut contact = None;
-    strips.pairs(|i, j| {
-        if contact.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
-            contact = Some(Invalid::Contact { edge: i.min(j) as usize, other: i.max(j) as usize });
+    let mut slabs = Slabs::default();
+    slabs.build(
+        edges.iter().flatten().copied(),
+        (0..index(edges.len())).map(|edge| (edge, [2 * edge, 2 * edge + 1])),
+    );
+    let contact = |[i, j]: [u32; 2]| Invalid::Contact { edge: i.min(j) as usize, other: i.max(j) as usize };
+    // An edge without length lies in the end of the one before it or behind it.
+    let is_empty = |edge: u32| edges[edge as usize][0] == edges[edge as usize][1];
+    let meets_next =
+        |&[i, j]: &[u32; 2]| edges[i as usize][1] == edges[j as usize][0] && (is_empty(i) || is_empty(j));
+    let neighbours = (1..index(edges.len())).map(|j| [j - 1, j]);
+    let mut found = neighbours.into_iter().find(meets_next).map(contact);
+    found = found.or_else(|| slabs.copies().next().map(contact));
+    slabs.pairs(|i, j| {
+        if found.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
+            found = Some(contact([i, j]));
         }
     });
-    if let Some(contact) = contact {
+    if let Some(contact) = found {
         return Err(contact);
     }
     // Without contacts nothing can be cut or rounded: evaluation can only find another structure.

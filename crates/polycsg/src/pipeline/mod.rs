@@ -1,5 +1,8 @@
 //! The stages in a row.
 
+#[cfg(test)]
+mod tests;
+
 use crate::csg::Csg;
 use crate::labels::Map;
 use crate::repair::{self, Rounded};
@@ -7,8 +10,20 @@ use crate::{Boundary, Region, Scratch, nest};
 
 /// Edges, chains, contacts, arrangement, memberships.
 pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
-    let Scratch { truth, edges, chains, copies, strips, suspects, contacts, arrangement, labels, .. } =
-        scratch;
+    let Scratch {
+        truth,
+        edges,
+        chains,
+        copies,
+        strips,
+        slabs,
+        patience,
+        suspects,
+        contacts,
+        arrangement,
+        labels,
+        ..
+    } = scratch;
     truth.compile(csg);
     edges.collect(csg, truth);
     chains.build(edges.points(), edges.spans());
@@ -18,7 +33,7 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
         chains.build(edges.points(), edges.spans());
     }
     strips.build(chains.boxes());
-    contacts.find(edges, chains, strips, suspects);
+    contacts.find(edges, chains, strips, slabs, suspects, *patience);
     arrangement.split(edges, contacts);
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, truth);
 }
@@ -42,6 +57,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
         contacts,
         chains,
         strips,
+        slabs,
         suspects,
         selection,
         mending,
@@ -52,10 +68,10 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
     } = scratch;
 
     let rounded = Rounded { edges, contacts, selection };
-    if repair::is_sound(rounded, suspects, mending) {
+    if repair::is_sound(rounded, suspects, slabs, mending) {
         outline.take(edges, contacts, selection);
     } else {
-        repair::mend(rounded, strips, mending, outline);
+        repair::mend(rounded, slabs, mending, outline);
     }
     cycles.link(outline);
     match nest::nest(outline, cycles, chains, strips, nesting) {

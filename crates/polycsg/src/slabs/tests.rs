@@ -1,0 +1,122 @@
+//! Whatever meets but in a common end is found, and not much else.
+use super::Slabs;
+use crate::predicates::{Segment, Side, is_inside, side};
+use glam::DVec2;
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+fn found(segments: &[Segment]) -> BTreeSet<[u32; 2]> {
+    let mut slabs = Slabs::default();
+    let count = u32::try_from(segments.len()).unwrap();
+    slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+    let mut found = BTreeSet::new();
+    slabs.pairs(|i, j| assert!(found.insert([i.min(j), i.max(j)]), "{i} and {j} twice"));
+    found
+}
+
+/// Whether two segments have a point in common that is not an end of both.
+fn meet(s: Segment, t: Segment) -> bool {
+    let on = |s: Segment, p: DVec2| side(s[0], s[1], p) == Side::On && is_inside(s, p);
+    let opposite = |s: Segment, t: Segment| {
+        let sides = t.map(|p| side(s[0], s[1], p));
+        sides[0] == sides[1].reversed() && sides[0] != Side::On
+    };
+    on(s, t[0]) || on(s, t[1]) || on(t, s[0]) || on(t, s[1]) || (opposite(s, t) && opposite(t, s))
+}
+
+fn check(segments: &[Segment]) {
+    let found = found(segments);
+    let ends = |i: usize| {
+        let [a, b] = segments[i];
+        if (a.x, a.y) < (b.x, b.y) { [a, b] } else { [b, a] }
+    };
+    let first = |i: usize| (0..i).find(|&j| ends(j) == ends(i)).unwrap_or(i);
+    for i in 0..segments.len() {
+        for j in 0..i {
+            if meet(segments[i], segments[j]) && first(i) == i && first(j) == j {
+                let pair = [u32::try_from(j).unwrap(), u32::try_from(i).unwrap()];
+                assert!(found.contains(&pair), "{:?} and {:?}", segments[j], segments[i]);
+            }
+        }
+    }
+}
+
+fn distinct(points: Vec<[DVec2; 2]>) -> Vec<Segment> {
+    points.into_iter().filter(|[a, b]| a != b).collect()
+}
+
+fn lattice(size: i32) -> impl Strategy<Value = DVec2> + Clone {
+    (0..size, 0..size).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
+}
+
+fn segments(
+    points: impl Strategy<Value = DVec2> + Clone,
+    most: usize,
+) -> impl Strategy<Value = Vec<Segment>> {
+    prop::collection::vec([points.clone(), points], 0..most).prop_map(distinct)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(120))]
+
+    #[test]
+    fn on_lattices(segments in (2..9).prop_flat_map(|size| segments(lattice(size), 60))) {
+        check(&segments);
+    }
+
+    #[test]
+    fn in_the_square(segments in segments((0.0..1.0, 0.0..1.0).prop_map(DVec2::from), 80)) {
+        check(&segments);
+    }
+
+    /// All within a few units of the last place of a long edge.
+    #[test]
+    fn around_one_line(segments in segments((0_u32..40, 0_u64..4).prop_map(|(x, ulps)| {
+        let x = f64::from(x) / 40.0;
+        DVec2::new(x, f64::from_bits((1.0 + 0.3 * x).to_bits() + ulps))
+    }), 60)) {
+        check(&segments);
+    }
+
+    #[test]
+    fn over_the_whole_range(segments in segments(
+        [prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL, prop::num::f64::NORMAL].prop_map(|[x, y]| DVec2::new(x, y)), 60,
+    )) {
+        check(&segments);
+    }
+}
+
+#[test]
+fn the_largest_coordinates_do_not_overflow() {
+    let corner = |x: f64, y: f64| DVec2::new(x * f64::MAX, y * f64::MAX);
+    let points = [corner(-1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0), corner(1.0, -1.0), DVec2::ZERO];
+    let all = points.iter().flat_map(|&p| points.iter().map(move |&q| [p, q]));
+    check(&distinct(all.collect()));
+}
+
+/// Neighbours in a fan have an end in common and nothing else; a closed ring of them is nothing to find.
+#[test]
+fn fans_cost_nothing() {
+    let tip = |i: u32| DVec2::from_angle(f64::from(i) * 0.01);
+    let fan: Vec<Segment> = (0..600).map(|i| [DVec2::ZERO, tip(i)]).collect();
+    assert!(found(&fan).is_empty());
+    let crossed: Vec<Segment> =
+        fan.iter().copied().chain([[DVec2::new(-0.5, 0.1), DVec2::new(0.5, 0.1)]]).collect();
+    check(&crossed);
+    assert!(found(&crossed).len() < 320, "{}", found(&crossed).len());
+}
+
+#[test]
+fn parallel_edges_cost_nothing() {
+    let comb: Vec<Segment> =
+        (0..1000).map(|i| [DVec2::new(f64::from(i), 0.0), DVec2::new(f64::from(i) + 1e5, 1e5)]).collect();
+    assert!(found(&comb).is_empty());
+}
+
+/// Of edges with the same ends one stands for all.
+#[test]
+fn copies_are_compared_once() {
+    let cross = [[DVec2::ZERO, DVec2::ONE], [DVec2::X, DVec2::Y]];
+    let many: Vec<Segment> = (0..100).map(|i| cross[i % 2]).collect();
+    assert_eq!(found(&many).len(), 99);
+}
