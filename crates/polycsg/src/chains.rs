@@ -113,6 +113,11 @@ impl Chains {
         self.chains.iter().map(|chain| [chain.low, chain.high])
     }
 
+    /// All edges.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = u32> + '_ {
+        self.chains.iter().flat_map(|chain| chain.first..chain.last)
+    }
+
     #[inline]
     pub(crate) fn chain(&self, chain: u32) -> &Chain {
         &self.chains[chain as usize]

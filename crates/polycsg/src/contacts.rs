@@ -132,7 +132,7 @@ impl Contacts {
         if !self.find_by_boxes(edges, chains, strips, suspects, patience) {
             self.start(edges, chains, suspects);
             suspects.give_up();
-            self.find_by_slabs(edges, slabs, suspects);
+            self.find_by_slabs(edges, chains, slabs, suspects);
         }
         self.bucket(edges.len());
         self.sort(edges, suspects);
@@ -170,12 +170,10 @@ impl Contacts {
         })
     }
 
-    fn find_by_slabs(&mut self, edges: &Edges, slabs: &mut Slabs, suspects: &mut Suspects) {
-        let is_edge = |slot: u32| edges.ring(slot).end != slot;
-        let all = (0..index(edges.len())).filter(|&slot| is_edge(slot));
-        slabs.build(edges.points().iter().copied(), all.map(|edge| (edge, [edge, edge + 1])));
+    fn find_by_slabs(&mut self, edges: &Edges, chains: &Chains, slabs: &mut Slabs, suspects: &mut Suspects) {
+        slabs.build(edges.points().iter().copied(), chains.edges().map(|edge| (edge, [edge, edge + 1])));
         for place in slabs.places() {
-            let mut vertices = place.filter(|&slot| is_edge(slot));
+            let mut vertices = place.filter(|&slot| edges.ring(slot).end != slot);
             let first = vertices.next();
             vertices.for_each(|vertex| first.into_iter().for_each(|first| self.join(edges, first, vertex)));
         }

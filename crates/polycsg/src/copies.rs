@@ -61,7 +61,9 @@ fn key(edges: &Edges, chains: &Chains, ring: u32) -> u64 {
     (mixed(edges.point(vertex)) ^ both).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
-fn mixed(p: DVec2) -> u64 {
+/// A number for a point, to tell it from others quickly.
+#[inline]
+pub(crate) fn mixed(p: DVec2) -> u64 {
     let product = p.x.to_bits().wrapping_mul(0xff51_afd7_ed55_8ccd) ^ p.y.to_bits().rotate_left(32);
     (product ^ product >> 29).wrapping_mul(0xc4ce_b9fe_1a85_ec53)
 }

@@ -54,6 +54,12 @@ impl Ring {
         self.counter.is_some()
     }
 
+    /// The counter that its edges change, none for an open edge.
+    #[inline]
+    pub(crate) fn counter(self) -> Option<u32> {
+        self.counter
+    }
+
     #[inline]
     pub(crate) fn next(self, edge: u32) -> u32 {
         if edge + 1 == self.end { self.start } else { edge + 1 }
@@ -110,11 +116,7 @@ fn sort_by_place(places: &mut [Place]) {
 impl Edges {
     /// Reads the operands. Repeated points are dropped, and rings that have fewer than three others left.
     pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth) {
-        self.points.clear();
-        self.ring.clear();
-        self.rings.clear();
-        self.origins.clear();
-        self.also.clear();
+        self.clear();
         let leaves = csg.postfix().iter().filter(|token| !matches!(token, Token::Operator(..)));
         let rings = leaves.clone().map(|leaf| leaf.rings().map_or(0, Rings::len)).sum::<usize>();
         if rings > FEW_RINGS {
@@ -134,6 +136,31 @@ impl Edges {
                 }
             }
         }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.points.clear();
+        self.ring.clear();
+        self.rings.clear();
+        self.origins.clear();
+        self.also.clear();
+    }
+
+    /// Adds edges of others to a new ring.
+    pub(crate) fn add_edges(&mut self, others: &Edges, edges: Range<u32>) {
+        self.points.extend_from_slice(&others.points[edges.start as usize..edges.end as usize]);
+        self.origins.extend(edges.map(|edge| others.origin(edge)));
+    }
+
+    /// Closes the ring whose edges were added, and lets them change a counter.
+    pub(crate) fn close(&mut self, counter: Option<u32>) {
+        let start = index(self.ring.len());
+        let origin = self.origins[start as usize];
+        self.points.push(self.points[start as usize]);
+        self.origins.push(origin);
+        self.ring.resize(self.points.len(), index(self.rings.len()));
+        let end = index(self.points.len()) - 1;
+        self.rings.push(Ring { start, end, counter, winds: 1, also: END, origin });
     }
 
     fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth) {

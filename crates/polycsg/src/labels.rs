@@ -15,12 +15,13 @@
 //! A component that lies inside a face of another one hangs on an arc of that face.
 
 use crate::arrangement::{Arrangement, Node};
-use crate::below::nearest_below;
+use crate::below::Below;
 use crate::chains::Chains;
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
 use crate::membership::Membership;
 use crate::predicates::{Side, crossing_x_order, lexicographic, side};
+use crate::slabs::Slabs;
 use crate::strips::Strips;
 use crate::truth::{Truth, index};
 use std::cmp::Ordering;
@@ -84,8 +85,9 @@ pub(crate) struct Labels {
     /// The junctions that were gone around.
     seen: Vec<bool>,
     steps: Vec<Step>,
-    /// The lexicographically smallest vertex of each component, by ring.
+    /// The lexicographically smallest vertex of each component.
     leftmost: Vec<u32>,
+    below: Below,
     /// Sorted by arc.
     hung: Vec<Hung>,
     outermost: Vec<u32>,
@@ -122,23 +124,23 @@ impl Map<'_> {
         arc.unwrap_or_else(|| self.of_whole_ring(self.edges.ring_of(vertex)))
     }
 
-    /// The arc that runs below a point and whether that lies on its left.
-    fn arc_below(self, vertex: u32) -> Option<(u32, bool)> {
-        let p = self.edges.point(vertex);
-        let (edge, [left_end, _]) = nearest_below(self.chains, self.strips, self.edges.points(), p)?;
-        let rightward = self.edges.point(edge) == left_end;
+    /// The arc of an edge that runs below a vertex there, and whether the vertex lies on its left.
+    fn arc_of(self, edge: u32, vertex: u32) -> (u32, bool) {
+        let x = self.edges.point(vertex).x;
+        let [start, end] = self.edges.segment(edge);
+        let rightward = start.x < end.x;
         let starts_behind = |arc: u32| {
             self.arrangement.edge(arc) > edge || {
-                self.arrangement.edge(arc) == edge && self.is_left_of(arc, p.x) != rightward
+                self.arrangement.edge(arc) == edge && self.is_left_of(arc, x) != rightward
             }
         };
         let arcs = self.arrangement.of_ring(self.edges.ring_of(edge));
         let Some(arc) = self.arrangement.last_before(arcs, starts_behind) else {
-            return Some((self.of_whole_ring(self.edges.ring_of(edge)), rightward));
+            return (self.of_whole_ring(self.edges.ring_of(edge)), rightward);
         };
         let stands = self.arrangement.stand_in(arc);
         let along = self.arrangement.is_along(self.edges, stands, arc);
-        Some((stands, rightward == along))
+        (stands, rightward == along)
     }
 
     /// Whether an arc starts at or left of an abscissa.
@@ -154,14 +156,14 @@ impl Map<'_> {
 
 impl Labels {
     /// Labels every arc with the sides of it on which `truth` holds.
-    pub(crate) fn classify(&mut self, map: Map<'_>, truth: &mut Truth) {
+    pub(crate) fn classify(&mut self, map: Map<'_>, slabs: &mut Slabs, truth: &mut Truth) {
         self.labels.clear();
         self.labels.resize(map.arrangement.len() + map.edges.rings().len(), Label::default());
         self.seen.clear();
         self.seen.resize(map.arrangement.junction_count(), false);
         self.find_strands(map);
         self.find_leftmost(map);
-        self.hang(map);
+        self.hang(map, slabs);
         while let Some(vertex) = self.outermost.pop() {
             self.steps.push(Step::Component { vertex });
             while let Some(step) = self.steps.pop() {
@@ -215,15 +217,19 @@ impl Labels {
                 *best = vertex;
             }
         }
+        self.leftmost.retain(|&vertex| vertex != NONE);
     }
 
     /// Hangs each component on the arc below it, or finds that there is none.
-    fn hang(&mut self, map: Map<'_>) {
+    fn hang(&mut self, map: Map<'_>, slabs: &mut Slabs) {
         self.hung.clear();
         self.outermost.clear();
-        let several = self.leftmost.iter().filter(|&&vertex| vertex != NONE).nth(1).is_some();
-        for &vertex in self.leftmost.iter().filter(|&&vertex| vertex != NONE) {
-            match if several { map.arc_below(vertex) } else { None } {
+        if let [single] = self.leftmost[..] {
+            return self.outermost.push(single);
+        }
+        self.below.look(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost);
+        for (i, &vertex) in self.leftmost.iter().enumerate() {
+            match self.below.edge(i).map(|edge| map.arc_of(edge, vertex)) {
                 None => self.outermost.push(vertex),
                 Some((arc, left)) => {
                     self.labels[arc as usize].0 |= Label::HUNG;

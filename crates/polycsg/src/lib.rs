@@ -83,6 +83,7 @@ mod arrangement;
 mod batch;
 mod below;
 mod boundary;
+mod cancel;
 mod chains;
 mod classify;
 mod contacts;

@@ -34,7 +34,7 @@ pub(crate) struct Ring {
 /// A stroke at a node where several leave: whether it leaves, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Spoke {
-    node: u32,
+    pub(crate) node: u32,
     pub(crate) stroke: u32,
     pub(crate) leaves: bool,
 }

@@ -11,12 +11,13 @@
 //!
 //! An edge below whose near side is on the wrong side of the boundary means that the rings are not nested.
 
-use crate::below::nearest_below;
+use crate::below::Below;
 use crate::chains::{Chains, span};
 use crate::link::{Cycles, Ring, Spoke, by_angle, neighbours};
 use crate::outline::Outline;
 use crate::predicates::lexicographic;
 use crate::region::{Region, RegionBuilder};
+use crate::slabs::Slabs;
 use crate::strips::Strips;
 use crate::truth::index;
 use glam::DVec2;
@@ -43,13 +44,15 @@ pub(crate) struct Nesting {
     around: Vec<u32>,
     /// Per polygon the number of polygons around it.
     depth: Vec<u32>,
+    /// The leftmost points, of which it matters what is below them, and per ring the place of its point there.
+    asked: Vec<u32>,
+    question: Vec<u32>,
+    below: Below,
 }
 
 struct Nest<'a> {
     outline: &'a Outline,
     cycles: &'a Cycles,
-    chains: &'a Chains,
-    strips: &'a Strips,
     nesting: &'a mut Nesting,
 }
 
@@ -59,18 +62,23 @@ pub(crate) fn nest(
     cycles: &Cycles,
     chains: &mut Chains,
     strips: &mut Strips,
+    slabs: &mut Slabs,
     nesting: &mut Nesting,
 ) -> Result<Region, Misnested> {
     if !cycles.alternate {
         return Err(Misnested);
     }
     let rings = cycles.rings();
+    nesting.start(cycles)?;
+    let mut nest = Nest { outline, cycles, nesting };
+    // What is below a single ring's leftmost point is known: nothing.
     if rings.len() > 1 {
+        nest.ask();
         chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
         strips.build(chains.boxes());
+        let Nesting { below, asked, .. } = &mut *nest.nesting;
+        below.look(chains, strips, slabs, rings.points(), asked);
     }
-    nesting.start(cycles)?;
-    let mut nest = Nest { outline, cycles, chains, strips, nesting };
     for i in 0..nest.nesting.order.len() {
         nest.place(nest.nesting.order[i])?;
     }
@@ -85,6 +93,9 @@ impl Nesting {
         self.around.clear();
         self.around.resize(rings.len(), NONE);
         self.depth.clear();
+        self.asked.clear();
+        self.question.clear();
+        self.question.resize(rings.len(), NONE);
         self.sort_rings(cycles);
         self.find_outer(rings)?;
         self.find_leftmost(cycles);
@@ -150,6 +161,22 @@ impl Nest<'_> {
         self.cycles.about()[ring as usize]
     }
 
+    /// Lists the rings whose leftmost points look for a ring below.
+    fn ask(&mut self) {
+        for ring in 0..index(self.cycles.about().len()) {
+            let Ring { cycle, counter_clockwise, .. } = self.ring(ring);
+            let asks = if counter_clockwise {
+                self.clockwise_neighbour(ring).is_none()
+            } else {
+                self.nesting.outer[cycle as usize] == NONE && self.nesting.leftmost[cycle as usize] == ring
+            };
+            if asks {
+                self.nesting.question[ring as usize] = index(self.nesting.asked.len());
+                self.nesting.asked.push(self.ring(ring).leftmost);
+            }
+        }
+    }
+
     fn place(&mut self, ring: u32) -> Result<(), Misnested> {
         if self.ring(ring).counter_clockwise {
             return self.place_outer(ring);
@@ -205,25 +232,27 @@ impl Nest<'_> {
             return None; // inside a stroke nothing meets it
         }
         let spokes = self.cycles.spokes_at_start(self.outline, stroke);
-        let place = spokes.iter().position(|spoke| spoke.stroke == stroke && spoke.leaves)?;
+        let point = Corner::of(self.cycles, ring).point;
+        let end = |spoke: Spoke| self.cycles.spoke_end(self.outline, spoke);
+        let own = end(Spoke { stroke, leaves: true, ..*spokes.first()? });
+        let first = spokes.partition_point(|&spoke| by_angle(point, end(spoke), own) == Ordering::Less);
+        let is_own = |spoke: &Spoke| spoke.stroke == stroke && spoke.leaves;
+        let place = first + spokes[first..].iter().position(is_own)?;
         match place.checked_sub(1) {
             Some(before) => Some(spokes[before]),
-            None => spokes.last().copied().filter(|&spoke| {
-                let point = Corner::of(self.cycles, ring).point;
-                lexicographic(self.cycles.spoke_end(self.outline, spoke), point) == Ordering::Less
-            }),
+            None => {
+                spokes.last().copied().filter(|&spoke| lexicographic(end(spoke), point) == Ordering::Less)
+            }
         }
     }
 
     /// The ring that runs right below the leftmost point of a ring, and whether its interior lies above.
     fn ring_below(&self, ring: u32) -> Option<(u32, bool)> {
         let rings = self.cycles.rings();
-        if rings.len() == 1 {
-            return None; // nothing is indexed
-        }
-        let point = rings.points()[self.ring(ring).leftmost as usize];
-        let (edge, [left, _]) = nearest_below(self.chains, self.strips, rings.points(), point)?;
-        Some((index(rings.ring_at(edge as usize)), rings.points()[edge as usize] == left))
+        let question = self.nesting.question[ring as usize];
+        let edge = if question == NONE { None } else { self.nesting.below.edge(question as usize) }?;
+        let [start, end] = [edge, edge + 1].map(|slot| rings.points()[slot as usize]);
+        Some((index(rings.ring_at(edge as usize)), lexicographic(start, end) == Ordering::Less))
     }
 
     /// The polygons, outermost first, then by leftmost point.

@@ -1,6 +1,7 @@
 //! The buffers of all stages.
 
 use crate::arrangement::Arrangement;
+use crate::cancel::Cancel;
 use crate::chains::Chains;
 use crate::contacts::{Contacts, Patience};
 use crate::copies::Copies;
@@ -32,6 +33,7 @@ use crate::truth::Truth;
 pub struct Scratch {
     pub(crate) truth: Truth,
     pub(crate) edges: Edges,
+    pub(crate) cancel: Cancel,
     pub(crate) chains: Chains,
     pub(crate) copies: Copies,
     pub(crate) strips: Strips,

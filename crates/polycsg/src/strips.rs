@@ -230,8 +230,9 @@ impl Strips {
     }
 
     /// Calls `visit` for the boxes at abscissa `x` that reach below `y`, from the highest lower side down, until no
-    /// box left reaches the height that the last call returned (`None`: nothing found yet).
-    pub(crate) fn below(&self, x: f64, y: f64, mut visit: impl FnMut(u32) -> Option<f64>) {
+    /// box left reaches the height that the last call returned (`None`: nothing found yet), or until `left` boxes were
+    /// looked at; counts these down.
+    pub(crate) fn below(&self, x: f64, y: f64, left: &mut usize, mut visit: impl FnMut(u32) -> Option<f64>) {
         if self.boxes.len() <= FEW {
             for i in 0..index(self.boxes.len()) {
                 visit(i);
@@ -244,9 +245,10 @@ impl Strips {
         let end = entries.start + self.y0[entries.clone()].partition_point(|&y0| y0 <= ym);
         let mut best = None;
         for i in (entries.start..end).rev() {
-            if best.is_some_and(|height| self.highest[i] < self.y.map(height)) {
+            if best.is_some_and(|height| self.highest[i] < self.y.map(height)) || *left == 0 {
                 return;
             }
+            *left -= 1;
             if self.x0[i] <= xm && xm <= self.x1[i] {
                 best = visit(self.ids[i]);
             }

@@ -13,6 +13,7 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
     let Scratch {
         truth,
         edges,
+        cancel,
         chains,
         copies,
         strips,
@@ -26,6 +27,7 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
     } = scratch;
     truth.compile(csg);
     edges.collect(csg, truth);
+    cancel.cancel(edges);
     chains.build(edges.points(), edges.spans());
     let copies = copies.find(edges, chains);
     if !copies.is_empty() {
@@ -35,7 +37,7 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
     strips.build(chains.boxes());
     contacts.find(edges, chains, strips, slabs, suspects, *patience);
     arrangement.split(edges, contacts);
-    labels.classify(Map { edges, chains, strips, contacts, arrangement }, truth);
+    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
 }
 
 /// … and the pieces whose sides differ, rounded.
@@ -74,7 +76,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
         repair::mend(rounded, slabs, mending, outline);
     }
     cycles.link(outline);
-    match nest::nest(outline, cycles, chains, strips, nesting) {
+    match nest::nest(outline, cycles, chains, strips, slabs, nesting) {
         Ok(region) => region,
         Err(nest::Misnested) => {
             let rings = cycles.rings().clone();

@@ -1,8 +1,9 @@
 //! Whatever meets but in a common end is found, and not much else.
 use super::Slabs;
-use crate::predicates::{Segment, Side, is_inside, side};
+use crate::predicates::{Segment, Side, height_order, is_inside, rightward, side};
 use glam::DVec2;
 use proptest::prelude::*;
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 fn found(segments: &[Segment]) -> BTreeSet<[u32; 2]> {
@@ -56,6 +57,39 @@ fn segments(
     prop::collection::vec([points.clone(), points], 0..most).prop_map(distinct)
 }
 
+/// What is below each end, looked for in the slabs and among all segments.
+fn check_below(segments: &[Segment]) {
+    let mut slabs = Slabs::default();
+    let count = u32::try_from(segments.len()).unwrap();
+    slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+    let mut found = Vec::new();
+    let points: Vec<u32> = (0..2 * count).collect();
+    slabs.below(&points, &mut found);
+    let covers = |s: Segment, p: DVec2| s[0].x <= p.x && p.x < s[1].x && side(s[0], s[1], p) == Side::Left;
+    for (found, p) in found.iter().zip(segments.iter().flatten()) {
+        let below = segments.iter().map(|&s| rightward(s)).filter(|&s| covers(s, *p));
+        let higher =
+            |s: Segment, t: Segment| if height_order(t, s, p.x) == Ordering::Greater { t } else { s };
+        let expected = below.reduce(higher);
+        let found = found.map(|i| rightward(segments[i as usize]));
+        match (found, expected) {
+            (Some(s), Some(t)) => assert_eq!(height_order(s, t, p.x), Ordering::Equal, "{s:?} {t:?} {p}"),
+            (found, expected) => assert_eq!(found, expected, "{p}"),
+        }
+    }
+}
+
+/// Without those that meet an earlier one but in a common end.
+fn apart(segments: Vec<Segment>) -> Vec<Segment> {
+    let mut kept: Vec<Segment> = Vec::new();
+    for s in segments {
+        if !kept.iter().any(|&t| meet(s, t)) {
+            kept.push(s);
+        }
+    }
+    kept
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(120))]
 
@@ -67,6 +101,16 @@ proptest! {
     #[test]
     fn in_the_square(segments in segments((0.0..1.0, 0.0..1.0).prop_map(DVec2::from), 80)) {
         check(&segments);
+    }
+
+    #[test]
+    fn below_on_lattices(segments in (3..12).prop_flat_map(|size| segments(lattice(size), 90))) {
+        check_below(&apart(segments));
+    }
+
+    #[test]
+    fn below_in_the_square(segments in segments((0.0..1.0, 0.0..1.0).prop_map(DVec2::from), 120)) {
+        check_below(&apart(segments));
     }
 
     /// All within a few units of the last place of a long edge.

@@ -1,0 +1,258 @@
+//! Stage 1, where it pays: opposite edges of one counter cancel before anything looks at them.
+//!
+//! ```text
+//!     +-->--+-->--+         The cells of a grid, the countries of a map: what two of them have in common changes the
+//!     |     ^|    |         winding number forth and back, so the sum of all rings is that of the outer edges alone.
+//!     ^  a  |v b  v         What is left of the rings is linked to closed rings again; at each point as many edges are
+//!     |     |     |         left that arrive as that leave.
+//!     +--<--+--<--+
+//! ```
+//!
+//! Whether it pays is told by the edges at a few points, chosen by their digits, so that the order of the input, its
+//! scale and quarter turns do not matter. A vertex that is left by no edge is gone: it is not put into an edge that it
+//! touches.
+
+use crate::copies::mixed;
+use crate::edges::{Edges, Ring};
+use crate::predicates::{lexicographic, rightward};
+use crate::truth::index;
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// Fewer edges are not worth a look.
+const FEW: usize = 256;
+
+/// Edges at one point in so many are looked at, at most.
+const SAMPLE: usize = 128;
+
+/// No edge.
+const NONE: u32 = u32::MAX;
+
+/// Edges with the same ends and counter: one of them, and a list of those that have not cancelled, all in one direction.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    one: u32,
+    left: u32,
+}
+
+/// Consecutive edges of a ring that are left, `count` from `first` on, going round.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    ring: u32,
+    first: u32,
+    count: u32,
+}
+
+/// The buffers of the stage.
+#[derive(Debug, Default)]
+pub(crate) struct Cancel {
+    sample: Vec<u32>,
+    /// A hash table with open addressing.
+    kinds: Vec<Kind>,
+    /// Per edge the next in its kind's list, and whether it has cancelled.
+    next: Vec<u32>,
+    gone: Vec<bool>,
+    /// The runs of rings of which edges are gone, ring by ring, and their order by counter and first point.
+    runs: Vec<Run>,
+    order: Vec<u32>,
+    /// Per place in `order` that is the first of its point: how many were taken.
+    taken: Vec<u32>,
+    used: Vec<bool>,
+    linked: Edges,
+}
+
+impl Cancel {
+    /// Lets opposite edges cancel, if a good part of all edges has an opposite one.
+    pub(crate) fn cancel(&mut self, edges: &mut Edges) {
+        if edges.len() >= FEW && self.pays(edges) {
+            self.find(edges);
+            self.find_runs(edges);
+            self.sort_runs(edges);
+            self.link(edges);
+            std::mem::swap(edges, &mut self.linked);
+        }
+    }
+
+    /// Whether of the edges at some points one in eight cancels.
+    fn pays(&mut self, edges: &Edges) -> bool {
+        let shift = 64 - (edges.len() / 128).min(SAMPLE).ilog2();
+        self.sample.clear();
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            for vertex in (ring.start..ring.end).filter(|&v| digits(edges.point(v)) >> shift == 0) {
+                self.sample.extend([ring.previous(vertex), vertex]);
+            }
+        }
+        let sample = &mut self.sample;
+        sample.sort_unstable_by(|&e, &f| by_kind(edges, e, f).then(e.cmp(&f)));
+        sample.dedup();
+        let cancels = |kind: &[u32]| {
+            let rightward = kind.iter().filter(|&&edge| is_rightward(edges, edge)).count();
+            2 * rightward.min(kind.len() - rightward)
+        };
+        let kinds = sample.chunk_by(|&e, &f| by_kind(edges, e, f) == Ordering::Equal);
+        !sample.is_empty() && 8 * kinds.map(cancels).sum::<usize>() >= sample.len()
+    }
+
+    /// Finds the edges that cancel.
+    fn find(&mut self, edges: &Edges) {
+        let size = (2 * edges.len()).next_power_of_two();
+        self.kinds.clear();
+        self.kinds.resize(size, Kind { one: NONE, left: NONE });
+        self.next.clear();
+        self.next.resize(edges.len(), NONE);
+        self.gone.clear();
+        self.gone.resize(edges.len(), false);
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            let mut key = mixed(edges.point(ring.start));
+            for edge in ring.start..ring.end {
+                let next_key = mixed(edges.point(edge + 1));
+                self.add(edges, edge, key.wrapping_add(next_key));
+                key = next_key;
+            }
+        }
+    }
+
+    /// Cancels an edge against one of its kind, or puts it into the kind's list.
+    fn add(&mut self, edges: &Edges, edge: u32, key: u64) {
+        let mask = self.kinds.len() - 1;
+        let mut place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
+        while self.kinds[place].one != NONE && !is_kind(edges, self.kinds[place].one, edge) {
+            place = (place + 1) & mask;
+        }
+        let kind = &mut self.kinds[place];
+        if kind.left != NONE && edges.point(kind.left) != edges.point(edge) {
+            self.gone[edge as usize] = true;
+            self.gone[kind.left as usize] = true;
+            kind.left = self.next[kind.left as usize];
+        } else {
+            self.next[edge as usize] = kind.left;
+            *kind = Kind { one: edge, left: edge };
+        }
+    }
+
+    fn find_runs(&mut self, edges: &Edges) {
+        self.runs.clear();
+        for (ring, about) in (0..).zip(edges.rings()) {
+            let is_gone = |edge: u32| self.gone[edge as usize];
+            let Some(last_gone) = (about.start..about.end).rfind(|&edge| is_gone(edge)) else { continue };
+            let mut run = Run { ring, first: about.next(last_gone), count: 0 };
+            let mut edge = run.first;
+            for _ in about.start..about.end {
+                if !is_gone(edge) {
+                    run.count += 1;
+                } else {
+                    self.runs.extend((run.count > 0).then_some(run));
+                    run = Run { ring, first: about.next(edge), count: 0 };
+                }
+                edge = about.next(edge);
+            }
+        }
+    }
+
+    fn sort_runs(&mut self, edges: &Edges) {
+        self.order.clear();
+        self.order.extend(0..index(self.runs.len()));
+        let runs = &self.runs;
+        let start = |run: u32| Start::of(edges, runs[run as usize]);
+        self.order.sort_unstable_by(|&a, &b| start(a).order(start(b)).then(a.cmp(&b)));
+        self.taken.clear();
+        self.taken.resize(self.order.len(), 0);
+        self.used.clear();
+        self.used.resize(self.order.len(), false);
+    }
+
+    /// Puts the rings that are whole, and closed walks over the runs of all others, ring by ring.
+    fn link(&mut self, edges: &Edges) {
+        self.linked.clear();
+        let mut run = 0;
+        for (ring, about) in (0..).zip(edges.rings()) {
+            if !self.gone[about.start as usize..about.end as usize].contains(&true) {
+                self.linked.add_edges(edges, about.start..about.end);
+                self.linked.close(about.counter());
+            }
+            while self.runs.get(run).is_some_and(|run| run.ring == ring) {
+                if !self.used[run] {
+                    self.walk(edges, index(run), *about);
+                }
+                run += 1;
+            }
+        }
+    }
+
+    /// Walks from a run to any other that starts where it ends, and so on until it is back.
+    fn walk(&mut self, edges: &Edges, first: u32, ring: Ring) {
+        let start = edges.point(self.runs[first as usize].first);
+        let mut run = self.take(edges, Start { counter: ring.counter(), point: start });
+        // Whichever run was taken starts in the same point.
+        loop {
+            let Run { ring, first, count } = self.runs[run as usize];
+            let about = edges.rings()[ring as usize];
+            let before_end = count.min(about.end - first);
+            self.linked.add_edges(edges, first..first + before_end);
+            self.linked.add_edges(edges, about.start..about.start + count - before_end);
+            let last = if count > before_end { about.start + count - before_end } else { first + count };
+            let end = edges.point(last);
+            if end == start {
+                break;
+            }
+            run = self.take(edges, Start { counter: about.counter(), point: end });
+        }
+        self.linked.close(ring.counter());
+    }
+
+    /// Takes the next unused run from a point.
+    fn take(&mut self, edges: &Edges, start: Start) -> u32 {
+        let before = |&run: &u32| Start::of(edges, self.runs[run as usize]).order(start) == Ordering::Less;
+        let place = self.order.partition_point(before);
+        let run = self.order[place + self.taken[place] as usize];
+        self.taken[place] += 1;
+        self.used[run as usize] = true;
+        run
+    }
+}
+
+/// Where a run starts.
+#[derive(Clone, Copy)]
+struct Start {
+    counter: Option<u32>,
+    point: DVec2,
+}
+
+impl Start {
+    fn of(edges: &Edges, run: Run) -> Start {
+        Start { counter: edges.rings()[run.ring as usize].counter(), point: edges.point(run.first) }
+    }
+
+    fn order(self, other: Start) -> Ordering {
+        self.counter.cmp(&other.counter).then_with(|| lexicographic(self.point, other.point))
+    }
+}
+
+/// A number made of the digits of a point's coordinates: not of their signs, exponents and order.
+#[inline]
+fn digits(p: DVec2) -> u64 {
+    let of = |x: f64| {
+        let product = (x.to_bits() & ((1 << 52) - 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        product ^ product >> 32
+    };
+    of(p.x).wrapping_add(of(p.y)).wrapping_mul(0xc4ce_b9fe_1a85_ec53)
+}
+
+fn is_rightward(edges: &Edges, edge: u32) -> bool {
+    let [a, b] = edges.segment(edge);
+    lexicographic(a, b) == Ordering::Less
+}
+
+/// Whether two edges have the same ends and change the same counter.
+#[inline]
+fn is_kind(edges: &Edges, e: u32, f: u32) -> bool {
+    let ([a, b], [c, d]) = (edges.segment(e), edges.segment(f));
+    ((a == c && b == d) || (a == d && b == c)) && edges.ring(e).counter() == edges.ring(f).counter()
+}
+
+fn by_kind(edges: &Edges, e: u32, f: u32) -> Ordering {
+    let ends = |edge: u32| rightward(edges.segment(edge));
+    let ([a, b], [c, d]) = (ends(e), ends(f));
+    let counter = |edge: u32| edges.ring(edge).counter();
+    lexicographic(a, c).then_with(|| lexicographic(b, d)).then_with(|| counter(e).cmp(&counter(f)))
+}
