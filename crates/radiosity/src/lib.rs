@@ -26,10 +26,12 @@
 //! | what is wrong with a scene, and its mend | [`inspect`], [`mend()`] |
 //! | the scenes of the literature | [`scenes`] |
 //! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
+//! | how far two solutions are from each other | [`compare`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
 pub use formfactor;
 pub use glam;
 
+pub mod compare;
 mod error;
 pub mod expose;
 mod extent;

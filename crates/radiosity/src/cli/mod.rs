@@ -4,6 +4,7 @@ use clap_complete::Shell;
 use failure::Failure;
 use std::{path::PathBuf, process::ExitCode};
 
+mod compare;
 mod expose;
 mod factors;
 mod failure;
@@ -22,7 +23,7 @@ mod view;
 /// Diffuse light of a scene by progressive radiosity with exact form factors.
 ///
 /// Data goes to stdout, all else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
-/// 3 bad scene, 4 stopped before the tolerance (the result is written), 130 stopped by Ctrl-C (result and state are
+/// 3 bad scene, 4 stopped before the tolerance (the result is written), 5 a difference above `--fail-above`, 130 stopped by Ctrl-C (result and state are
 /// written).
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 110)]
@@ -47,6 +48,8 @@ enum Command {
     Factors(factors::Factors),
     /// Tell what a scene is and what about it will trouble a solution
     Inspect(inspect::Inspect),
+    /// Tell how far two solutions of one scene are from each other: relative L1, L2 and maximum of reflected light
+    Compare(compare::Compare),
     /// Write one of the built-in scenes
     Scene(Scene),
     /// Print what a shell needs to complete this program's command lines
@@ -66,7 +69,7 @@ struct Scene {
     output: Option<PathBuf>,
 }
 
-/// Answers; the exit code is 0, or 4 when a solution was stopped early.
+/// Answers; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
@@ -76,6 +79,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::View(arguments) => view::run(&arguments),
         Command::Factors(arguments) => factors::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Scene(arguments) => scene::run(&arguments),
         Command::Completions { shell } => completions(shell),
     })
