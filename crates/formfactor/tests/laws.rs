@@ -249,6 +249,18 @@ proptest! {
     }
 
     #[test]
+    fn an_edge_that_passes_next_to_the_point_hides_as_exactly(
+        from in area(), to in target(lattice(3)), tips in prop::collection::vec((lattice(3), lattice(3), anywhere()), 1..6),
+        halvings in 4i32..60,
+    ) {
+        let past = |(way, tip, off): &(DVec3, DVec3, DVec3)| triangle([*way + *off * 0.5f64.powi(halvings), -*way, *tip]);
+        let occluders: Vec<PlanarPolygon> = tips.iter().filter_map(past).collect();
+        let (seen, other) = (form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders));
+        prop_assert!(seen.error_bound >= 0.0 && seen.error_bound < 1e-9, "{seen:?}");
+        prop_assert!((seen.value - other.value).abs() <= seen.error_bound + other.error_bound, "{seen:?} and {other:?}");
+    }
+
+    #[test]
     fn an_enclosure_finds_every_occluder(from in area(), polygons in triangles(anywhere(), 40), shift in anywhere()) {
         // Small and all over the place, so that most can be skipped.
         let small = |(i, p): (u32, &PlanarPolygon)| {

@@ -137,7 +137,8 @@ impl Sum {
         if parts.count > 0 {
             let stretch = edge.spread * line.inverse;
             let cut = (6.0 * stretch * stretch + 4.0 * f64::from(Parts::MOST)) * ROUNDING;
-            self.add_angle(line, parts.product.y.atan2(parts.product.x), cut);
+            // Of a half turn rounding may leave a little more: the nearest angle there can be is nearer to the true one.
+            self.add_angle(line, parts.product.y.max(0.0).atan2(parts.product.x), cut);
         }
     }
 
