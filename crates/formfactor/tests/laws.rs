@@ -261,6 +261,20 @@ proptest! {
     }
 
     #[test]
+    fn occluders_that_touch_the_target_hide_as_exactly(
+        from in area(), to in target(anywhere()), others in prop::collection::vec((0usize..3, 0usize..4, anywhere(), anywhere()), 1..4),
+    ) {
+        // From a vertex of the target or from a point between two, rounded: a little before its plane, or behind, or on it.
+        let corners: Vec<DVec3> = to.loops().flatten().copied().collect();
+        let touching = |(i, share, a, b): &(usize, usize, DVec3, DVec3)| {
+            let share = f64::from(u32::try_from(*share).expect("small")) / 4.0;
+            triangle([corners[*i] + (corners[(i + 1) % 3] - corners[*i]) * share, *a, *b])
+        };
+        let occluders: Vec<PlanarPolygon> = others.iter().filter_map(touching).collect();
+        agree(form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders))?;
+    }
+
+    #[test]
     fn an_enclosure_finds_every_occluder(from in area(), polygons in triangles(anywhere(), 40), shift in anywhere()) {
         // Small and all over the place, so that most can be skipped.
         let small = |(i, p): (u32, &PlanarPolygon)| {

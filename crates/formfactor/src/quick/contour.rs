@@ -118,6 +118,7 @@ impl Sum {
     }
 
     /// Adds a part of an edge to those before it, and what is not known about its ends.
+    #[inline]
     pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Span, parts: &mut Parts) {
         let stretch = edge.spread * line.inverse;
         let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
