@@ -47,6 +47,7 @@ mod record;
 mod scene;
 pub mod scenes;
 mod solve;
+mod spectrum;
 mod table;
 
 pub mod viewer;

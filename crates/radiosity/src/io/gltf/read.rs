@@ -4,7 +4,7 @@ use super::super::{Error, Fault};
 use super::accessor::Buffers;
 use super::document::File;
 use super::material::Materials;
-use crate::{Asset, Camera, Origin, Scene};
+use crate::{Camera, Origin, Scene};
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
@@ -27,7 +27,7 @@ pub(super) fn scene(file: &str, gltf: &File, folder: Option<&Path>) -> Result<Sc
     };
     reader.walk(&gltf.document)?;
     let Reader { surfaces, cameras, warnings, .. } = reader;
-    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, asset: Asset::default() })
+    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() })
 }
 
 struct Reader<'f> {

@@ -1,7 +1,7 @@
 //! Into the world: transformed, checked, split where needed, named.
 use super::split::split;
 use super::warn::Flaws;
-use super::{Corner, Facet, Finish, Polygon, Surface, bits};
+use super::{Corner, Facet, Finish, Polygon, Spectra, Surface, bits};
 use crate::{Origin, Patch, Texture};
 use formfactor::PlanarPolygon;
 use glam::{DMat4, DVec3};
@@ -146,6 +146,9 @@ fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
 
 /// A patch without a name; its reflectance is the texture's mean where it has one.
 fn finished(polygon: PlanarPolygon, finish: &Finish, texture: Option<Texture>) -> Patch {
+    if let Some(Spectra { reflectance, emission }) = finish.spectra.clone() {
+        return Patch::new("", polygon, reflectance, emission);
+    }
     let reflectance = texture.as_ref().map_or(finish.reflectance, |texture| texture.overall());
     let patch = Patch::new("", polygon, reflectance.into(), finish.emission.into());
     Patch { texture, ..patch }
