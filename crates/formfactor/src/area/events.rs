@@ -20,9 +20,12 @@ pub(super) fn events(
     is_fine: bool,
 ) -> Vec<Event> {
     let vertices: usize = occluders.iter().map(|o| o.points().len()).sum();
-    let mut found = turn(source, target);
+    let mut found: Vec<Event> = turn(source, target).into_iter().collect();
     if 2 * vertices * target.points().len() <= MOST {
         found.extend(occluders.iter().flat_map(|occluder| between(source, target, occluder)));
+    }
+    if is_fine {
+        found.extend(occluders.iter().filter_map(|occluder| edge_on(source, target, occluder)));
     }
     if is_fine && vertices * vertices <= MOST {
         let apart = |one: &PlanarPolygon, other: &PlanarPolygon| {
@@ -53,29 +56,49 @@ fn key([a, b]: &Event) -> [f64; 4] {
 
 /// Where two rays, each from one point through another one, meet the source's plane.
 fn shadow(source: &PlanarPolygon, from: [DVec3; 2], through: [DVec3; 2]) -> Option<Event> {
-    let normal = source.normal();
-    let height = |p: DVec3| normal.dot(p - source.points()[0]);
-    let meet = |t: DVec3, a: DVec3| {
-        let (high, low) = (height(t), height(a));
-        let point = t + (a - t) * (high / (high - low));
-        (high > low && point.is_finite()).then(|| source.flat(point))
-    };
-    let mut ends = [meet(from[0], through[0])?, meet(from[1], through[1])?];
-    ends.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    (ends[0] != ends[1]).then_some(ends)
+    event([meet(source, from[0], through[0])?, meet(source, from[1], through[1])?])
+}
+
+/// Where the ray from one point through another one meets the source's plane.
+fn meet(source: &PlanarPolygon, from: DVec3, through: DVec3) -> Option<DVec2> {
+    let height = |p: DVec3| source.normal().dot(p - source.points()[0]);
+    let (high, low) = (height(from), height(through));
+    let point = from + (through - from) * (high / (high - low));
+    (high > low && point.is_finite()).then(|| source.flat(point))
+}
+
+/// Where an occluder is seen edge-on before the target: it begins to hide there, or another edge of its body takes over.
+fn edge_on(source: &PlanarPolygon, target: &PlanarPolygon, occluder: &PlanarPolygon) -> Option<Event> {
+    let [first, last] = chord(source, occluder)?;
+    let chord = chord(target, occluder)?;
+    let rays = chord.iter().flat_map(|t| occluder.points().iter().map(move |a| meet(source, *t, *a)));
+    let met: Option<Vec<DVec2>> = rays.collect();
+    // Where some ray does not come down to the source the shadow goes on for ever.
+    met.map_or_else(|| event([source.flat(first), source.flat(last)]), event)
 }
 
 /// Where the target's plane meets the source.
-fn turn(source: &PlanarPolygon, target: &PlanarPolygon) -> Vec<Event> {
-    let height = |p: DVec3| target.normal().dot(p - target.points()[0]);
+fn turn(source: &PlanarPolygon, target: &PlanarPolygon) -> Option<Event> {
+    event(chord(source, target)?.map(|p| source.flat(p)))
+}
+
+/// The ends of the part of a polygon that lies in another one's plane.
+fn chord(polygon: &PlanarPolygon, other: &PlanarPolygon) -> Option<[DVec3; 2]> {
+    let height = |p: DVec3| other.normal().dot(p - other.points()[0]);
     let crossing = |(a, b): (DVec3, DVec3)| {
         let (from, to) = (height(a), height(b));
-        ((from > 0.0) != (to > 0.0)).then(|| source.flat(a + (b - a) * (from / (from - to))))
+        ((from > 0.0) != (to > 0.0)).then(|| a + (b - a) * (from / (from - to)))
     };
-    let mut met: Vec<DVec2> = source.edges().filter_map(crossing).collect();
-    met.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    match (met.first(), met.last()) {
-        (Some(a), Some(b)) if a != b => vec![[*a, *b]],
-        _ => Vec::new(),
-    }
+    let along = polygon.normal().cross(other.normal());
+    let mut met: Vec<DVec3> = polygon.edges().filter_map(crossing).collect();
+    met.sort_by(|a, b| along.dot(*a).total_cmp(&along.dot(*b)));
+    Some([*met.first()?, *met.last()?])
+}
+
+/// The segment that points on a line span.
+fn event(points: impl IntoIterator<Item = DVec2>) -> Option<Event> {
+    let mut points: Vec<DVec2> = points.into_iter().collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let (first, last) = (points.first()?, points.last()?);
+    (first != last).then_some([*first, *last])
 }
