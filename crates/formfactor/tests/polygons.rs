@@ -63,6 +63,30 @@ fn bad_areas_are_named() {
 }
 
 #[test]
+fn a_vertex_given_twice_changes_nothing() {
+    // Its first corner is reflex: repeated there, or anywhere, the polygon is what it was.
+    let dart = [[-2.0, 0.0, 4.0], [-5.0, 1.0, 4.0], [3.0, -3.0, 4.0], [3.0, 1.0, 4.0]];
+    let (from, occluder) = (area_at([0.5, 0.0, 0.0], [0.0, 0.0, 1.0]), square(-0.1, 0.4, 1.0));
+    let front = |mut loop_0: Vec<[f64; 3]>| {
+        loop_0.reverse();
+        PlanarPolygon::new([loop_0]).unwrap()
+    };
+    let occluder = PlanarPolygon::new([occluder]).unwrap();
+    let (to, occluders) = (front(dart.to_vec()), [occluder]);
+    let (free, seen) = (unoccluded(&from, &to), form_factor(&from, &to, &occluders));
+    for i in 0..4 {
+        let mut twice = dart.to_vec();
+        twice.insert(i, dart[i]);
+        let to = front(twice);
+        for (found, expected) in [(unoccluded(&from, &to), free), (form_factor(&from, &to, &occluders), seen)]
+        {
+            let allowed = found.error_bound + expected.error_bound;
+            assert!((found.value - expected.value).abs() <= allowed, "{i}: {found:?} is not {expected:?}");
+        }
+    }
+}
+
+#[test]
 fn thin_triangles_are_exact_as_given() {
     let thin = PlanarPolygon::new([[[0.1, 0.1, 0.1], [0.7, 0.7, 0.7], [0.3, 0.3, 0.300_000_000_000_000_04]]]);
     assert!(thin.is_ok() && thin.unwrap().area() > 0.0);
