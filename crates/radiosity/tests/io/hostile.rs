@@ -164,6 +164,18 @@ fn a_vertex_too_far_for_the_others_leaves_no_area() {
 }
 
 #[test]
+fn a_triangle_of_70_decades_leaves_no_area() {
+    let points = "-5.086274911196319e-43 -4.1199620001044244e-41 6.4738333862115e-42 \
+                  8.097930455802617e-11 -1.4138011574421075e-9 -4.042764593945319e-10 \
+                  1.6917295008726363e26 -1.6917295008726363e26 -1.0633290716972123e27";
+    let far = geometry("far", points, &primitive("triangles", "far", "<p>0 1 2</p>"));
+    let text = file(&format!("<library_geometries>{far}</library_geometries>"), &node("n", "", "far"));
+    let scene = Collada::from_text("test.dae", text).scene().unwrap();
+    assert!(scene.patches.iter().all(|patch| patch.polygon.area() > 0.0));
+    assert_eq!(scene.patches.len() + scene.warnings.len(), 1);
+}
+
+#[test]
 fn holes_of_too_few_points_are_left_out() {
     let body = "<ph><p>0 1 2 3</p><h>0 0 0</h><h></h></ph>";
     let holed = geometry("g", "0 0 0 1 0 0 1 1 0 0 1 0", &primitive("polygons", "g", body));
