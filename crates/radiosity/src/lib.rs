@@ -27,6 +27,7 @@
 //! | the scenes of the literature | [`scenes`] |
 //! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
 //! | how far two solutions are from each other | [`compare`] |
+//! | error against time, for every method and scene | [`report`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
 pub use formfactor;
 pub use glam;
@@ -44,6 +45,7 @@ mod mesh;
 pub mod picture;
 mod plane;
 mod record;
+pub mod report;
 mod scene;
 pub mod scenes;
 mod solve;

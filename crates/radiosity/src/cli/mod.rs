@@ -15,6 +15,7 @@ mod lasting;
 mod look;
 mod output;
 mod progress;
+mod report;
 mod scene;
 mod solve;
 mod steps;
@@ -50,6 +51,8 @@ enum Command {
     Inspect(inspect::Inspect),
     /// Tell how far two solutions of one scene are from each other: relative L1, L2 and maximum of reflected light
     Compare(compare::Compare),
+    /// Measure every method on every scene, error against time, and write it as one page
+    Report(report::Report),
     /// Write one of the built-in scenes
     Scene(Scene),
     /// Print what a shell needs to complete this program's command lines
@@ -80,6 +83,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Factors(arguments) => factors::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Scene(arguments) => scene::run(&arguments),
         Command::Completions { shell } => completions(shell),
     })
