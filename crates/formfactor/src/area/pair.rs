@@ -21,7 +21,7 @@ const FINE: f64 = 1e-6;
 const MOST_CUTS: usize = 64;
 const BLIND_HALVINGS: u32 = 4;
 
-/// The integral over polygon `source` of the form factor to polygon `target`, by the source's area; `None` when
+/// The integral over polygon `source` of the form factor to polygon `target`, which face each other, by the source's area; `None` when
 /// `is_cancelled` says so.
 pub(super) fn mean(
     enclosure: &Enclosure,
@@ -33,14 +33,11 @@ pub(super) fn mean(
         return None;
     }
     let pair = Pair::new(enclosure, source, target);
-    if !(is_before(pair.from, pair.to) && is_before(pair.to, pair.from)) {
-        return Some(Integral { value: 0.0, error: 0.0, evaluations: 0 });
-    }
     pair.by_contour(tolerance).or_else(|| pair.by_cells(tolerance, is_cancelled))
 }
 
 /// Whether some of a polygon is before another one's plane.
-fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
+pub(super) fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
     polygon.points().iter().any(|p| other.plane().side_of(*p) == Ordering::Greater)
 }
 
