@@ -36,6 +36,7 @@ pub mod compare;
 mod error;
 pub mod expose;
 mod extent;
+mod finding;
 mod groups;
 pub mod inspect;
 mod interpolate;

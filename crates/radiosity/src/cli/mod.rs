@@ -24,8 +24,8 @@ mod view;
 /// Diffuse light of a scene by progressive radiosity with exact form factors.
 ///
 /// Data goes to stdout, all else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
-/// 3 bad scene, 4 stopped before the tolerance (the result is written), 5 a difference above `--fail-above`, 130 stopped by Ctrl-C (result and state are
-/// written).
+/// 3 bad scene, 4 stopped before the tolerance, 5 a difference above `--fail-above`, 130 stopped by Ctrl-C (of a stopped run
+/// result and state are written).
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 110)]
 pub(crate) struct Arguments {

@@ -120,8 +120,7 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let mut follower = Follower::new(&desk)?;
     let solution =
         radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
-    let converged = solution.as_ref().is_ok_and(|solution| solution.converged);
-    follower.end(&state, converged)?;
+    follower.end(&state, solution.as_ref().ok())?;
     let solution = solution?;
     let figures = desk.write(&solution)?;
     if arguments.json {

@@ -56,6 +56,7 @@ pub use estimate::Norm;
 pub use ledger::Ledger;
 pub use quality::Quality;
 pub use state::{State, StateError};
+pub(crate) use surfaces::Surfaces;
 
 /// How the light is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,6 +4,7 @@ use super::super::{Error, Fault};
 use super::file::{File, Node, child, children, descend};
 use super::images::Images;
 use super::spectra::spectra;
+use crate::inspect::Finding;
 
 /// The reflectance of a surface that says nothing, or shows a texture.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
@@ -14,11 +15,12 @@ pub(super) fn finish<'a>(
     instance: Node<'a>,
     symbol: Option<&str>,
     images: &mut Images,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Finish, Error> {
     let mut plain = |why: &str| {
         let place = file.place(instance);
-        warnings.push(format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken"));
+        let what = format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken");
+        warnings.push(Finding::of_file(what, "give it a material with a diffuse colour"));
         let reflectance = [DEFAULT_REFLECTANCE; 3];
         Ok(Finish { reflectance, emission: [0.0; 3], image: None, spectra: None })
     };
@@ -34,7 +36,8 @@ pub(super) fn finish<'a>(
     let emission = match slot(effect, shader, "emission") {
         Slot::Texture(texture) => {
             let place = file.place(texture);
-            warnings.push(format!("{place}: emission textures are not read; emission 0 is taken"));
+            let what = format!("{place}: emission textures are not read; emission 0 is taken");
+            warnings.push(Finding::of_file(what, "give it an emission colour"));
             [0.0; 3]
         }
         other => other.colour(file)?,
