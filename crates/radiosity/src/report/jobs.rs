@@ -50,7 +50,7 @@ pub(super) fn steps(plan: &Plan) -> Vec<Step> {
         let plane = SinglePlane { half_width: WIDE, smallest };
         steps.push(step("single plane", &format!("cells to {smallest:.0e}"), digits, plane));
     }
-    for power in 3..=up_to(6, 9) {
+    for power in 3..=up_to(6, 8) {
         let rays = 4_u32.pow(power);
         for (series, sampling) in
             [("rays, random", Sampling::Random), ("rays, stratified", Sampling::Stratified)]

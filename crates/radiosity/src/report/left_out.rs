@@ -9,19 +9,19 @@ use std::ops::ControlFlow;
 
 /// An economy in a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LeftOut {
+pub(super) struct LeftOut {
     /// The scene.
-    pub scene: String,
+    pub(super) scene: String,
     /// What was left out.
-    pub economy: &'static str,
+    pub(super) economy: &'static str,
     /// How many were left out, per form factor; of elements, how many in all.
-    pub count: f64,
+    pub(super) count: f64,
     /// The share of all there are.
-    pub share: f64,
+    pub(super) share: f64,
     /// Seconds that one costs where it is not left out, measured here.
-    pub unit: f64,
+    pub(super) unit: f64,
     /// What was saved, by the time of what was done.
-    pub saved: f64,
+    pub(super) saved: f64,
 }
 
 /// How many form factors are looked at.

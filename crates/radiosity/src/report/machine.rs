@@ -4,17 +4,17 @@ use std::fs;
 
 /// The machine and the versions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Machine {
+pub(super) struct Machine {
     /// The processor's name, where the system tells it.
-    pub processor: String,
+    pub(super) processor: String,
     /// How many threads it runs at once.
-    pub cores: usize,
+    pub(super) cores: usize,
     /// Operating system and architecture.
-    pub system: String,
+    pub(super) system: String,
     /// This program's version.
-    pub version: &'static str,
+    pub(super) version: &'static str,
     /// Whether it was built with optimisation.
-    pub optimised: bool,
+    pub(super) optimised: bool,
 }
 
 impl Machine {

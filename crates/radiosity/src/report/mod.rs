@@ -35,15 +35,13 @@ mod stiff;
 mod stress;
 mod table;
 
-pub use left_out::LeftOut;
-pub use machine::Machine;
 pub use peers::Peers;
-pub use published::Published;
-pub use row::{Chapter, Error as Deviation, Measured, Row, Spread, Time};
 
 use crate::{Error, Scene};
 use jobs::Step;
+use machine::Machine;
 use portrait::Portrait;
+use row::{Chapter, Measured, Row};
 use stage::Stage;
 
 /// What to measure.
@@ -60,15 +58,23 @@ pub struct Plan {
 /// What was measured.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// All rows.
-    pub rows: Vec<Row>,
-    /// Where they were measured.
-    pub machine: Machine,
+    rows: Vec<Row>,
+    machine: Machine,
     quick: bool,
     portraits: Vec<Portrait>,
 }
 
-/// Measures all that a plan says; `say` is told what comes next.
+/// Measures all that a plan says; `say` is told what comes next. Nothing else should run at that time.
+///
+/// ```no_run
+/// use radiosity::{report::{Plan, report}, scenes};
+///
+/// let beams = scenes::scene("beams").expect("a built-in scene");
+/// let plan = Plan { scenes: vec![("beams".to_owned(), beams)], quick: true, general: false };
+/// let report = report(&plan, |next| eprintln!("{next}"))?;
+/// std::fs::write("report.html", report.page(None))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// What [`solve`](crate::solve()) refuses in a scene.

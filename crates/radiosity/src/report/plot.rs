@@ -49,7 +49,7 @@ impl Plot<'_> {
     /// The plot as an SVG element; its colours are those of the page that it stands in.
     pub(super) fn svg(&self) -> String {
         let bottom = TOP + (ENTRY * self.curves.len() as f64).max(440.0);
-        let height = bottom + 46.0;
+        let height = bottom + 52.0;
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let across = Axis::over(points().map(|point| point.x), [LEFT, RIGHT]);
         let up = Axis::over(points().map(|point| point.y.max(LEAST)), [bottom, TOP]);
@@ -73,7 +73,7 @@ impl Plot<'_> {
             let _ = writeln!(
                 svg,
                 "<path class=\"grid\" d=\"M{x:.1} {TOP}V{bottom}\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                bottom + 17.0,
+                bottom + 22.0,
                 power(decade)
             );
         }
@@ -92,7 +92,7 @@ impl Plot<'_> {
             svg,
             "<text x=\"{middle}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\
              <text transform=\"translate(17 {centre:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-            bottom + 38.0,
+            bottom + 43.0,
             escape(self.x),
             escape(self.y)
         );

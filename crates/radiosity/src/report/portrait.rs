@@ -1,7 +1,8 @@
 //! Pictures: a scene by the light of its lamps, and the error of a method on every element.
 use super::jobs::Step;
 use super::stage::Stage;
-use crate::expose::{Exposure, rgb};
+use crate::expose::Exposure;
+use crate::spectrum::Colours;
 use crate::{Camera, Mesh, picture};
 use base64::Engine;
 use glam::DVec3;
@@ -55,6 +56,7 @@ fn lit(stage: &Stage<'_>) -> Vec<[f64; 3]> {
     let patches = &stage.scene.patches;
     let lamps = stage.lamps.len().max(1) as f64;
     let bands = stage.scene.bands;
+    let colours = Colours::of(bands, &stage.scene.wavelengths);
     // The lamps' mean radiance, as the factors to all of them are known together.
     let shine =
         |band: usize| stage.lamps.iter().map(|&lamp| patches[lamp].emission[band]).sum::<f64>() / lamps;
@@ -63,7 +65,7 @@ fn lit(stage: &Stage<'_>) -> Vec<[f64; 3]> {
         let rho = patch.reflectance_over(stage.mesh.triangle(index));
         let light: Vec<f64> =
             (0..bands).map(|b| PI * (patch.emission[b] + rho[b] * factor * shine(b))).collect();
-        rgb(&light, bands)[0]
+        colours.row(&light)
     };
     stage.light.iter().enumerate().map(element).collect()
 }

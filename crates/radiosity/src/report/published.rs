@@ -17,25 +17,25 @@ use std::ops::ControlFlow;
 
 /// A row of a published table, measured anew.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Published {
+pub(super) struct Published {
     /// The table's number.
-    pub table: &'static str,
+    pub(super) table: &'static str,
     /// The scene.
-    pub scene: &'static str,
+    pub(super) scene: &'static str,
     /// The method.
-    pub method: String,
+    pub(super) method: String,
     /// What was published: elements and vertices or memory, time.
-    pub published: &'static str,
+    pub(super) published: &'static str,
     /// Number of elements here.
-    pub elements: usize,
+    pub(super) elements: usize,
     /// Number of vertices here.
-    pub vertices: usize,
+    pub(super) vertices: usize,
     /// CPU seconds here.
-    pub seconds: f64,
+    pub(super) seconds: f64,
     /// Bytes of the form factors that were kept; none where none are.
-    pub bytes: Option<usize>,
+    pub(super) bytes: Option<usize>,
     /// The largest, and the mean, relative deviation of reflected light from the exact solution on the same elements.
-    pub errors: [f64; 2],
+    pub(super) errors: [f64; 2],
 }
 
 /// Number of the table, scene, elements, and what was printed of the exact method and of the visibility index.

@@ -4,7 +4,7 @@ use serde::Serialize;
 /// A line of `report.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "row", rename_all = "kebab-case")]
-pub enum Row {
+pub(super) enum Row {
     /// An error and what it cost.
     Measured(Measured),
     /// What was left out in a scene, and what that saved.
@@ -16,7 +16,7 @@ pub enum Row {
 /// The chapter that a row is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Chapter {
+pub(super) enum Chapter {
     /// Light from the lamps at points of a scene.
     Scenes,
     /// Single points with references of 34 digits, by kind.
@@ -31,58 +31,58 @@ pub enum Chapter {
 
 /// An error and what it cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Measured {
+pub(super) struct Measured {
     /// Where it belongs.
-    pub chapter: Chapter,
+    pub(super) chapter: Chapter,
     /// The scene, the kind of points, or the axis.
-    pub subject: String,
+    pub(super) subject: String,
     /// The method.
-    pub series: String,
+    pub(super) series: String,
     /// The method's setting.
-    pub setting: String,
+    pub(super) setting: String,
     /// What the setting or the axis amounts to.
-    pub amount: f64,
+    pub(super) amount: f64,
     /// How wrong it is.
-    pub error: Error,
+    pub(super) error: Error,
     /// A bound that the method itself gives with its result: on the largest error.
-    pub bound: Option<f64>,
+    pub(super) bound: Option<f64>,
     /// Whether the result passes an exact check, where there is one.
-    pub valid: Option<bool>,
+    pub(super) valid: Option<bool>,
     /// Seconds for one point (scenes, points, stability), one solution or one Boolean.
-    pub time: Time,
+    pub(super) time: Time,
 }
 
 /// Deviations from the reference: absolute ones of form factors in scenes and points, else relative ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Error {
+pub(super) struct Error {
     /// The largest.
-    pub max: f64,
+    pub(super) max: f64,
     /// The mean.
-    pub mean: f64,
+    pub(super) mean: f64,
     /// The share of points whose deviation is above 1e-3.
-    pub beyond: f64,
+    pub(super) beyond: f64,
 }
 
 /// Seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Time {
+pub(super) struct Time {
     /// Of the whole process, on all its threads.
-    pub cpu: Spread,
+    pub(super) cpu: Spread,
     /// By the clock on the wall.
-    pub wall: Spread,
+    pub(super) wall: Spread,
     /// How many times it was measured.
-    pub rounds: usize,
+    pub(super) rounds: usize,
 }
 
 /// The middle and the ends of what was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Spread {
+pub(super) struct Spread {
     /// The middle one.
-    pub median: f64,
+    pub(super) median: f64,
     /// The least.
-    pub low: f64,
+    pub(super) low: f64,
     /// The most.
-    pub high: f64,
+    pub(super) high: f64,
 }
 
 /// What counts as wrong to the eye.

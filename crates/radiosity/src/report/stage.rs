@@ -7,7 +7,7 @@ use formfactor::{DifferentialArea, Enclosure, unoccluded};
 use rayon::prelude::*;
 
 /// From so many polygons on fewer points are asked.
-const MANY: usize = 200;
+const MANY: usize = 50;
 /// The fewest points.
 const FEWEST: usize = 4;
 

@@ -1,6 +1,9 @@
+mod browser;
+
 use super::*;
 use crate::scenes;
 use analysis::{lines, subjects};
+use row::Time;
 use table::Table;
 
 fn plan(names: &[&str]) -> Plan {
@@ -59,7 +62,7 @@ const BARRETO: [&str; 5] = ["emission", "obstruction", "beams", "small-occluders
 
 #[test]
 fn the_readme_has_the_tables_that_its_command_writes() {
-    let readme = include_str!("../../README.md");
+    let readme = include_str!("../../../README.md");
     let command = format!("radiosity report {} -o report", BARRETO.join(" "));
     assert!(readme.contains(&command), "the README names no command: {command}");
     let shown = tables(readme);
