@@ -54,17 +54,40 @@ fn key([a, b]: &Event) -> [f64; 4] {
     [a.x, a.y, b.x, b.y]
 }
 
-/// Where two rays, each from one point through another one, meet the source's plane.
+/// Where the rays from the points of one segment through the like points of another one meet the source's plane.
+///
+/// When one of them is parallel to the plane in between, the shadow goes on for ever from there; so it does along the
+/// plane where both segments stand on it.
 fn shadow(source: &PlanarPolygon, from: [DVec3; 2], through: [DVec3; 2]) -> Option<Event> {
-    event([meet(source, from[0], through[0])?, meet(source, from[1], through[1])?])
+    let ends = [0, 1].map(|i| meet(source, from[i], through[i]));
+    if let [Some(a), Some(b)] = ends {
+        return event([a, b]);
+    }
+    let standing = (0..2).find(|i| is_on(source, from[*i]) && is_on(source, through[*i]));
+    let start = ends[0].or(ends[1]).or_else(|| standing.map(|i| source.flat(through[i])))?;
+    let drop = [0, 1].map(|i| height(source, from[i]) - height(source, through[i]));
+    let share = drop[0] / (drop[0] - drop[1]);
+    let along = source.flat(through[0].lerp(through[1], share) - from[0].lerp(from[1], share));
+    let reach = source.points().iter().map(|p| source.flat(*p).distance(start)).fold(0.0, f64::max);
+    let end = start + 2.0 * reach * along.normalize_or_zero();
+    end.is_finite().then(|| event([start, end])).flatten()
 }
 
-/// Where the ray from one point through another one meets the source's plane.
+/// Where the ray from one point down through another one meets the source's plane.
 fn meet(source: &PlanarPolygon, from: DVec3, through: DVec3) -> Option<DVec2> {
-    let height = |p: DVec3| source.normal().dot(p - source.points()[0]);
-    let (high, low) = (height(from), height(through));
+    let (high, low) = (height(source, from), height(source, through));
     let point = from + (through - from) * (high / (high - low));
-    (high > low && point.is_finite()).then(|| source.flat(point))
+    let is_along = is_on(source, from) && is_on(source, through);
+    (high > low && !is_along && point.is_finite()).then(|| source.flat(point))
+}
+
+fn height(source: &PlanarPolygon, point: DVec3) -> f64 {
+    source.normal().dot(point - source.points()[0])
+}
+
+/// Whether a point seems to lie on the source's plane. Only the way in which cells are cut depends on it.
+fn is_on(source: &PlanarPolygon, point: DVec3) -> bool {
+    height(source, point).abs() <= 1e-12 * point.distance(source.points()[0])
 }
 
 /// Where an occluder is seen edge-on before the target: it begins to hide there, or another edge of its body takes over.
@@ -84,9 +107,8 @@ fn turn(source: &PlanarPolygon, target: &PlanarPolygon) -> Option<Event> {
 
 /// The ends of the part of a polygon that lies in another one's plane.
 fn chord(polygon: &PlanarPolygon, other: &PlanarPolygon) -> Option<[DVec3; 2]> {
-    let height = |p: DVec3| other.normal().dot(p - other.points()[0]);
     let crossing = |(a, b): (DVec3, DVec3)| {
-        let (from, to) = (height(a), height(b));
+        let (from, to) = (height(other, a), height(other, b));
         ((from > 0.0) != (to > 0.0)).then(|| a + (b - a) * (from / (from - to)))
     };
     let along = polygon.normal().cross(other.normal());
