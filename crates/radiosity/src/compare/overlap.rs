@@ -33,7 +33,7 @@ pub(super) fn overlaps(a: &Record, b: &Record, patches: &[usize]) -> Vec<Piece> 
     let (of_a, of_b) = (by_patch(a), by_patch(b));
     let mut pieces = Vec::new();
     for (patch, &other) in patches.iter().enumerate() {
-        let Some(normal) = of_a[patch].first().map(|&element| facing(a, element)) else { continue };
+        let Some(normal) = facing(a, &of_a[patch]) else { continue };
         let flat = |record: &Record, elements: &[usize]| -> Vec<Flat> {
             elements.iter().map(|&element| flattened(record, element, normal)).collect()
         };
@@ -68,10 +68,10 @@ fn corners(record: &Record, element: usize) -> [DVec3; 3] {
     [a, b, c].map(|corner| record.vertices[corner])
 }
 
-/// An element's unit normal.
-fn facing(record: &Record, element: usize) -> DVec3 {
-    let [a, b, c] = corners(record, element);
-    (b - a).cross(c - a).normalize_or(DVec3::Z)
+/// The unit normal of a patch's elements together: one that is a mere line does not count.
+fn facing(record: &Record, elements: &[usize]) -> Option<DVec3> {
+    let across = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+    elements.iter().map(|&element| across(corners(record, element))).sum::<DVec3>().try_normalize()
 }
 
 /// An element without the coordinate in which the normal is longest.
