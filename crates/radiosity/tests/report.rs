@@ -15,7 +15,7 @@ fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Solutions of the furnace, each of so many elements.
+/// Solutions of a room, each of so many elements.
 fn solved(folder: &Path, elements: &[&str]) {
     assert_eq!(code(&radiosity(folder, &["scene", "colour-bleeding", "-o", "room.dae"])), 0);
     for count in elements {
@@ -58,7 +58,7 @@ fn compare_says_what_is_not_a_solution_and_what_is_not_of_one_scene() {
     assert_eq!(code(&radiosity(at, &["solve", "f.dae", "--elements", "12", "-o", "f.json"])), 0);
     let output = radiosity(at, &["compare", "60.json", "f.json"]);
     assert_eq!(code(&output), 3);
-    assert!(stderr(&output).contains("in one of the two only"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("is not the same in both"), "{}", stderr(&output));
     assert_eq!(code(&radiosity(at, &["compare", "60.json", "60.json", "--fail-above", "-1"])), 2);
 }
 

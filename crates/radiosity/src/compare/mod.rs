@@ -75,7 +75,18 @@ pub enum Unlike {
         /// Its name.
         name: String,
     },
+    /// A patch of that name lies elsewhere, or has another shape.
+    #[error(
+        "patch {name} is not the same in both: its elements do not cover each other; compare solutions of one scene"
+    )]
+    Shape {
+        /// Its name.
+        name: String,
+    },
 }
+
+/// What share of a patch rounding may leave uncovered when two meshes of it are laid over each other.
+const UNCOVERED: f64 = 1e-6;
 
 /// Holds `a` against `b`, the reference.
 ///
@@ -105,6 +116,9 @@ pub fn compare(a: &Record, b: &Record) -> Result<Comparison, Unlike> {
     let patches = matched(a, b)?;
     let same_mesh = a.vertices == b.vertices && a.elements == b.elements;
     let pieces = if same_mesh { overlap::same(a) } else { overlap::overlaps(a, b, &patches) };
+    if let Some(name) = moved(a, b, &patches, &pieces) {
+        return Err(Unlike::Shape { name });
+    }
     let light = [reflected(a), reflected(b)];
     let bands: Vec<Difference> = (0..a.bands).map(|band| norms(&pieces, &light, [a.bands, band])).collect();
     Ok(Comparison { worst: worst(a, b, &pieces, &light), bands, same_mesh })
@@ -129,6 +143,26 @@ fn matched(a: &Record, b: &Record) -> Result<Vec<usize>, Unlike> {
         Some(name) => Err(Unlike::Patch { name: name.clone() }),
         None => Ok(a.patches.iter().map(|patch| of_b[&patch.name]).collect()),
     }
+}
+
+/// The name of a patch whose elements in one do not cover those in the other.
+fn moved(a: &Record, b: &Record, patches: &[usize], pieces: &[Piece]) -> Option<String> {
+    let areas = |record: &Record| {
+        let mesh = record.mesh();
+        let mut areas = vec![0.0; record.patches.len()];
+        mesh.elements
+            .iter()
+            .enumerate()
+            .for_each(|(index, element)| areas[element.patch] += mesh.area(index));
+        areas
+    };
+    let (of_a, of_b, mut shared) = (areas(a), areas(b), vec![0.0; a.patches.len()]);
+    pieces.iter().for_each(|piece| shared[a.elements[piece.elements[0]][0]] += piece.area);
+    let off = |patch: &usize| {
+        let most = of_a[*patch].max(of_b[patches[*patch]]);
+        (most - shared[*patch]).abs() > UNCOVERED * most
+    };
+    (0..patches.len()).find(off).map(|patch| a.patches[patch].name.clone())
 }
 
 /// Radiosity less own emission, elements × bands.

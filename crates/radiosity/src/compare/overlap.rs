@@ -19,7 +19,12 @@ struct Flat {
     corners: [DVec2; 3],
     low: DVec2,
     high: DVec2,
+    /// Along the patch's normal.
+    height: f64,
 }
+
+/// In shares of a patch's reach, how far apart rounding may leave two meshes of it.
+const NEAR: f64 = 1e-6;
 
 /// Every element with itself.
 pub(super) fn same(record: &Record) -> Vec<Piece> {
@@ -40,12 +45,16 @@ pub(super) fn overlaps(a: &Record, b: &Record, patches: &[usize]) -> Vec<Piece> 
         let mut under = flat(b, &of_b[other]);
         under.sort_by(|one, next| one.low.x.total_cmp(&next.low.x));
         let widest = under.iter().map(|t| t.high.x - t.low.x).fold(0.0, f64::max);
+        let over = flat(a, &of_a[patch]);
+        let low = over.iter().map(|t| t.low).reduce(DVec2::min).unwrap_or_default();
+        let reach = over.iter().map(|t| (t.high - low).max_element()).fold(0.0, f64::max);
         // What a step in the picture along the axis is on the plane.
         let stretch = 1.0 / normal.abs().max_element();
-        for over in flat(a, &of_a[patch]) {
+        for over in over {
             let first = under.partition_point(|t| t.low.x < over.low.x - widest);
             let near = under[first..].iter().take_while(|t| t.low.x < over.high.x);
-            for below in near.filter(|t| t.low.y < over.high.y && t.high.y > over.low.y) {
+            let level = |t: &&Flat| (t.height - over.height).abs() <= NEAR * reach;
+            for below in near.filter(|t| t.low.y < over.high.y && t.high.y > over.low.y).filter(level) {
                 let area = stretch * shared(over.corners, below.corners);
                 if area > 0.0 {
                     pieces.push(Piece { elements: [over.element, below.element], area });
@@ -78,13 +87,14 @@ fn facing(record: &Record, elements: &[usize]) -> Option<DVec3> {
 fn flattened(record: &Record, element: usize, normal: DVec3) -> Flat {
     let longest = normal.abs().max_position();
     let [u, v] = [(longest + 1) % 3, (longest + 2) % 3];
-    let mut corners = corners(record, element).map(|p| DVec2::new(p[u], p[v]));
+    let places = corners(record, element);
+    let mut corners = places.map(|p| DVec2::new(p[u], p[v]));
     if normal[longest] < 0.0 {
         corners.swap(1, 2);
     }
     let low = corners.iter().copied().fold(corners[0], DVec2::min);
     let high = corners.iter().copied().fold(corners[0], DVec2::max);
-    Flat { element, corners, low, high }
+    Flat { element, corners, low, high, height: normal.dot(places[0]) }
 }
 
 /// The area that two counter-clockwise triangles share: one clipped by the other's sides (Sutherland and Hodgman 1974).

@@ -75,6 +75,15 @@ fn solutions_of_other_scenes_are_refused_by_name() {
     let (one, mut other) = (record("furnace", 24), record("furnace", 24));
     other.patches[2].name = "elsewhere".to_owned();
     assert!(matches!(compare(&one, &other), Err(Unlike::Patch { .. })));
+    let mut elsewhere = one.clone();
+    for axis in 0..3 {
+        elsewhere.vertices.clone_from(&one.vertices);
+        elsewhere.vertices.iter_mut().for_each(|vertex| vertex[axis] += 0.25);
+        assert!(matches!(compare(&one, &elsewhere), Err(Unlike::Shape { .. })));
+    }
+    elsewhere.elements.retain(|[patch, ..]| *patch == 0);
+    elsewhere.radiosity.truncate(3 * elsewhere.elements.len());
+    assert!(matches!(compare(&elsewhere, &one), Err(Unlike::Shape { .. })));
     other.bands = 1;
     assert_eq!(compare(&one, &other), Err(Unlike::Bands { a: 3, b: 1 }));
 }

@@ -2,6 +2,7 @@
 use super::Report;
 use super::analysis::{Line, lines, subjects};
 use super::chapter_scenes::{against_time, every, largest, time_to_error};
+use super::jobs::EXACT;
 use super::plot::{Curve, Plot, Point, escape};
 use super::row::{Chapter, Measured};
 use super::table::{error, seconds};
@@ -102,13 +103,19 @@ fn along_axes(
             let cpu = row.time.cpu;
             (cpu.median, format!("{}, {} – {}", seconds(cpu.median), seconds(cpu.low), seconds(cpu.high)))
         };
-        along(&lines, axis, wrong, errors) + &along(&lines, axis, time, times)
+        along(&lines, axis, wrong, errors, bounds(&lines)) + &along(&lines, axis, time, times, None)
     };
     chapter(id, title, intro, subjects(report.measured(chapter_of)).into_iter().map(section))
 }
 
 /// One figure of every row along an axis.
-fn along(lines: &[Line<'_>], axis: &str, y: &str, figure: impl Fn(&Measured) -> (f64, String)) -> String {
+fn along(
+    lines: &[Line<'_>],
+    axis: &str,
+    y: &str,
+    figure: impl Fn(&Measured) -> (f64, String),
+    more: Option<Curve>,
+) -> String {
     let curve = |line: &Line<'_>| {
         let point = |row: &&Measured| {
             let (value, hint) = figure(row);
@@ -127,7 +134,24 @@ fn along(lines: &[Line<'_>], axis: &str, y: &str, figure: impl Fn(&Measured) -> 
             floor: None,
         }
     };
-    Plot { title: format!("{y} along: {axis}"), x: axis, y, curves: lines.iter().map(curve).collect() }.svg()
+    let curves = lines.iter().map(curve).chain(more).collect();
+    Plot { title: format!("{y} along: {axis}"), x: axis, y, curves }.svg()
+}
+
+/// What the exact method itself says of its error.
+fn bounds(lines: &[Line<'_>]) -> Option<Curve> {
+    let exact = lines.iter().find(|line| line.name == EXACT)?;
+    let point = |row: &&Measured| {
+        let hint = format!("bound: {}", error(row.bound?));
+        Some(Point { x: row.amount, y: row.bound?, spread: None, hint })
+    };
+    Some(Curve {
+        style: style("visibility index, 8 × 8 rays"),
+        name: "exact, its own bound".to_owned(),
+        note: String::new(),
+        points: exact.rows.iter().filter_map(point).collect(),
+        floor: None,
+    })
 }
 
 /// The setting, where it is the same along the axis.
