@@ -1,5 +1,6 @@
 //! Form factors from area to area: closed forms, references with a blocker, reciprocity and closure.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+use formfactor::glam::DMat3;
 use formfactor::{AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, PlanarPolygon};
 
 fn rectangle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> PlanarPolygon {
@@ -117,6 +118,42 @@ fn from_the_cornell_boxs_lamp_all_is_seen_once() {
     let sum: f64 =
         room.area_row(2, tolerance, || false).unwrap().unwrap().iter().map(|(_, factor)| factor.value).sum();
     assert!((sum - 1.0).abs() <= tolerance, "{sum}");
+}
+
+/// A room with a block on its floor, cut out there, turned out of the axes: its edges stand on the floor, and shadows of
+/// what is nearly parallel go far.
+#[test]
+fn a_block_that_stands_in_a_turned_room_sees_all_once() {
+    let turn = DMat3::from_axis_angle(DVec3::new(0.3, -0.5, 0.8).normalize(), 0.7);
+    let at = |x: f64, y: f64, z: f64| turn * DVec3::new(x, y, z);
+    let [x, y, z] = [2.7, 1.9, 1.6];
+    let [low, high] = [[0.4, 0.5], [1.1, 0.8]];
+    let base = [[low[0], low[1]], [high[0], low[1]], high, [low[0], high[1]]];
+    let floor = [[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]];
+    let level = |corners: [[f64; 2]; 4], z: f64| corners.map(|[x, y]| at(x, y, z)).to_vec();
+    let side = |[a, b]: [[f64; 2]; 2], z: f64| {
+        vec![at(b[0], b[1], 0.0), at(b[0], b[1], z), at(a[0], a[1], z), at(a[0], a[1], 0.0)]
+    };
+    let reversed = |mut corners: Vec<DVec3>| {
+        corners.reverse();
+        corners
+    };
+    let mut loops = vec![
+        vec![level(base, 0.7)],
+        vec![level(floor, 0.0), level(base, 0.0)],
+        vec![reversed(level(floor, z))],
+    ];
+    for i in 0..4 {
+        let j = (i + 1) % 4;
+        loops.push(vec![side([base[i], base[j]], 0.7)]);
+        loops.push(vec![reversed(side([floor[i], floor[j]], z))]);
+    }
+    let room = Enclosure::new(loops.into_iter().map(|l| PlanarPolygon::new(l).unwrap()).collect());
+    for (from, tolerance) in [(0, 1e-7), (3, 1e-5), (5, 1e-5), (1, 1e-4)] {
+        let row = room.area_row(from, tolerance, || false).unwrap().unwrap();
+        let sum: f64 = row.iter().map(|(_, factor)| factor.value).sum();
+        assert!((sum - 1.0).abs() <= tolerance, "row {from} adds to {sum}");
+    }
 }
 
 #[test]

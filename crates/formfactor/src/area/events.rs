@@ -73,12 +73,12 @@ fn shadow(source: &PlanarPolygon, from: [DVec3; 2], through: [DVec3; 2]) -> Opti
     end.is_finite().then(|| event([start, end])).flatten()
 }
 
-/// Where the ray from one point down through another one meets the source's plane.
+/// Where the ray from one point down through another one meets the source's plane; `None` too where it seems parallel.
 fn meet(source: &PlanarPolygon, from: DVec3, through: DVec3) -> Option<DVec2> {
     let (high, low) = (height(source, from), height(source, through));
     let point = from + (through - from) * (high / (high - low));
-    let is_along = is_on(source, from) && is_on(source, through);
-    (high > low && !is_along && point.is_finite()).then(|| source.flat(point))
+    let is_steep = high - low > 1e-6 * from.distance(through);
+    (is_steep && point.is_finite()).then(|| source.flat(point))
 }
 
 fn height(source: &PlanarPolygon, point: DVec3) -> f64 {
