@@ -95,7 +95,7 @@ pub(super) enum Norm {
 pub(super) enum Method {
     /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
     Auto,
-    /// Progressive refinement: the brightest piece shoots, again and again
+    /// Progressive refinement: the piece with most light to shoot shoots it, again and again
     Shoot,
     /// The full matrix by Gaussian elimination: to check with, for some thousand elements
     Matrix,
