@@ -10,9 +10,10 @@ fuzz_target!(|text: &str| {
         Ok(scene) => {
             for patch in &scene.patches {
                 assert!(patch.polygon.area() > 0.0, "{} has no area", patch.name);
+                // More than 1 comes through: `inspect` names it, and `solve` refuses it by name.
                 assert!(
-                    patch.reflectance.iter().all(|r| (0.0..=1.0).contains(r)),
-                    "{} reflects too much",
+                    patch.reflectance.iter().all(|r| r.is_finite() && *r >= 0.0),
+                    "{} reflects nonsense",
                     patch.name
                 );
                 assert!(

@@ -19,13 +19,15 @@ pub struct Surroundings {
 /// What makes polygons of one kind.
 type Maker = fn(&mut Random) -> Vec<Loops>;
 
-const KINDS: [(&str, Maker); 6] = [
+const KINDS: [(&str, Maker); 8] = [
     ("tilted triangles", tilted_triangles),
     ("quads on a lattice", lattice_quads),
     ("right triangles with shared edges", right_triangles),
     ("nested frames", nested_frames),
     ("slivers", slivers),
     ("tilted tiles", tilted_tiles),
+    ("touching triangles", touching_triangles),
+    ("stars on a lattice", lattice_stars),
 ];
 
 /// The surroundings of a seed, all kinds in turn.
@@ -151,6 +153,54 @@ fn tilted_tiles(random: &mut Random) -> Vec<Loops> {
         }
     }
     tiles
+}
+
+/// Triangles that grow from a vertex, or a point of an edge, of one before: it is rounded to one side of that one's plane
+/// or to the other.
+fn touching_triangles(random: &mut Random) -> Vec<Loops> {
+    let mut triangles = tilted_triangles(random);
+    for _ in 0..random.between(2, 6) {
+        let Some(ring) = triangles.get(random.below(triangles.len().max(1))).map(|loops| &loops[0]) else {
+            break;
+        };
+        let (i, share) = (random.below(3), f64::from(random.between(0, 3)) / 4.0);
+        let on_it = ring[i] + (ring[(i + 1) % 3] - ring[i]) * share;
+        let corners = [on_it, anywhere(random, 3.0), anywhere(random, 3.0)];
+        if is_wide(corners) {
+            triangles.push(vec![corners.to_vec()]);
+        }
+    }
+    triangles
+}
+
+/// Stars in slanting lattice planes, with reflex corners, straight ones, corners given twice, and holes of the same kind.
+fn lattice_stars(random: &mut Random) -> Vec<Loops> {
+    let mut stars = Vec::new();
+    for _ in 0..random.between(2, 6) {
+        let (middle, u, v) = (lattice(random, 3), lattice(random, 1), lattice(random, 1));
+        if u.cross(v) == DVec3::ZERO {
+            continue;
+        }
+        let mut loops = vec![star(random, middle, [u, v].map(|way| way / 2.0))];
+        if random.one_in(2) {
+            loops.push(star(random, middle, [u, v].map(|way| way / 8.0)));
+        }
+        let outer = turned(random, loops.remove(0));
+        stars.push(std::iter::once(outer).chain(loops).collect());
+    }
+    stars
+}
+
+/// A ring around a point, in eight directions of a plane's lattice.
+fn star(random: &mut Random, middle: DVec3, [u, v]: [DVec3; 2]) -> Vec<DVec3> {
+    let ways = [u, u + v, v, v - u, -u, -u - v, -v, u - v];
+    let twice = random.below(2 * ways.len());
+    let mut ring = Vec::new();
+    for (i, way) in ways.into_iter().enumerate() {
+        let corner = middle + way * f64::from(random.between(1, 4));
+        ring.extend(vec![corner; if i == twice { 2 } else { 1 }]);
+    }
+    ring
 }
 
 /// The ring or its reverse.

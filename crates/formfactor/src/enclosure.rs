@@ -43,6 +43,11 @@ impl Enclosure {
         &self.polygons
     }
 
+    /// The boxes around them.
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
     /// The form factor to polygon `id`; all others, but the one that owns `from`, hide it. Exactly 0 to the owner.
     ///
     /// A polygon in the owner's plane, such as the other side of a thin wall, is seen edge-on even where rounding put

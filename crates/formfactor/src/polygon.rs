@@ -60,7 +60,9 @@ impl PlanarPolygon {
         let order = (0..points.len()).collect();
         let mut polygon = Self { points, ends, plane, normal, axes, slopes, deviation, convex: false, order };
         polygon.convex = polygon.ends.len() == 1 && region::is_convex(&polygon.flat_loops()[0]);
-        if !polygon.convex && polygon.area() == 0.0 {
+        // A spike of many decades may have an area that rounds to 0, or a Newell normal that lies in the dropped axis' plane.
+        let area = polygon.area();
+        if !area.is_finite() || area == 0.0 {
             return Err(Error::ZeroArea);
         }
         let Self { points, order, .. } = &mut polygon;

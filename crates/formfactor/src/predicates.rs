@@ -64,7 +64,16 @@ impl Plane {
 
     /// On which side of the plane `point` lies: `Greater` on the side of the normal.
     pub(crate) fn side_of(&self, point: DVec3) -> Ordering {
-        self.quick_side(point).unwrap_or_else(|| self.side(point).sign)
+        match self.quick_side(point) {
+            Some(side) => side,
+            None => self.open_side(point.x, point.y, point.z),
+        }
+    }
+
+    /// Where doubles leave it open. Coordinates one by one, lest the point has to be put into memory for the other case.
+    #[cold]
+    fn open_side(&self, x: f64, y: f64, z: f64) -> Ordering {
+        self.side(DVec3::new(x, y, z)).sign
     }
 
     /// The same where doubles decide it; never `Equal`.

@@ -16,7 +16,10 @@ pub(crate) fn leaf(loops: &[Vec<DVec2>]) -> Csg<'_> {
 /// Whether a counter-clockwise loop is convex and has an area; decided exactly, and never said of a loop that is not.
 ///
 /// Every corner turns left or goes straight on, one at least turns, and the direction passes from leftward to rightward once.
+/// Of points that are repeated in a row one counts: between two equal ones no turn can be seen.
 pub(crate) fn is_convex(points: &[DVec2]) -> bool {
+    let before = points.iter().cycle().skip(points.len().saturating_sub(1));
+    let points: Vec<DVec2> = points.iter().zip(before).filter(|(p, q)| p != q).map(|(p, _)| *p).collect();
     let count = points.len();
     let point = |i: usize| points[i % count];
     let rightward = |i: usize| {

@@ -249,6 +249,32 @@ proptest! {
     }
 
     #[test]
+    fn an_edge_that_passes_next_to_the_point_hides_as_exactly(
+        from in area(), to in target(lattice(3)), tips in prop::collection::vec((lattice(3), lattice(3), anywhere()), 1..6),
+        halvings in 4i32..60,
+    ) {
+        let past = |(way, tip, off): &(DVec3, DVec3, DVec3)| triangle([*way + *off * 0.5f64.powi(halvings), -*way, *tip]);
+        let occluders: Vec<PlanarPolygon> = tips.iter().filter_map(past).collect();
+        let (seen, other) = (form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders));
+        prop_assert!(seen.error_bound >= 0.0 && seen.error_bound < 1e-9, "{seen:?}");
+        prop_assert!((seen.value - other.value).abs() <= seen.error_bound + other.error_bound, "{seen:?} and {other:?}");
+    }
+
+    #[test]
+    fn occluders_that_touch_the_target_hide_as_exactly(
+        from in area(), to in target(anywhere()), others in prop::collection::vec((0usize..3, 0usize..4, anywhere(), anywhere()), 1..4),
+    ) {
+        // From a vertex of the target or from a point between two, rounded: a little before its plane, or behind, or on it.
+        let corners: Vec<DVec3> = to.loops().flatten().copied().collect();
+        let touching = |(i, share, a, b): &(usize, usize, DVec3, DVec3)| {
+            let share = f64::from(u32::try_from(*share).expect("small")) / 4.0;
+            triangle([corners[*i] + (corners[(i + 1) % 3] - corners[*i]) * share, *a, *b])
+        };
+        let occluders: Vec<PlanarPolygon> = others.iter().filter_map(touching).collect();
+        agree(form_factor(&from, &to, &occluders), by_hierarchy(&from, &to, &occluders))?;
+    }
+
+    #[test]
     fn an_enclosure_finds_every_occluder(from in area(), polygons in triangles(anywhere(), 40), shift in anywhere()) {
         // Small and all over the place, so that most can be skipped.
         let small = |(i, p): (u32, &PlanarPolygon)| {

@@ -63,6 +63,27 @@ fn bad_areas_are_named() {
 }
 
 #[test]
+fn a_vertex_given_twice_changes_nothing() {
+    // Its first corner is reflex: repeated there, or anywhere, the polygon is what it was.
+    let dart = [[0.0, -2.0, 4.0], [1.0, -5.0, 4.0], [-3.0, 3.0, 4.0], [1.0, 3.0, 4.0]];
+    let from = area_at([0.0, 0.5, 0.0], [0.0, 0.0, 1.0]);
+    let (to, occluders) =
+        (PlanarPolygon::new([dart]).unwrap(), [PlanarPolygon::new([square(-0.1, 0.4, 1.0)]).unwrap()]);
+    let (free, seen) = (unoccluded(&from, &to), form_factor(&from, &to, &occluders));
+    assert!(seen.value > 0.01 && seen.value < free.value);
+    for i in 0..4 {
+        let mut twice = dart.to_vec();
+        twice.insert(i, dart[i]);
+        let to = PlanarPolygon::new([twice]).unwrap();
+        for (found, expected) in [(unoccluded(&from, &to), free), (form_factor(&from, &to, &occluders), seen)]
+        {
+            let allowed = found.error_bound + expected.error_bound;
+            assert!((found.value - expected.value).abs() <= allowed, "{i}: {found:?} is not {expected:?}");
+        }
+    }
+}
+
+#[test]
 fn thin_triangles_are_exact_as_given() {
     let thin = PlanarPolygon::new([[[0.1, 0.1, 0.1], [0.7, 0.7, 0.7], [0.3, 0.3, 0.300_000_000_000_000_04]]]);
     assert!(thin.is_ok() && thin.unwrap().area() > 0.0);

@@ -1,4 +1,5 @@
 //! Exposure: from radiosity, which has no upper end, to what a screen can show.
+use crate::spectrum::Colours;
 use crate::{Scene, Solution};
 
 /// The intensity that the average surface gets: mid grey.
@@ -24,8 +25,8 @@ impl Exposure {
     #[must_use]
     pub fn automatic(scene: &Scene, solution: &Solution) -> Self {
         let mesh = &solution.mesh;
-        let colours = rgb(&solution.radiosity, solution.bands).into_iter().enumerate();
-        Self::of(colours.map(|(index, colour)| {
+        let colours = Colours::of(solution.bands, &scene.wavelengths).rows(&solution.radiosity);
+        Self::of(colours.into_iter().enumerate().map(|(index, colour)| {
             (colour, mesh.area(index), scene.patches[mesh.elements[index].patch].emits())
         }))
     }
@@ -54,8 +55,7 @@ impl Exposure {
 /// Red, green and blue out of values that stand band by band: the first three bands; of fewer, the last is repeated.
 #[must_use]
 pub fn rgb(values: &[f64], bands: usize) -> Vec<[f64; 3]> {
-    let colour = |bands: &[f64]| std::array::from_fn(|band| bands[band.min(bands.len() - 1)]);
-    values.chunks(bands.max(1)).map(colour).collect()
+    Colours::of(bands, &[]).rows(values)
 }
 
 /// The sRGB transfer function: what an 8-bit channel stores for a linear intensity from 0 to 1 (IEC 61966-2-1).

@@ -26,13 +26,17 @@
 //! | what is wrong with a scene, and its mend | [`inspect`], [`mend()`] |
 //! | the scenes of the literature | [`scenes`] |
 //! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
+//! | how far two solutions are from each other | [`compare`] |
+//! | error against time, for every method and scene | [`report`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
 pub use formfactor;
 pub use glam;
 
+pub mod compare;
 mod error;
 pub mod expose;
 mod extent;
+mod finding;
 mod groups;
 pub mod inspect;
 mod interpolate;
@@ -42,9 +46,11 @@ mod mesh;
 pub mod picture;
 mod plane;
 mod record;
+pub mod report;
 mod scene;
 pub mod scenes;
 mod solve;
+mod spectrum;
 mod table;
 
 pub mod viewer;

@@ -1,7 +1,8 @@
 //! A solution as it is written: all that pictures, pages and tables need, apart from the scene's own file.
-use crate::expose::{Exposure, rgb};
+use crate::expose::Exposure;
 use crate::io::fetch;
 use crate::picture::Paint;
+use crate::spectrum::Colours;
 use crate::{Asset, Camera, Element, Image, Mesh, Patch, Scene, Solution};
 use base64::Engine;
 use glam::{DVec2, DVec3};
@@ -22,6 +23,9 @@ pub struct Record {
     pub cameras: Vec<Camera>,
     /// Number of bands of every value.
     pub bands: usize,
+    /// The bands' wavelengths in nm; empty where they are red, green and blue, or no light at all.
+    #[serde(default)]
+    pub wavelengths: Vec<f64>,
     /// Per band, a bound on the algebraic error of every radiosity, W/m²; see [`Solution::bound`].
     pub bound: Vec<f64>,
     /// The patches, in the scene's order.
@@ -81,6 +85,7 @@ impl Record {
             asset: scene.asset,
             cameras: scene.cameras.clone(),
             bands: solution.bands,
+            wavelengths: scene.wavelengths.clone(),
             bound: solution.bound.clone(),
             patches: patches
                 .map(|(index, (patch, (irradiance, radiosity)))| PatchRecord {
@@ -124,6 +129,13 @@ impl Record {
                 return Err(format!("{name} has {found} values where {wanted} are needed"));
             }
         }
+        if ![0, self.bands].contains(&self.wavelengths.len()) {
+            return Err(format!(
+                "wavelengths has {} values where {} are needed",
+                self.wavelengths.len(),
+                self.bands
+            ));
+        }
         if ![0, vertices].contains(&self.places.len()) {
             return Err(format!("places has {} rows where {vertices} are needed", self.places.len()));
         }
@@ -161,10 +173,16 @@ impl Record {
         Mesh { vertices: self.vertices.clone(), elements }
     }
 
-    /// Red, green and blue radiosity at the vertices: the first three bands.
+    /// Red, green and blue radiosity at the vertices: what an observer sees where wavelengths are known, else the first
+    /// three bands.
     #[must_use]
     pub fn colours(&self) -> Vec<[f64; 3]> {
-        rgb(&self.vertex_radiosity, self.bands)
+        self.shown().rows(&self.vertex_radiosity)
+    }
+
+    /// What the bands look like.
+    pub(crate) fn shown(&self) -> Colours {
+        Colours::of(self.bands, &self.wavelengths)
     }
 
     /// The bytes of a PNG, as [`draw`](crate::picture::draw) draws it; pictures on patches are shown under the light that
@@ -187,7 +205,7 @@ impl Record {
 
     /// What a picture's colours are multiplied with at every vertex: the irradiance times the patch's tint.
     pub(crate) fn under_pictures(&self) -> Vec<[f64; 3]> {
-        let mut light = rgb(&self.vertex_irradiance, self.bands);
+        let mut light = self.shown().rows(&self.vertex_irradiance);
         let mut tinted = vec![false; light.len()];
         for &[patch, a, b, c] in &self.elements {
             let tint = self.patches[patch].tint;
@@ -203,7 +221,7 @@ impl Record {
     /// The exposure that suits the light; see [`Exposure::automatic`].
     #[must_use]
     pub fn exposure(&self) -> Exposure {
-        let (mesh, colours) = (self.mesh(), rgb(&self.radiosity, self.bands));
+        let (mesh, colours) = (self.mesh(), self.shown().rows(&self.radiosity));
         let lit = colours.iter().enumerate().map(|(index, colour)| {
             let lamp = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
             (*colour, mesh.area(index), lamp)

@@ -4,6 +4,7 @@ mod texture;
 
 pub use texture::{Image, Texture};
 
+use crate::inspect::Finding;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -19,8 +20,11 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Number of bands of every reflectance and emission; 3 for red, green, blue.
     pub bands: usize,
-    /// What was odd about the file and how it was taken, one sentence each.
-    pub warnings: Vec<String>,
+    /// The bands' wavelengths in nm, where they are those of light: pictures show what an observer sees of them. Empty
+    /// where bands are red, green and blue, or no light at all.
+    pub wavelengths: Vec<f64>,
+    /// What was odd about the file and how it was taken.
+    pub warnings: Vec<Finding>,
     /// What the coordinates mean.
     pub asset: Asset,
 }

@@ -358,5 +358,12 @@ fn a_stopped_run_is_4_and_writes_its_result() {
     let output = radiosity(&arguments);
     assert_eq!(code(&output), 4, "{}", stderr(&output));
     assert_eq!(json(&output)["shots"], 3);
-    assert_eq!(folder.names(), ["a.png"]);
+    assert_eq!(folder.names(), ["a.png", "a.png.state"]);
+    assert!(stderr(&output).contains("go on with --resume"), "{}", stderr(&output));
+    let state = text_of(&folder.path("a.png.state"));
+    let resumed = radiosity(&[&SOLVE[..], &["--json", "--resume", &state]].concat());
+    let whole = radiosity(&[&SOLVE[..], &["--json"]].concat());
+    assert_eq!(code(&resumed), 0, "{}", stderr(&resumed));
+    let light = |output| (json(output)["patches"].clone(), json(output)["energy"].clone());
+    assert_eq!(light(&resumed), light(&whole));
 }

@@ -112,6 +112,15 @@ fn a_flipped_face_is_the_minority() {
 }
 
 #[test]
+fn a_duplicate_is_not_flipped() {
+    let mut cube = scenes::scene("furnace").unwrap();
+    let again = radiosity::Patch { name: "again".into(), ..cube.patches[0].clone() };
+    cube.patches.push(again);
+    assert_eq!(found(&cube, Kind::Duplicate), [["floor", "again"]]);
+    assert!(found(&cube, Kind::Flipped).is_empty());
+}
+
+#[test]
 fn a_vertex_within_an_edge_is_a_t_junction() {
     let patches = vec![
         lamp(level("long", [0.0, 0.0, 2.0, 1.0], 0.0)),

@@ -14,7 +14,8 @@ pub(super) fn row_of_targets(
     factor: impl Fn(&Target) -> f64,
 ) -> Vec<f64> {
     let items = items(enclosure, from);
-    targets.iter().map(|id| Target::new(&items, *id).map_or(0.0, |target| factor(&target))).collect()
+    let target = |id: &usize| Target::new(enclosure, &items, from.position(), *id);
+    targets.iter().map(|id| target(id).map_or(0.0, |target| factor(&target))).collect()
 }
 
 /// The sum over the parts whose centres a ray reaches.

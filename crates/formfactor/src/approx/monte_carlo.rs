@@ -2,7 +2,7 @@
 use super::Method;
 use super::frame::{Rotation, along, frame};
 use super::random::Random;
-use super::ray::{Item, items, seen};
+use super::ray::{along_ray, items, seen};
 use crate::{DifferentialArea, Enclosure};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -48,7 +48,7 @@ impl Method for MonteCarlo {
             let (sine, cosine) = (TAU * v).sin_cos();
             (along(&axes, [u.sqrt() * cosine, u.sqrt() * sine, (1.0 - u).sqrt()]), weight)
         });
-        let factors = cast(&items(enclosure, from), rays, enclosure.polygons().len());
+        let factors = cast(enclosure, from, rays);
         targets.iter().map(|id| factors[*id]).collect()
     }
 }
@@ -71,13 +71,15 @@ impl MonteCarlo {
 
 /// The weights of the rays that see each polygon, by id.
 pub(super) fn cast(
-    items: &[Item],
+    enclosure: &Enclosure,
+    from: &DifferentialArea,
     rays: impl IntoIterator<Item = (DVec3, f64)>,
-    polygons: usize,
 ) -> Vec<f64> {
-    let mut factors = vec![0.0; polygons];
+    let items = items(enclosure, from);
+    let mut factors = vec![0.0; enclosure.polygons().len()];
     for (direction, weight) in rays {
-        for item in seen(items, direction) {
+        let near = along_ray(enclosure, &items, from.position(), direction);
+        for item in seen(near, direction) {
             factors[item.id] += weight;
         }
     }

@@ -3,7 +3,6 @@ use super::Method;
 use super::delta::normalise;
 use super::frame::{Rotation, along, frame};
 use super::monte_carlo::cast;
-use super::ray::items;
 use crate::{DifferentialArea, Enclosure};
 
 /// A square image of the hemisphere mirrored in the paraboloid z = 1/2 - (x^2 + y^2)/2 [Heidrich & Seidel 1998]: the
@@ -49,7 +48,7 @@ impl Method for Paraboloid {
     fn row(&self, enclosure: &Enclosure, from: &DifferentialArea, targets: &[usize]) -> Vec<f64> {
         let axes = frame(from, Rotation::Angle(0.0));
         let rays = self.directions.iter().zip(&self.weights).map(|(d, weight)| (along(&axes, *d), *weight));
-        let factors = cast(&items(enclosure, from), rays, enclosure.polygons().len());
+        let factors = cast(enclosure, from, rays);
         targets.iter().map(|id| factors[*id]).collect()
     }
 }

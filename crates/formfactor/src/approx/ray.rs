@@ -1,5 +1,6 @@
 //! Rays from dA against an enclosure, by the exact method's rules: occluders block for 0 < t < 1, the owner never, nor
 //! does what is coplanar with the target or whose plane contains dA. Each polygon has a cone around it, to skip it by.
+use crate::tree::Extent;
 use crate::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
@@ -138,6 +139,22 @@ fn share_planes(items: &mut [Item]) {
     }
 }
 
+/// The items whose boxes a ray meets, in some order.
+pub(super) fn along_ray<'i, 'a>(
+    enclosure: &Enclosure,
+    items: &'i [Item<'a>],
+    origin: DVec3,
+    direction: DVec3,
+) -> impl Iterator<Item = &'i Item<'a>> {
+    let found = enclosure.tree().find(|extent| extent.misses_ray(origin, direction));
+    found.into_iter().filter_map(|id| item_of(items, id))
+}
+
+/// The item of a polygon.
+fn item_of<'i, 'a>(items: &'i [Item<'a>], id: usize) -> Option<&'i Item<'a>> {
+    items.binary_search_by_key(&id, |item| item.id).ok().map(|place| &items[place])
+}
+
 /// The polygons seen along a direction: the nearest, with those coplanar to it that overlap there.
 pub(super) fn seen<'i, 'a: 'i>(
     items: impl IntoIterator<Item = &'i Item<'a>>,
@@ -161,15 +178,23 @@ pub(super) struct Target<'i, 'a> {
 
 impl<'i, 'a> Target<'i, 'a> {
     /// `None` when the target is not seen whatever stands in between.
-    pub(super) fn new(items: &'i [Item<'a>], id: usize) -> Option<Self> {
-        let place = items.binary_search_by_key(&id, |item| item.id).ok()?;
-        let item = items.get(place).filter(|item| item.is_front)?;
+    pub(super) fn new(
+        enclosure: &Enclosure,
+        items: &'i [Item<'a>],
+        origin: DVec3,
+        id: usize,
+    ) -> Option<Self> {
+        let item = item_of(items, id).filter(|item| item.is_front)?;
         let hides = |other: &&Item| {
             other.plane != item.plane
                 && other.cone.meets(&item.cone)
                 && is_before(other.polygon, item.polygon)
         };
-        Some(Self { item, occluders: items.iter().filter(hides).collect() })
+        let around = Extent::around(&[item.polygon.points(), &[origin]].concat());
+        let mut near = enclosure.tree().find(|extent| extent.misses(&around));
+        near.sort_unstable();
+        let near = near.into_iter().filter_map(|other| item_of(items, other));
+        Some(Self { item, occluders: near.filter(hides).collect() })
     }
 
     /// Whether nothing blocks the way from dA to a point of the target, given relative to dA.

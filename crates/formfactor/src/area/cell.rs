@@ -64,36 +64,35 @@ pub(super) fn halves([a, b, c, d]: Cell) -> [Cell; 2] {
     }
 }
 
-/// A piece of a line's cell that is smaller than this share of it is not worth a cut.
+/// A piece that is smaller than this share of its cell or of `whole` is not worth a cut.
 const SLIGHT: f64 = 1e-9;
 
-/// A cell cut along the line of a segment that passes through it, as cells; `None` when none does.
-pub(super) fn cut(cell: &Cell, [start, end]: [DVec2; 2]) -> Option<Vec<Cell>> {
-    let way = end - start;
+/// A cell cut along the line of a segment that passes through it, as cells; `None` when none does. `whole` is the area of
+/// what is cut up in all.
+pub(super) fn cut(cell: &Cell, segment: [DVec2; 2], whole: f64) -> Option<Vec<Cell>> {
+    let [start, end] = within(cell, segment)?;
+    let way = (end - start).try_normalize()?;
     let heights = cell.map(|p| way.perp_dot(p - start));
-    if heights.iter().all(|h| *h >= 0.0) || heights.iter().all(|h| *h <= 0.0) || !passes(cell, start, end) {
-        return None;
-    }
     let [left, right] = [1.0, -1.0].map(|sign| fan(&kept(cell, heights.map(|h| sign * h))));
     let size = |cells: &[Cell]| cells.iter().map(area).sum::<f64>();
-    let is_worth = |cells: &[Cell]| size(cells) > SLIGHT * area(cell);
-    (is_worth(&left) && is_worth(&right)).then(|| [left, right].concat())
+    let least = SLIGHT * area(cell).max(whole);
+    (size(&left) > least && size(&right) > least).then(|| [left, right].concat())
 }
 
-/// Whether some of a segment is inside a cell.
-fn passes(cell: &Cell, start: DVec2, end: DVec2) -> bool {
+/// The part of a segment that is inside a cell.
+fn within(cell: &Cell, [start, end]: [DVec2; 2]) -> Option<[DVec2; 2]> {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for (i, a) in cell.iter().enumerate() {
         let side = cell[(i + 1) % 4] - *a;
         let (from, to) = (side.perp_dot(start - *a), side.perp_dot(end - *a));
         match (from < 0.0, to < 0.0) {
-            (true, true) => return false,
+            (true, true) => return None,
             (true, false) => low = low.max(from / (from - to)),
             (false, true) => high = high.min(from / (from - to)),
             (false, false) => (),
         }
     }
-    low < high
+    (low < high).then(|| [low, high].map(|share| start.lerp(end, share)))
 }
 
 /// The part of a cell at heights that are not negative.
@@ -110,4 +109,31 @@ fn kept(cell: &Cell, heights: [f64; 4]) -> Vec<DVec2> {
     }
     corners.dedup();
     corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point(size: f64) -> impl Strategy<Value = DVec2> {
+        (-size..size, -size..size).prop_map(DVec2::from)
+    }
+
+    proptest! {
+        #[test]
+        fn the_pieces_of_a_cell_add_up_to_it(
+            corner in point(1.0), sides in (0.1..1.0, 0.1..1.0, -0.5..0.5, -0.5..0.5), through in point(1.0), to in point(1.0),
+            far in prop_oneof![Just(1.0), 1.0..1e3, Just(1e12)],
+        ) {
+            let (u, v) = (DVec2::new(sides.0, sides.2 * sides.0), DVec2::new(sides.3 * sides.1, sides.1));
+            let cell = [corner, corner + u, corner + u + v, corner + v];
+            let way = (to - through) * far;
+            if let Some(pieces) = cut(&cell, [through - way, through + way], 0.0) {
+                let sum: f64 = pieces.iter().map(area).sum();
+                prop_assert!((sum / area(&cell) - 1.0).abs() < 1e-12, "{sum} of {}", area(&cell));
+                prop_assert!(pieces.iter().all(|piece| area(piece) >= -1e-15));
+            }
+        }
+    }
 }

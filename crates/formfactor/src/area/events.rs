@@ -20,9 +20,12 @@ pub(super) fn events(
     is_fine: bool,
 ) -> Vec<Event> {
     let vertices: usize = occluders.iter().map(|o| o.points().len()).sum();
-    let mut found = turn(source, target);
+    let mut found: Vec<Event> = turn(source, target).into_iter().collect();
     if 2 * vertices * target.points().len() <= MOST {
         found.extend(occluders.iter().flat_map(|occluder| between(source, target, occluder)));
+    }
+    if is_fine {
+        found.extend(occluders.iter().filter_map(|occluder| edge_on(source, target, occluder)));
     }
     if is_fine && vertices * vertices <= MOST {
         let apart = |one: &PlanarPolygon, other: &PlanarPolygon| {
@@ -51,31 +54,73 @@ fn key([a, b]: &Event) -> [f64; 4] {
     [a.x, a.y, b.x, b.y]
 }
 
-/// Where two rays, each from one point through another one, meet the source's plane.
+/// Where the rays from the points of one segment through the like points of another one meet the source's plane.
+///
+/// When one of them is parallel to the plane in between, the shadow goes on for ever from there; so it does along the
+/// plane where both segments stand on it.
 fn shadow(source: &PlanarPolygon, from: [DVec3; 2], through: [DVec3; 2]) -> Option<Event> {
-    let normal = source.normal();
-    let height = |p: DVec3| normal.dot(p - source.points()[0]);
-    let meet = |t: DVec3, a: DVec3| {
-        let (high, low) = (height(t), height(a));
-        let point = t + (a - t) * (high / (high - low));
-        (high > low && point.is_finite()).then(|| source.flat(point))
-    };
-    let mut ends = [meet(from[0], through[0])?, meet(from[1], through[1])?];
-    ends.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    (ends[0] != ends[1]).then_some(ends)
+    let ends = [0, 1].map(|i| meet(source, from[i], through[i]));
+    if let [Some(a), Some(b)] = ends {
+        return event([a, b]);
+    }
+    let standing = (0..2).find(|i| is_on(source, from[*i]) && is_on(source, through[*i]));
+    let start = ends[0].or(ends[1]).or_else(|| standing.map(|i| source.flat(through[i])))?;
+    let drop = [0, 1].map(|i| height(source, from[i]) - height(source, through[i]));
+    let share = drop[0] / (drop[0] - drop[1]);
+    let along = source.flat(through[0].lerp(through[1], share) - from[0].lerp(from[1], share));
+    let reach = source.points().iter().map(|p| source.flat(*p).distance(start)).fold(0.0, f64::max);
+    let end = start + 2.0 * reach * along.normalize_or_zero();
+    end.is_finite().then(|| event([start, end])).flatten()
+}
+
+/// Where the ray from one point down through another one meets the source's plane; `None` too where it seems parallel.
+fn meet(source: &PlanarPolygon, from: DVec3, through: DVec3) -> Option<DVec2> {
+    let (high, low) = (height(source, from), height(source, through));
+    let point = from + (through - from) * (high / (high - low));
+    let is_steep = high - low > 1e-6 * from.distance(through);
+    (is_steep && point.is_finite()).then(|| source.flat(point))
+}
+
+fn height(source: &PlanarPolygon, point: DVec3) -> f64 {
+    source.normal().dot(point - source.points()[0])
+}
+
+/// Whether a point seems to lie on the source's plane. Only the way in which cells are cut depends on it.
+fn is_on(source: &PlanarPolygon, point: DVec3) -> bool {
+    height(source, point).abs() <= 1e-12 * point.distance(source.points()[0])
+}
+
+/// Where an occluder is seen edge-on before the target: it begins to hide there, or another edge of its body takes over.
+fn edge_on(source: &PlanarPolygon, target: &PlanarPolygon, occluder: &PlanarPolygon) -> Option<Event> {
+    let [first, last] = chord(source, occluder)?;
+    let chord = chord(target, occluder)?;
+    let rays = chord.iter().flat_map(|t| occluder.points().iter().map(move |a| meet(source, *t, *a)));
+    let met: Option<Vec<DVec2>> = rays.collect();
+    // Where some ray does not come down to the source the shadow goes on for ever.
+    met.map_or_else(|| event([source.flat(first), source.flat(last)]), event)
 }
 
 /// Where the target's plane meets the source.
-fn turn(source: &PlanarPolygon, target: &PlanarPolygon) -> Vec<Event> {
-    let height = |p: DVec3| target.normal().dot(p - target.points()[0]);
+fn turn(source: &PlanarPolygon, target: &PlanarPolygon) -> Option<Event> {
+    event(chord(source, target)?.map(|p| source.flat(p)))
+}
+
+/// The ends of the part of a polygon that lies in another one's plane.
+fn chord(polygon: &PlanarPolygon, other: &PlanarPolygon) -> Option<[DVec3; 2]> {
     let crossing = |(a, b): (DVec3, DVec3)| {
-        let (from, to) = (height(a), height(b));
-        ((from > 0.0) != (to > 0.0)).then(|| source.flat(a + (b - a) * (from / (from - to))))
+        let (from, to) = (height(other, a), height(other, b));
+        ((from > 0.0) != (to > 0.0)).then(|| a + (b - a) * (from / (from - to)))
     };
-    let mut met: Vec<DVec2> = source.edges().filter_map(crossing).collect();
-    met.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    match (met.first(), met.last()) {
-        (Some(a), Some(b)) if a != b => vec![[*a, *b]],
-        _ => Vec::new(),
-    }
+    let along = polygon.normal().cross(other.normal());
+    let mut met: Vec<DVec3> = polygon.edges().filter_map(crossing).collect();
+    met.sort_by(|a, b| along.dot(*a).total_cmp(&along.dot(*b)));
+    Some([*met.first()?, *met.last()?])
+}
+
+/// The segment that points on a line span.
+fn event(points: impl IntoIterator<Item = DVec2>) -> Option<Event> {
+    let mut points: Vec<DVec2> = points.into_iter().collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let (first, last) = (points.first()?, points.last()?);
+    (first != last).then_some([*first, *last])
 }

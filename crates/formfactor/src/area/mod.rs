@@ -56,25 +56,30 @@ impl Enclosure {
         Ok(found.map_or_else(AreaFormFactor::default, |[forth, _]| forth))
     }
 
-    /// The form factors from polygon `from` to all that it sees. In a closed room they add to 1 within `tolerance`, of which
-    /// each gets an equal share.
+    /// The form factors from polygon `from` to all that it sees; `None` when `is_cancelled`, which is asked often, says so.
+    /// In a closed room they add to 1 within `tolerance`, of which each gets an equal share.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.
     ///
     /// # Panics
     /// When there is no polygon `from`.
-    pub fn area_row(&self, from: usize, tolerance: f64) -> Result<Row, Error> {
+    pub fn area_row(
+        &self,
+        from: usize,
+        tolerance: f64,
+        is_cancelled: impl Fn() -> bool + Sync,
+    ) -> Result<Option<Row>, Error> {
         check(tolerance)?;
         let share = self.share(tolerance);
-        let found = each(&(0..self.polygons().len()).collect::<Vec<_>>(), |to| {
-            self.exchange([from, *to], share, &|| false)
-                .map_or_else(AreaFormFactor::default, |[forth, _]| forth)
-        });
-        Ok(found.into_iter().enumerate().filter(|(_, factor)| factor.value > 0.0).collect())
+        let others: Vec<usize> = (0..self.polygons().len()).filter(|to| self.face([from, *to])).collect();
+        let found = each(&others, |to| self.exchange([from, *to], share, &is_cancelled));
+        let entries = others.into_iter().zip(found).map(|(to, factors)| Some((to, factors?[0])));
+        Ok(entries.filter(|entry| entry.is_none_or(|(_, factor)| factor.value > 0.0)).collect())
     }
 
-    /// All rows, each pair of polygons integrated once; `None` when `is_cancelled`, which is asked often, says so.
+    /// All rows, each pair of polygons integrated once; `None` when `is_cancelled`, which is asked often, says so. Takes
+    /// the square of the number of polygons in time, and memory for the factors that are not 0.
     ///
     /// With the feature `rayon` pairs are shared among threads; the result is the same for any number of them.
     ///
@@ -87,18 +92,31 @@ impl Enclosure {
     ) -> Result<Option<Vec<Row>>, Error> {
         check(tolerance)?;
         let (count, share) = (self.polygons().len(), self.share(tolerance));
-        let pairs: Vec<[usize; 2]> = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j])).collect();
-        let found = each(&pairs, |pair| self.exchange(*pair, share, &is_cancelled));
         let mut rows = vec![Row::new(); count];
-        for (&[i, j], factors) in pairs.iter().zip(found) {
-            let Some([forth, back]) = factors else { return Ok(None) };
-            if forth.value > 0.0 {
-                rows[i].push((j, forth));
-                rows[j].push((i, back));
+        // By rows and along them, so that each row comes to be in the order of the ids.
+        let all = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
+        let mut pairs = all.filter(|pair| self.face(*pair));
+        loop {
+            let block: Vec<[usize; 2]> = pairs.by_ref().take(BLOCK).collect();
+            if block.is_empty() {
+                return Ok(Some(rows));
+            }
+            for (&[i, j], factors) in
+                block.iter().zip(each(&block, |p| self.exchange(*p, share, &is_cancelled)))
+            {
+                let Some([forth, back]) = factors else { return Ok(None) };
+                if forth.value > 0.0 {
+                    rows[i].push((j, forth));
+                    rows[j].push((i, back));
+                }
             }
         }
-        rows.iter_mut().for_each(|row| row.sort_by_key(|entry| entry.0));
-        Ok(Some(rows))
+    }
+
+    /// Whether two polygons see each other as far as their planes say.
+    fn face(&self, [i, j]: [usize; 2]) -> bool {
+        let [one, other] = [i, j].map(|id| &self.polygons()[id]);
+        i != j && pair::is_before(one, other) && pair::is_before(other, one)
     }
 
     /// Of a row's tolerance, what each entry gets.
@@ -113,7 +131,7 @@ impl Enclosure {
         tolerance: f64,
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<[AreaFormFactor; 2]> {
-        if i == j {
+        if !self.face([i, j]) {
             return Some([AreaFormFactor::default(); 2]);
         }
         let [size_i, size_j] = [i, j].map(|id| self.polygons()[id].area());
@@ -132,6 +150,9 @@ impl Enclosure {
         })
     }
 }
+
+/// So many pairs of a matrix are shared among threads at a time, before what is found goes into the rows.
+const BLOCK: usize = 1 << 16;
 
 fn check(tolerance: f64) -> Result<(), Error> {
     if tolerance > 0.0 { Ok(()) } else { Err(Error::BadTolerance) }

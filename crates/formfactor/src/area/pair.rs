@@ -21,7 +21,7 @@ const FINE: f64 = 1e-6;
 const MOST_CUTS: usize = 64;
 const BLIND_HALVINGS: u32 = 4;
 
-/// The integral over polygon `source` of the form factor to polygon `target`, by the source's area; `None` when
+/// The integral over polygon `source` of the form factor to polygon `target`, which face each other, by the source's area; `None` when
 /// `is_cancelled` says so.
 pub(super) fn mean(
     enclosure: &Enclosure,
@@ -33,14 +33,11 @@ pub(super) fn mean(
         return None;
     }
     let pair = Pair::new(enclosure, source, target);
-    if !(is_before(pair.from, pair.to) && is_before(pair.to, pair.from)) {
-        return Some(Integral { value: 0.0, error: 0.0, evaluations: 0 });
-    }
     pair.by_contour(tolerance).or_else(|| pair.by_cells(tolerance, is_cancelled))
 }
 
 /// Whether some of a polygon is before another one's plane.
-fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
+pub(super) fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
     polygon.points().iter().any(|p| other.plane().side_of(*p) == Ordering::Greater)
 }
 
@@ -128,7 +125,7 @@ impl<'e> Pair<'e> {
             Refinement { pair: self, size, tolerance, open: BinaryHeap::new(), evaluations: 0, count: 0 };
         let mut coarse: Vec<(Cell, u32)> = whole.into_iter().map(|cell| (cell, BLIND_HALVINGS)).collect();
         while let Some((cell, halvings)) = coarse.pop() {
-            match cut_at(cell, &events) {
+            match cut_at(cell, &events, size) {
                 Some(pieces) => pieces.into_iter().for_each(|piece| sum.add(piece, &all, true, 0.0)),
                 None if halvings > 0 => coarse.extend(halves(cell).map(|half| (half, halvings - 1))),
                 None => sum.add(cell, &all, false, 0.0),
@@ -185,7 +182,7 @@ impl Refinement<'_, '_> {
             let Some(worst) = self.open.pop() else { break };
             let Open { cell, found, occluders, is_smooth, .. } = worst;
             for half in halves(cell) {
-                let pieces = cut_at(half, events).filter(|_| !is_smooth);
+                let pieces = cut_at(half, events, self.size).filter(|_| !is_smooth);
                 let is_smooth = is_smooth || pieces.is_some();
                 for piece in pieces.unwrap_or_else(|| vec![half]) {
                     let share = area(&piece).abs() / area(&cell).abs();
@@ -211,11 +208,13 @@ impl Refinement<'_, '_> {
 }
 
 /// A cell cut at all events that pass through it; `None` when they are too many.
-fn cut_at(cell: Cell, events: &[Event]) -> Option<Vec<Cell>> {
+fn cut_at(cell: Cell, events: &[Event], whole: f64) -> Option<Vec<Cell>> {
     let mut pieces = vec![cell];
     for event in events {
-        pieces =
-            pieces.into_iter().flat_map(|piece| cut(&piece, *event).unwrap_or_else(|| vec![piece])).collect();
+        pieces = pieces
+            .into_iter()
+            .flat_map(|piece| cut(&piece, *event, whole).unwrap_or_else(|| vec![piece]))
+            .collect();
         if pieces.len() > MOST_CUTS {
             return None;
         }

@@ -118,6 +118,7 @@ impl Sum {
     }
 
     /// Adds a part of an edge to those before it, and what is not known about its ends.
+    #[inline]
     pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Span, parts: &mut Parts) {
         let stretch = edge.spread * line.inverse;
         let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
@@ -137,7 +138,8 @@ impl Sum {
         if parts.count > 0 {
             let stretch = edge.spread * line.inverse;
             let cut = (6.0 * stretch * stretch + 4.0 * f64::from(Parts::MOST)) * ROUNDING;
-            self.add_angle(line, parts.product.y.atan2(parts.product.x), cut);
+            // Of a half turn rounding may leave a little more: the nearest angle there can be is nearer to the true one.
+            self.add_angle(line, parts.product.y.max(0.0).atan2(parts.product.x), cut);
         }
     }
 

@@ -51,6 +51,31 @@ impl Side {
     fn is_out(&self, product: f64, size: f64) -> bool {
         product + self.shift < -self.doubt * size - self.least
     }
+
+    /// Where a point lies that may be off by a distance whose vector's error is that of a vector `slack` longer.
+    fn place(&self, point: DVec3, slack: f64) -> Place {
+        let (product, size) = (self.normal.dot(point), size(point) + slack);
+        let (height, margin) = (product + self.shift, self.doubt * size + self.least);
+        if height > margin {
+            Place::Inside
+        } else if height < -margin {
+            Place::Outside
+        } else {
+            Place::Open
+        }
+    }
+}
+
+/// The sides that come before those of the edges: the target's plane and the horizon.
+const BEFORE_EDGES: usize = 2;
+
+/// What keeps a polygon from hiding anything of a target.
+#[derive(Debug)]
+enum Apart<'t> {
+    /// It lies outside of a side for certain.
+    Outside,
+    /// It touches the side of an edge from outside.
+    Touching(&'t Edge),
 }
 
 /// What an occluder is found to be.
@@ -107,25 +132,40 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// Whether a polygon is.
-    fn misses(&self, occluder: &PlanarPolygon) -> bool {
+    /// What keeps a polygon from hiding anything.
+    fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
         let (origin, slack) = (self.from.position(), occluder.deviation() * INVERSE);
-        let is_out = |side: &Side, p: DVec3| side.is_out(side.normal.dot(p), size(p) + slack);
-        self.sides.iter().any(|side| occluder.points().iter().all(|p| is_out(side, *p - origin)))
+        let mut touched = None;
+        for (index, side) in self.sides.iter().enumerate() {
+            let mut is_outside = true;
+            let is_inside = occluder.points().iter().any(|p| {
+                let place = side.place(*p - origin, slack);
+                is_outside &= place == Place::Outside;
+                place == Place::Inside
+            });
+            if is_inside {
+                continue;
+            }
+            if is_outside {
+                return Some(Apart::Outside);
+            }
+            let edge = index.checked_sub(BEFORE_EDGES).map(|index| &self.edges[index]);
+            touched = touched.or(edge.filter(|edge| self.is_touched(edge, occluder)));
+        }
+        touched.map(Apart::Touching)
     }
 
-    /// A side that a polygon touches from outside, at most.
-    fn touched(&self, occluder: &PlanarPolygon) -> Option<&Edge> {
+    /// Whether a polygon touches the side through an edge from outside, at most.
+    fn is_touched(&self, edge: &Edge, occluder: &PlanarPolygon) -> bool {
         let (origin, slack) = (self.from.position(), occluder.deviation() * INVERSE);
-        let outside = |edge: &Edge, point: DVec3| {
-            let p = point - origin;
+        occluder.points().iter().all(|point| {
+            let p = *point - origin;
             let (depth, doubt) = edge.depth(p);
             depth < -doubt - edge.doubt.element_sum() * slack
                 || p == edge.start
                 || p == edge.end
-                || (depth <= doubt && slack == 0.0 && self.is_outside(edge, point))
-        };
-        self.edges.iter().find(|edge| occluder.points().iter().all(|p| outside(edge, *p)))
+                || (depth <= doubt && slack == 0.0 && self.is_outside(edge, *point))
+        })
     }
 
     /// Whether a point is outside of the side through an edge between two given vertices, or on it: exactly.
@@ -149,12 +189,11 @@ pub(super) fn sieve(
     [corners, spare]: &mut [Vec<Corner>; 2],
     cones: &mut Cones,
 ) -> Option<Sieved> {
-    if target.misses(occluder) {
-        return Some(Sieved::Misses(0.0));
-    }
     let slack = occluder.deviation() + target.to.deviation();
-    if let Some(edge) = target.touched(occluder) {
-        return Some(Sieved::Misses(of_touch(edge, target, occluder, slack)));
+    match target.apart(occluder) {
+        Some(Apart::Outside) => return Some(Sieved::Misses(0.0)),
+        Some(Apart::Touching(edge)) => return Some(Sieved::Misses(of_touch(edge, target, occluder, slack))),
+        None => (),
     }
     if !occluder.is_convex() {
         return None;
@@ -180,6 +219,10 @@ pub(super) fn sieve(
         clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
     }
     let edges = cones.push(origin, corners);
+    if edges.len() < 3 {
+        // So little is before the target that its corners fall together.
+        return None;
+    }
     let doubt = blurred(origin, corners, edges)?;
     if doubt == 0.0
         && edges.iter().all(|edge| target.edges.iter().all(|t| edge.place(t.start) == Place::Inside))

@@ -74,18 +74,16 @@ impl Span {
 ///
 /// In the order of their least starts, what is left before a span ends somewhere between its least and its most start: the
 /// others start no earlier. Where it begins lies between the largest ones of the ends so far, least and most.
+#[inline]
 pub(super) fn for_each_gap(whole: Span, spans: &mut [Span], mut found: impl FnMut(Span)) {
     spans.sort_unstable_by(|a, b| a.low.least.total_cmp(&b.low.least));
+    let last = Span { low: whole.high, high: whole.high };
     let mut low = whole.low;
-    for span in spans {
+    for span in spans.iter().chain(std::iter::once(&last)) {
         let gap = Span { low, high: span.low.first(whole.high) };
         if !gap.is_nothing() {
             found(gap);
         }
         low = low.last(span.high);
-    }
-    let gap = Span { low, high: whole.high };
-    if !gap.is_nothing() {
-        found(gap);
     }
 }

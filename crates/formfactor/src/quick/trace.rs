@@ -39,12 +39,14 @@ pub(super) fn sum(
     extents.clear();
     frame.measure(target.edges, extents);
     neighbours.find(cones);
-    for (edge, extent) in target.edges.iter().zip(extents) {
+    for (edge, extent) in target.edges.iter().zip(&*extents) {
         let near = neighbours.shown().filter(|other| cones.extent(*other).meets(extent));
         trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
     }
+    let whole = extents.iter().copied().reduce(Extent::join)?;
     for cone in neighbours.shown() {
-        for (edge, extent) in cones.edges(cone).iter().zip(cones.edge_extents(cone)) {
+        let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
+        for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
             let Some(Held::Part(inside)) = held(edge, target.edges)? else { continue };
             let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
             trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;

@@ -7,6 +7,8 @@ use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many lamps are listed for people.
 const LAMPS: usize = 20;
+/// How many patches of a finding.
+const NAMES: usize = 8;
 
 /// `radiosity inspect`
 #[derive(Args, Debug)]
@@ -65,18 +67,27 @@ fn text(inspection: &Inspection) -> String {
     line(
         "cost",
         format!(
-            "{} elements with {} form factors to patches, about {:.2} s",
+            "{} elements with {} form factors to whole patches, about {:.1} s; large patches are split and need more",
             cost.elements, cost.factors, cost.seconds
         ),
     );
     for finding in &inspection.findings {
-        let who = finding.patches.join(", ");
+        let who = names(&finding.patches);
         let gap = if who.is_empty() { "" } else { ": " };
         let (kind, what, mend) = (json::word(&finding.kind), &finding.what, &finding.mend);
         line("finding", format!("{kind}: {who}{gap}{what}; mend: {mend}"));
     }
     line("findings", inspection.findings.len().to_string());
     text
+}
+
+/// The first names, and how many more there are.
+fn names(patches: &[String]) -> String {
+    let listed = patches[..patches.len().min(NAMES)].join(", ");
+    match patches.len().saturating_sub(NAMES) {
+        0 => listed,
+        more => format!("{listed} and {more} more"),
+    }
 }
 
 fn openness(inspection: &Inspection) -> String {

@@ -77,18 +77,19 @@ impl<'d> Follower<'d> {
         if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Ends the following: the state of a stopped run is saved, one that is no longer needed removed.
-    pub(super) fn end(&mut self, state: &State, converged: bool) -> Result<(), Failure> {
+    /// Ends the following: the state of a run that was stopped is saved, one that is no longer needed removed. A run without
+    /// a solution leaves none.
+    pub(super) fn end(&mut self, state: &State, solution: Option<&Solution>) -> Result<(), Failure> {
         self.bar.clear();
         if let Some(failure) = self.failure.take() {
             return Err(failure);
         }
-        if converged && self.state_written {
-            self.state.iter().try_for_each(std::fs::remove_file).map_err(Failure::internal)?;
-        }
-        let lasting = self.interrupted.load(Ordering::SeqCst) || self.desk.arguments.snapshot_every.is_some();
-        if !converged && lasting {
-            self.save(state)?;
+        match solution {
+            Some(solution) if !solution.converged => self.save(state)?,
+            Some(_) if self.state_written => {
+                self.state.iter().try_for_each(std::fs::remove_file).map_err(Failure::internal)?;
+            }
+            _ => {}
         }
         self.steps.save()
     }

@@ -4,6 +4,7 @@ use clap_complete::Shell;
 use failure::Failure;
 use std::{path::PathBuf, process::ExitCode};
 
+mod compare;
 mod expose;
 mod factors;
 mod failure;
@@ -14,6 +15,7 @@ mod lasting;
 mod look;
 mod output;
 mod progress;
+mod report;
 mod scene;
 mod solve;
 mod steps;
@@ -22,8 +24,8 @@ mod view;
 /// Diffuse light of a scene by progressive radiosity with exact form factors.
 ///
 /// Data goes to stdout, all else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
-/// 3 bad scene, 4 stopped before the tolerance (the result is written), 130 stopped by Ctrl-C (result and state are
-/// written).
+/// 3 bad scene, 4 stopped before the tolerance, 5 a difference above `--fail-above`, 130 stopped by Ctrl-C (of a stopped run
+/// result and state are written).
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 110)]
 pub(crate) struct Arguments {
@@ -47,6 +49,10 @@ enum Command {
     Factors(factors::Factors),
     /// Tell what a scene is and what about it will trouble a solution
     Inspect(inspect::Inspect),
+    /// Tell how far two solutions of one scene are from each other: relative L1, L2 and maximum of reflected light
+    Compare(compare::Compare),
+    /// Measure every method on every scene, error against time, and write it as one page
+    Report(report::Report),
     /// Write one of the built-in scenes
     Scene(Scene),
     /// Print what a shell needs to complete this program's command lines
@@ -66,7 +72,7 @@ struct Scene {
     output: Option<PathBuf>,
 }
 
-/// Answers; the exit code is 0, or 4 when a solution was stopped early.
+/// Answers; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
@@ -76,6 +82,8 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::View(arguments) => view::run(&arguments),
         Command::Factors(arguments) => factors::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Scene(arguments) => scene::run(&arguments),
         Command::Completions { shell } => completions(shell),
     })

@@ -95,7 +95,7 @@ pub(super) enum Norm {
 pub(super) enum Method {
     /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
     Auto,
-    /// Progressive refinement: the brightest piece shoots, again and again
+    /// Progressive refinement: the piece with most light to shoot shoots it, again and again
     Shoot,
     /// The full matrix by Gaussian elimination: to check with, for some thousand elements
     Matrix,
@@ -120,8 +120,7 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let mut follower = Follower::new(&desk)?;
     let solution =
         radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
-    let converged = solution.as_ref().is_ok_and(|solution| solution.converged);
-    follower.end(&state, converged)?;
+    follower.end(&state, solution.as_ref().ok())?;
     let solution = solution?;
     let figures = desk.write(&solution)?;
     if arguments.json {

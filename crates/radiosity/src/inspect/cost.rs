@@ -8,9 +8,10 @@ use std::time::Duration;
 pub struct Cost {
     /// Elements that `solve` cuts the scene into by default.
     pub elements: usize,
-    /// Form factors from every element to every patch. Lamps that are split need more, patches that never shoot fewer.
+    /// Form factors from every element to every patch: once around. Patches that are split need more, up to a hundred times
+    /// as many where a few large ones light each other; patches that never shoot need fewer.
     pub factors: usize,
-    /// Seconds that they will take on these threads.
+    /// Seconds that these will take on these threads.
     pub seconds: f64,
 }
 

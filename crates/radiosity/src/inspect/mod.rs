@@ -17,6 +17,7 @@ mod orientation;
 mod overlap;
 mod surface;
 
+pub use crate::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
 
@@ -63,44 +64,6 @@ pub struct Lamp {
     pub name: String,
     /// Emitted power per band, W in a file in metres: π L A.
     pub power: Vec<f64>,
-}
-
-/// Something that will trouble a solution.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Finding {
-    /// What kind of thing.
-    pub kind: Kind,
-    /// The patches concerned, by name.
-    pub patches: Vec<String>,
-    /// What it is, in a sentence.
-    pub what: String,
-    /// What to do about it.
-    pub mend: String,
-}
-
-/// Kinds of findings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Kind {
-    /// Something that the reader found odd: non-planar polygons, ones without area, what is not read.
-    File,
-    /// No patch emits.
-    Dark,
-    /// A reflectance of 1 or more, or below 0.
-    Reflectance,
-    /// Two neighbours that face opposite ways.
-    Flipped,
-    /// Two patches of the same outline that face the same way.
-    Duplicate,
-    /// Two patches that face the same way and cover each other in part, in one plane.
-    Overlap,
-    /// A lamp that lies in a larger patch.
-    LampInFace,
-    /// A vertex that ends in the middle of another patch's edge.
-    TJunction,
-    /// A patch so thin that its coordinates' rounding is a share of its width.
-    Sliver,
 }
 
 /// Looks at a scene. O(n log n) where patches are spread out, plus one row of form factors from each of up to 256

@@ -1,7 +1,8 @@
 //! How much of the view from the patches leaves the scene, and what a row of form factors costs.
 use super::Cost;
 use crate::Scene;
-use formfactor::Enclosure;
+use crate::solve::Surfaces;
+use formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::time::Instant;
@@ -32,7 +33,11 @@ impl Opening {
 
 /// The widest opening seen from the middle of up to 256 patches, and the cost measured on the way.
 pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
-    let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
+    let Surfaces { polygons, of_patch } = Surfaces::join(scene);
+    let enclosure = Enclosure::new(polygons);
+    let factor = |from: &DifferentialArea, to: usize| {
+        enclosure.form_factor_to_part(from, of_patch[to], &scene.patches[to].polygon).value
+    };
     let count = scene.patches.len().max(1);
     let step = count.div_ceil((FACTORS / count).clamp(8, VIEWS));
     let views: Vec<usize> =
@@ -41,8 +46,8 @@ pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
     let shares: Vec<Option<f64>> = views
         .par_iter()
         .map(|&patch| {
-            let from = scene.patches[patch].middle()?.owned_by(patch);
-            Some(1.0 - enclosure.row(&from).iter().map(|factor| factor.value).sum::<f64>())
+            let from = scene.patches[patch].middle()?.owned_by(of_patch[patch]);
+            Some(1.0 - (0..scene.patches.len()).map(|to| factor(&from, to)).sum::<f64>())
         })
         .collect();
     let cost = Cost::measured(scene, views.len(), start.elapsed());

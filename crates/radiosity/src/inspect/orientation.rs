@@ -1,22 +1,25 @@
 //! Neighbours that face opposite ways.
 //!
 //! Two patches that share an edge and belong to one surface run along it in opposite directions. Where they run the same
-//! way, one of them is flipped: of a connected surface the side with the smaller area.
+//! way, one of them is flipped: of a connected surface the side with the smaller area. Of patches with the same edges only
+//! the first counts: a duplicate runs along all of them the same way, and is not flipped.
 use super::{Finding, Kind};
-use crate::Scene;
-use std::collections::HashMap;
+use crate::{Patch, Scene};
+use std::collections::{HashMap, HashSet};
 
 type Edge = [[u64; 3]; 2];
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     let mut sides: HashMap<Edge, Vec<(usize, bool)>> = HashMap::new();
+    let mut known = HashSet::new();
     for (index, patch) in scene.patches.iter().enumerate() {
-        for points in patch.polygon.loops() {
-            for (a, b) in points.iter().zip(points.iter().cycle().skip(1)) {
-                let [a, b] = [a, b].map(|p| p.to_array().map(|number| (number + 0.0).to_bits()));
-                let forward = a < b;
-                sides.entry(if forward { [a, b] } else { [b, a] }).or_default().push((index, forward));
-            }
+        let edges = edges(patch);
+        if !known.insert(edges.clone()) {
+            continue;
+        }
+        for [a, b] in edges {
+            let forward = a < b;
+            sides.entry(if forward { [a, b] } else { [b, a] }).or_default().push((index, forward));
         }
     }
     // An edge of two patches joins them; more patches are a junction of several surfaces.
@@ -30,6 +33,16 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     }
     let flipped = flipped(scene, &neighbours);
     flipped.into_iter().map(|patch| finding(&scene.patches[patch].name)).collect()
+}
+
+/// The directed edges of a patch, sorted.
+fn edges(patch: &Patch) -> Vec<Edge> {
+    let loops = patch.polygon.loops();
+    let pairs = loops.flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)));
+    let mut edges: Vec<Edge> =
+        pairs.map(|(a, b)| [a, b].map(|p| p.to_array().map(|number| (number + 0.0).to_bits()))).collect();
+    edges.sort_unstable();
+    edges
 }
 
 /// The patches that face the other way than most of the area of their surface.

@@ -8,12 +8,7 @@ use glam::DVec3;
 const WIDTH: f64 = 1e3;
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
-    let told = scene.warnings.iter().map(|warning| Finding {
-        kind: Kind::File,
-        patches: Vec::new(),
-        what: warning.clone(),
-        mend: "see the place in the file; what was done about it is said above".into(),
-    });
+    let told = scene.warnings.iter().cloned();
     let dark = (!scene.patches.iter().any(Patch::emits)).then(|| Finding {
         kind: Kind::Dark,
         patches: Vec::new(),

@@ -3,6 +3,7 @@
 //! A surface is a one-sided patch that reflects 1 − its emittance and gives no light of its own. A surface with a base
 //! surface is cut out of it, and so is a null surface, which is nothing but a hole; an obstruction only blocks.
 use super::{Error, Fault};
+use crate::inspect::Finding;
 use crate::plane::Plane;
 use crate::{Origin, Patch, Scene};
 use formfactor::PlanarPolygon;
@@ -103,7 +104,7 @@ fn lines(text: &str) -> Result<Vec<(usize, Vec<&str>)>, Wrong> {
     Ok(said.take_while(|(_, words)| !ends(words)).collect())
 }
 
-type Parsed = (Vec<DVec3>, Vec<Row>, Vec<String>);
+type Parsed = (Vec<DVec3>, Vec<Row>, Vec<Finding>);
 
 fn parse(lines: Vec<(usize, Vec<&str>)>) -> Result<Parsed, Wrong> {
     let (mut vertices, mut surfaces, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
@@ -131,7 +132,10 @@ fn parse(lines: Vec<(usize, Vec<&str>)>) -> Result<Parsed, Wrong> {
                 ));
             }
             Some('T' | 'F' | 'C' | '!' | '/') => {}
-            _ => warnings.push(format!("line {line}: {:?} is not read", words[0])),
+            _ => {
+                let what = format!("line {line}: {:?} is not read", words[0]);
+                warnings.push(Finding::of_file(what, "correct its first letter, or remove the line"));
+            }
         }
     }
     let len = vertices.len();
@@ -181,7 +185,7 @@ impl Fields<'_> {
     }
 
     /// `n v1 v2 v3 v4 base cmb emit name`; an obstruction ends behind its vertices.
-    fn surface(&self, number: usize, kind: Kind, warnings: &mut Vec<String>) -> Result<Row, Wrong> {
+    fn surface(&self, number: usize, kind: Kind, warnings: &mut Vec<Finding>) -> Result<Row, Wrong> {
         self.numbered(number)?;
         let corners = [self.whole(2)?, self.whole(3)?, self.whole(4)?, self.whole(5)?];
         let mut corners = corners.to_vec();
@@ -201,7 +205,8 @@ impl Fields<'_> {
             ));
         }
         if combined > 0 {
-            warnings.push(format!("line {}: surfaces are not combined; {number} stays its own", self.line));
+            let what = format!("line {}: surfaces are not combined; {number} stays its own", self.line);
+            warnings.push(Finding::of_file(what, "add up its factors yourself"));
         }
         let name = self.words.get(9).map_or_else(|| format!("surface-{number}"), |name| (*name).into());
         Ok(Row { line: self.line, kind, corners, base, emittance, name })

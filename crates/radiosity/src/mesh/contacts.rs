@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Pieces of other patches' edges that lie on the plane of patch `patch`, each once, sorted.
 ///
-/// Near enough is nearer than a thousandth of the mesh's spacing: a line too many costs a few elements, and one too
+/// Near enough is nearer than a thousandth of the mesh's finest spacing: a line too many costs a few elements, and one too
 /// few only a blurred shadow at the foot of what stands there.
 pub(super) fn contacts(scene: &Scene, extents: &[Extent], patch: usize, spacing: f64) -> Vec<[DVec3; 2]> {
     let polygon = &scene.patches[patch].polygon;

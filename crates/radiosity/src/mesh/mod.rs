@@ -1,6 +1,7 @@
 //! Elements: the pieces of patches that carry a value each.
 //!
 //! ```text
+//! spacing      how long the sides of cells are
 //! frame        a patch in two dimensions, its longest edge along x
 //! contacts     lines on which other patches touch it: light jumps there
 //! shadows      lines where the light of strong lamps starts or ceases to be hidden
@@ -22,6 +23,7 @@ mod lattice;
 mod outline;
 mod sever;
 mod shadows;
+mod spacing;
 mod tree;
 mod triangulate;
 
@@ -91,8 +93,8 @@ pub(crate) struct Subdivision {
 /// How fine to cut what.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
-    /// Side of a cell, in the scene's unit.
-    pub(crate) spacing: f64,
+    /// Side of a cell of each patch, in the scene's unit.
+    pub(crate) spacings: Vec<f64>,
     /// For each patch and each cell of its lattice, how often to halve it; empty where nothing is halved.
     pub(crate) levels: Vec<Vec<u8>>,
     /// For each patch the lines where shadows begin and end; empty where none are wanted.
@@ -100,10 +102,9 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// A plan for about so many triangles of about equal size.
+    /// A plan for about so many triangles of about equal size; see [`spacing`].
     pub(crate) fn even(scene: &Scene, elements: usize) -> Plan {
-        let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
-        Plan { spacing: (2.0 * area / elements.max(1) as f64).sqrt(), ..Plan::default() }
+        Plan { spacings: spacing::spacings(scene, elements), ..Plan::default() }
     }
 }
 
@@ -113,11 +114,12 @@ impl Subdivision {
         let mut subdivision =
             Subdivision { nodes: vec![Node::default(); scene.patches.len()], ..Default::default() };
         let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
+        let finest = plan.spacings.iter().copied().fold(f64::INFINITY, f64::min);
         for (index, patch) in scene.patches.iter().enumerate() {
             let division = Division {
-                contacts: &contacts::contacts(scene, &extents, index, plan.spacing),
+                contacts: &contacts::contacts(scene, &extents, index, finest),
                 shadows: plan.shadows.get(index).map_or(&[], Vec::as_slice),
-                spacing: plan.spacing,
+                spacing: plan.spacings[index],
                 levels: plan.levels.get(index).map_or(&[], Vec::as_slice),
             };
             subdivision.add(index, &patch.polygon, &division).map_err(|source| source.of(&patch.name))?;

@@ -5,6 +5,7 @@
 //! other way round, that touches both bodies and crosses neither (Nishita and Nakamae 1985; Lischinski 1992). A body is a
 //! set of patches that share vertices, or a single loop of a patch that shares none. Lines that are missing cost some
 //! sharpness, lines too many some elements: so plain arithmetic will do.
+use super::spacing::strongest;
 use crate::{Patch, Scene, groups::Groups};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,16 +36,6 @@ pub(crate) fn shadows(scene: &Scene, lamps: usize) -> Vec<Vec<[DVec3; 2]>> {
         seen.flat_map(lit).collect()
     };
     (0..scene.patches.len()).map(on_patch).collect()
-}
-
-/// The patches that emit most power, all bands together.
-fn strongest(scene: &Scene, count: usize) -> Vec<usize> {
-    let power = |patch: &Patch| patch.polygon.area() * patch.emission.iter().sum::<f64>();
-    let mut lamps: Vec<usize> =
-        (0..scene.patches.len()).filter(|&patch| scene.patches[patch].emits()).collect();
-    lamps.sort_by(|&a, &b| power(&scene.patches[b]).total_cmp(&power(&scene.patches[a])));
-    lamps.truncate(count);
-    lamps
 }
 
 /// Whether some of the lamp is before the patch, and some of the patch before the lamp.

@@ -195,6 +195,34 @@ fn halved_cells_are_finer_and_still_cover_the_patch_once() {
 }
 
 #[test]
+fn the_ground_around_a_lit_floor_leaves_it_its_elements() {
+    let level =
+        |side: f64, z: f64| vec![[-side, -side, z], [side, -side, z], [side, side, z], [-side, side, z]];
+    let counts = |ground: f64| {
+        let mut scene = scene(&[level(2.0, 0.0)]);
+        scene.patches.extend(self::scene(&[level(ground, -1.0)]).patches);
+        let lamp = level(0.5, 2.0).into_iter().rev().collect();
+        scene.patches.extend(self::scene(&[lamp]).patches);
+        scene.patches[2].emission.fill(1.0);
+        let mesh = even(&scene, 1000).mesh;
+        [0, 1, 2].map(|patch| mesh.elements.iter().filter(|element| element.patch == patch).count())
+    };
+    for side in [1e2, 1e5, 1e9] {
+        let [floor, ground, lamp] = counts(side);
+        assert!(floor > 200 && ground > 500 && lamp > 2, "{side}: {floor} {ground} {lamp}");
+    }
+}
+
+#[test]
+fn elements_are_shared_out_by_area_where_the_largest_patch_is_lit() {
+    let scene = crate::scenes::scene("emission").unwrap();
+    let spacings = Plan::even(&scene, 1000).spacings;
+    assert!(spacings.iter().all(|spacing| *spacing == spacings[0]));
+    let total: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
+    assert!((spacings[0] * spacings[0] * 500.0 / total - 1.0).abs() < 1e-12);
+}
+
+#[test]
 fn edges_of_shadows_are_edges_of_elements() {
     let scene = scene(&[rectangle()]);
     let mut plan = Plan::even(&scene, 400);

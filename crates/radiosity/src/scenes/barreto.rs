@@ -119,6 +119,7 @@ fn model(title: &str, faces: Vec<Face>, occluders: f64) -> Model {
     Model {
         title: title.into(),
         asset: Z_UP,
+        wavelengths: Vec::new(),
         materials: vec![surface("base", [0.7; 3]), lamp(0.5, 10.0), surface("occluder", [occluders; 3])],
         faces: std::iter::once(base).chain(faces).collect(),
         cameras: vec![camera([0.0, -13.0, 9.0], [0.0, -0.5, 0.5], 45.0)],

@@ -35,8 +35,8 @@ const TALL: [Quad; 5] = [
 
 /// The materials, by number.
 pub(super) const WHITE: usize = 0;
-const RED: usize = 1;
-const GREEN: usize = 2;
+pub(super) const RED: usize = 1;
+pub(super) const GREEN: usize = 2;
 pub(super) const LAMP: usize = 3;
 
 /// The five walls, the left one not planar and the ceiling without its hole.
@@ -60,6 +60,7 @@ pub(super) fn cornell_box() -> Model {
     Model {
         title: "The Cornell box, as published by the Cornell Program of Computer Graphics".into(),
         asset: Asset { up: DVec3::Y, unit: 0.001 },
+        wavelengths: Vec::new(),
         materials: materials(),
         faces,
         cameras: vec![Camera {
@@ -90,7 +91,7 @@ fn materials() -> Vec<Material> {
         surface("white", [0.725, 0.71, 0.68]),
         surface("red", [0.63, 0.065, 0.05]),
         surface("green", [0.14, 0.45, 0.091]),
-        Material { emission: [17.0, 12.0, 4.0], ..light },
+        Material { emission: vec![17.0, 12.0, 4.0], ..light },
     ]
 }
 

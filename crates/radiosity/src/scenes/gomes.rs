@@ -16,6 +16,7 @@ pub(super) fn wall() -> Model {
     Model {
         title: "Gomes 2010: Wall".into(),
         asset: Z_UP,
+        wavelengths: Vec::new(),
         materials: vec![surface("white", [0.8; 3]), lamp(0.8, 10.0)],
         faces: vec![
             quad("floor", WHITE, square([0.0, 0.0], 4.0, 0.0)),
@@ -34,6 +35,7 @@ pub(super) fn chessboard() -> Model {
     Model {
         title: "Gomes 2010: Chessboard".into(),
         asset: Z_UP,
+        wavelengths: Vec::new(),
         materials: vec![
             Material { texture, ..surface("chessboard", [0.425; 3]) },
             lamp(0.8, 10.0),

@@ -2,9 +2,11 @@
 //!
 //! Of Barreto (2008, chapter 4), whose pages print no coordinates: `emission`, `obstruction`, `beams`,
 //! `small-occluders`, `perforated` and, with its panel cut as he had to, `perforated-cut`. Of Gomes (2010): `wall`,
-//! `chessboard`, `cornell-3842`. The published `cornell-box`. Rooms with a known answer: `furnace` (reflectance 0.5;
+//! `chessboard`, `cornell-3842`. The published
+//! `cornell-box`, and `cornell-76` in all bands of its spectra. Rooms with a known answer: `furnace` (reflectance 0.5;
 //! `furnace-0.99` for another one), `cube`, `separating-wall`, `colour-bleeding`, `sphere-lamp`.
 mod barreto;
+mod cornell_76;
 mod cornell_box;
 mod gomes;
 mod rooms;
@@ -16,8 +18,9 @@ use crate::io::collada::{Collada, Model, text};
 type Builder = fn() -> Model;
 
 /// Every scene's name and what builds it.
-const SCENES: [(&str, Builder); 15] = [
+const SCENES: [(&str, Builder); 16] = [
     ("cornell-box", cornell_box::cornell_box),
+    ("cornell-76", cornell_76::cornell_76),
     ("cornell-3842", gomes::cornell_3842),
     ("emission", barreto::emission),
     ("obstruction", barreto::obstruction),

@@ -84,5 +84,12 @@ fn inside() -> Camera {
 }
 
 fn model(title: &str, materials: Vec<Material>, faces: Vec<Face>, camera: Camera) -> Model {
-    Model { title: title.into(), asset: Z_UP, materials, faces, cameras: vec![camera] }
+    Model {
+        title: title.into(),
+        asset: Z_UP,
+        wavelengths: Vec::new(),
+        materials,
+        faces,
+        cameras: vec![camera],
+    }
 }

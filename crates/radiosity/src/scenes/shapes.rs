@@ -11,12 +11,17 @@ pub(super) const Z_UP: Asset = Asset { up: DVec3::Z, unit: 1.0 };
 
 /// A surface that gives no light of its own.
 pub(super) fn surface(name: &str, reflectance: [f64; 3]) -> Material {
-    Material { name: name.into(), reflectance, emission: [0.0; 3], texture: None }
+    Material { name: name.into(), reflectance: reflectance.into(), emission: vec![0.0; 3], texture: None }
 }
 
 /// A surface that emits the same radiance in all bands.
 pub(super) fn lamp(reflectance: f64, radiance: f64) -> Material {
-    Material { name: "lamp".into(), reflectance: [reflectance; 3], emission: [radiance; 3], texture: None }
+    Material {
+        name: "lamp".into(),
+        reflectance: vec![reflectance; 3],
+        emission: vec![radiance; 3],
+        texture: None,
+    }
 }
 
 /// A face of several polygons without holes.

@@ -8,7 +8,7 @@
 //! factors    column of exact form factors from every element's centroid to one piece; kept in the state
 //! rooms      which patches light reaches, and which of them close a room
 //! shooters   which pieces shoot, how much each has shot, when one is split
-//! shoot      progressive refinement: the brightest piece shoots, again and again
+//! shoot      progressive refinement: the piece with most to shoot shoots, again and again
 //! relax      all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! light      radiosity and irradiance of every element
 //! ledger     where the power went, and how far the light is from the solution
@@ -56,6 +56,7 @@ pub use estimate::Norm;
 pub use ledger::Ledger;
 pub use quality::Quality;
 pub use state::{State, StateError};
+pub(crate) use surfaces::Surfaces;
 
 /// How the light is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,7 +64,7 @@ pub enum Method {
     /// [`Method::Cg`] where a closed room reflects at least 0.9 of its light, else [`Method::Shoot`].
     #[default]
     Auto,
-    /// Progressive refinement: the brightest piece shoots its light, again and again. Soon there is something to see;
+    /// Progressive refinement: the piece with most light to shoot shoots it, again and again. Soon there is something to see;
     /// needs about 1 / (1 − ρ) rounds.
     Shoot,
     /// The full matrix, every piece as small as the mesh's cells, by Gaussian elimination: cubic in the pieces.

@@ -123,6 +123,15 @@ impl<'r> Run<'r> {
             && (0..self.light.bands).all(|band| self.within(self.bound[band], brightness[band]))
     }
 
+    /// Which piece is to shoot next.
+    pub(super) fn next(&self) -> usize {
+        if largest(&self.unshot) > self.options.tolerance {
+            self.shooters.strongest(&self.light.emitted)
+        } else {
+            self.shooters.brightest(&self.light.brightness())
+        }
+    }
+
     /// Whether a bound is within the tolerance. Where there is none, what is unshot has to do.
     pub(super) fn within(&self, bound: f64, brightness: f64) -> bool {
         bound == 0.0 || bound == f64::INFINITY || bound <= self.options.tolerance * brightness

@@ -4,7 +4,8 @@ use crate::Error;
 
 /// Shoots until light and bound are within the tolerance (true), or a limit is met (false).
 ///
-/// The brightest piece shoots what its mean is ahead of what it has shot. A piece over which B varies too much is split
+/// The strongest piece shoots what its mean is ahead of what it has shot; once little power is left, the brightest one,
+/// however small it is: its radiosity is what the bound is made of. A piece over which B varies too much is split
 /// in two, which inherit what it has shot; their next shots, of either sign, mend what the coarser piece had got wrong.
 pub(super) fn shoot(run: &mut Run<'_>) -> Result<bool, Error> {
     loop {
@@ -14,10 +15,10 @@ pub(super) fn shoot(run: &mut Run<'_>) -> Result<bool, Error> {
         if run.report().is_break() || run.shooters.shots >= run.options.max_shots {
             return Ok(false);
         }
-        let brightest = run.shooters.brightest();
-        if !run.shooters.split(brightest, &run.light, run.options.spread) {
-            let column = run.factors.column(run.shooters.node(brightest))?;
-            run.light.receive(&column, &run.shooters.shoot(brightest));
+        let next = run.next();
+        if !run.shooters.split(next, &run.light, run.options.spread) {
+            let column = run.factors.column(run.shooters.node(next))?;
+            run.light.receive(&column, &run.shooters.shoot(next));
         }
     }
 }

@@ -49,11 +49,20 @@ impl<'s> Shooters<'s> {
         light.emitted.iter().enumerate().map(share).collect()
     }
 
-    /// The piece with the most power to shoot, over all bands; of equal ones the first.
-    pub(super) fn brightest(&self) -> usize {
-        let power = |index: &usize| self.front[*index].unshot.iter().map(|power| power.abs()).sum::<f64>();
-        let brighter = |a, b| if power(&b) > power(&a) { b } else { a };
-        (0..self.front.len()).reduce(brighter).unwrap_or(0)
+    /// The piece with the most power to shoot, in shares of what is emitted in each band.
+    pub(super) fn strongest(&self, emitted: &[f64]) -> usize {
+        self.first(|shooter| shares(&shooter.unshot, emitted))
+    }
+
+    /// The piece with the most radiosity to shoot, in shares of how bright each band is.
+    pub(super) fn brightest(&self, brightness: &[f64]) -> usize {
+        self.first(|shooter| shares(&shooter.unshot, brightness) / shooter.area)
+    }
+
+    /// The piece of which most can be said; of equal ones the first.
+    fn first(&self, measure: impl Fn(&Shooter) -> f64) -> usize {
+        let larger = |a, b| if measure(&self.front[b]) > measure(&self.front[a]) { b } else { a };
+        (0..self.front.len()).reduce(larger).unwrap_or(0)
     }
 
     /// The power that leaves all pieces, over all bands: of which `spread` is a share.
@@ -165,6 +174,12 @@ impl<'s> Shooters<'s> {
             |band: usize| self.front.iter().map(move |shooter| shooter.unshot[band] / shooter.area);
         (0..self.sent.len()).map(|band| radiosity(band).map(f64::abs).fold(0.0, f64::max)).collect()
     }
+}
+
+/// The sum of |value| / whole over the bands of which there is any, so that a faint band counts as a strong one.
+fn shares(values: &[f64], wholes: &[f64]) -> f64 {
+    let bands = values.iter().zip(wholes).filter(|(_, whole)| **whole > 0.0);
+    bands.map(|(value, whole)| value.abs() / whole).sum()
 }
 
 impl Shooter {

@@ -15,14 +15,14 @@ type Key = [u64; 3];
 
 /// The polygons, and which of them each patch is a part of.
 #[derive(Debug)]
-pub(super) struct Surfaces {
-    pub(super) polygons: Vec<PlanarPolygon>,
-    pub(super) of_patch: Vec<usize>,
+pub(crate) struct Surfaces {
+    pub(crate) polygons: Vec<PlanarPolygon>,
+    pub(crate) of_patch: Vec<usize>,
 }
 
 impl Surfaces {
     /// Joins the patches of a scene. O(n log n) for n vertices.
-    pub(super) fn join(scene: &Scene) -> Surfaces {
+    pub(crate) fn join(scene: &Scene) -> Surfaces {
         let mut sides: BTreeMap<[Key; 2], usize> = BTreeMap::new();
         let mut groups = Groups::new(scene.patches.len());
         for (index, patch) in scene.patches.iter().enumerate() {

@@ -17,7 +17,7 @@ const PLACE: &str = "/*LIGHT*/null";
 /// Never: a record can always be written.
 #[must_use]
 pub fn page(record: &Record, exposure: Exposure) -> String {
-    let light = serde_json::json!({"k": exposure.k(), "record": record});
+    let light = serde_json::json!({"k": exposure.k(), "shares": record.shown().shares(), "record": record});
     // Within a script nothing may look like the end of one.
     let text = light.to_string().replace("</", "<\\/").replace("<!--", "<\\!--");
     PAGE.replacen(PLACE, &text, 1)

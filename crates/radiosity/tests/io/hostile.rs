@@ -57,6 +57,41 @@ fn every_fault_is_named_with_its_line_and_its_mend() {
     }
 }
 
+/// The same file, its grey with spectra.
+fn with_spectra(own: &str, root: &str) -> String {
+    let extra = |body: &str| format!("<extra><technique profile=\"radiosity\">{body}</technique></extra>");
+    changed(
+        "</profile_COMMON></effect>\n<effect id=\"lamp-fx\">",
+        &format!("</profile_COMMON>{}</effect>\n<effect id=\"lamp-fx\">", extra(own)),
+    )
+    .replace("</COLLADA>", &format!("{}</COLLADA>", extra(root)))
+}
+
+#[test]
+fn spectra_are_read_and_their_faults_named() {
+    let good =
+        with_spectra("<reflectance>.1 .2 .3 .4</reflectance>", "<wavelengths>400 500 600 700</wavelengths>");
+    let scene = Collada::from_text("test.dae", good).scene().unwrap();
+    assert_eq!(scene.patches[0].reflectance, [0.1, 0.2, 0.3, 0.4]);
+    assert_eq!((scene.patches[0].emission.as_slice(), scene.bands), ([0.0; 4].as_slice(), 4));
+    assert_eq!(scene.wavelengths, [400.0, 500.0, 600.0, 700.0]);
+    for (own, root, expected) in [
+        ("<emission>1 2</emission>", "", "<reflectance> is missing"),
+        ("<reflectance/>", "", "0 values stand"),
+        ("<reflectance>.1 .2</reflectance><emission>1</emission>", "", "<emission>: 1 values stand where 2"),
+        ("<reflectance>.1 -.2</reflectance>", "", "negative"),
+        ("<reflectance>.1 x</reflectance>", "", "\"x\" is not a finite number"),
+        (
+            "<reflectance>.1 .2</reflectance>",
+            "<wavelengths>400</wavelengths>",
+            "<wavelengths>: 1 values stand where 2",
+        ),
+    ] {
+        let message = refusal(&with_spectra(own, root));
+        assert!(message.starts_with("test.dae:") && message.contains(expected), "{own}: {message}");
+    }
+}
+
 #[test]
 fn empty_and_foreign_files_are_refused() {
     for text in ["", " ", "<a/>", "COLLADA", "<COLLADA version=\"1.4.1\"/>", "\u{0}"] {
@@ -126,6 +161,18 @@ fn a_vertex_too_far_for_the_others_leaves_no_area() {
     if let Ok(scene) = Collada::from_text("test.dae", text).scene() {
         assert!(scene.patches.iter().all(|patch| patch.polygon.area() > 0.0));
     }
+}
+
+#[test]
+fn a_triangle_of_70_decades_leaves_no_area() {
+    let points = "-5.086274911196319e-43 -4.1199620001044244e-41 6.4738333862115e-42 \
+                  8.097930455802617e-11 -1.4138011574421075e-9 -4.042764593945319e-10 \
+                  1.6917295008726363e26 -1.6917295008726363e26 -1.0633290716972123e27";
+    let far = geometry("far", points, &primitive("triangles", "far", "<p>0 1 2</p>"));
+    let text = file(&format!("<library_geometries>{far}</library_geometries>"), &node("n", "", "far"));
+    let scene = Collada::from_text("test.dae", text).scene().unwrap();
+    assert!(scene.patches.iter().all(|patch| patch.polygon.area() > 0.0));
+    assert_eq!(scene.patches.len() + scene.warnings.len(), 1);
 }
 
 #[test]

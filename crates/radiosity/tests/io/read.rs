@@ -1,6 +1,7 @@
 //! What the reader makes of good files.
 use crate::samples::{file, geometry, instance, names, node, outline, polylist, primitive, scene};
 use radiosity::glam::DVec3;
+use radiosity::inspect::Kind;
 use radiosity::io::collada::Collada;
 use radiosity::scenes;
 
@@ -140,13 +141,13 @@ fn materials_that_say_nothing_get_a_default_and_a_warning() {
     let bare = r##"<node name="bare"><instance_geometry url="#square"/></node>"##;
     let unbound = scene(&file("", bare));
     assert_eq!(unbound.patches[0].reflectance, [0.5; 3]);
-    assert!(unbound.warnings[0].contains("test.dae:"), "{:?}", unbound.warnings);
+    assert!(unbound.warnings[0].what.contains("test.dae:"), "{:?}", unbound.warnings);
 
     let textured = file("", &node("n", "", "square"))
         .replace("<color>0.25 0.5 0.75 1</color>", r#"<texture texture="image" texcoord="uv"/>"#);
     let textured = scene(&textured);
     assert_eq!(textured.patches[0].reflectance, [0.5; 3]);
-    assert!(textured.warnings[0].contains("texture"), "{:?}", textured.warnings);
+    assert!(textured.warnings[0].what.contains("texture"), "{:?}", textured.warnings);
 }
 
 #[test]
@@ -238,7 +239,12 @@ fn a_polygon_that_is_not_planar_becomes_triangles_with_a_warning() {
     let bent = geometry("g", "0 0 0 2 0 0 2 2 0.5 0 2 0", &polylist("g", "4 3", "0 1 2 3 0 1 3"));
     let scene = scene(&with_geometry(&bent, &node("n", "", "g")));
     assert_eq!(names(&scene), ["n.1.1", "n.1.2", "n.2"]);
-    assert!(scene.warnings[0].contains("not planar"), "{:?}", scene.warnings);
+    let warning = &scene.warnings[0];
+    assert_eq!(
+        (warning.kind, warning.patches.as_slice()),
+        (Kind::NonPlanar, ["n.1.1", "n.1.2"].map(String::from).as_slice())
+    );
+    assert!(warning.what.contains("not planar") && warning.what.starts_with("test.dae:"), "{warning}");
     assert!(scene.patches.iter().all(|patch| patch.polygon.normal().z > 0.9));
 }
 
@@ -259,11 +265,13 @@ fn what_has_no_area_is_left_out_with_a_warning() {
         let scene =
             scene(&with_geometry(&flat, &format!("{}{}", node("n", "", "g"), node("m", "", "square"))));
         assert_eq!(names(&scene), ["m"]);
-        assert!(scene.warnings[0].contains("without area"), "{:?}", scene.warnings);
+        let warning = &scene.warnings[0];
+        assert_eq!((warning.kind, warning.patches.as_slice()), (Kind::NoArea, ["n.1".to_owned()].as_slice()));
+        assert!(warning.what.contains("without area"), "{warning}");
     }
     let flattened = scene(&file("", &node("n", "<scale>1 1 0</scale>", "square")));
     assert!(flattened.patches.is_empty());
-    assert!(flattened.warnings[0].contains("flattens"), "{:?}", flattened.warnings);
+    assert!(flattened.warnings[0].what.contains("flattens"), "{:?}", flattened.warnings);
 }
 
 #[test]
@@ -282,7 +290,7 @@ fn of_several_visual_scenes_one_is_taken_with_a_warning() {
     for text in [text, uninstanced] {
         let scene = scene(&text);
         assert_eq!(names(&scene), ["n"]);
-        assert!(scene.warnings[0].contains("2 visual scenes"), "{:?}", scene.warnings);
+        assert!(scene.warnings[0].what.contains("2 visual scenes"), "{:?}", scene.warnings);
     }
 }
 

@@ -95,6 +95,7 @@ pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
         asset: scene.asset,
         cameras: scene.cameras.clone(),
         bands: 3,
+        wavelengths: Vec::new(),
         bound: vec![0.0; 3],
         patches: scene
             .patches

@@ -27,6 +27,7 @@ fn the_committed_files_are_what_the_code_writes() {
 fn every_scene_is_read_without_a_word_and_has_its_patches() {
     let patches = [
         ("cornell-box", 17),
+        ("cornell-76", 17),
         ("cornell-3842", 3842),
         ("emission", 1 + 1 + 100),
         ("obstruction", 104),
@@ -141,6 +142,35 @@ fn the_cornell_box_has_its_patches_in_order() {
     let scene = cornell();
     assert_eq!(names(&scene), expected);
     assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+}
+
+#[test]
+fn the_spectra_are_the_published_ones_and_look_like_their_colours() {
+    let scene = scenes::scene("cornell-76").unwrap();
+    assert_eq!((scene.bands, scene.wavelengths.len()), (76, 76));
+    assert_eq!([scene.wavelengths[0], scene.wavelengths[75]], [400.0, 700.0]);
+    let patch = |name: &str| scene.patches.iter().find(|patch| patch.name == name).unwrap();
+    let [white, red, green] = ["floor", "left.1", "right"].map(|name| &patch(name).reflectance);
+    assert_eq!(
+        [white[0], white[75], red[0], red[75], green[0], green[75]],
+        [0.343, 0.737, 0.04, 0.642, 0.092, 0.159]
+    );
+    // 400, 500, 600 and 700 nm, and halfway from 500 to 600.
+    let light = &patch("light").emission;
+    for (band, radiance) in [(0, 0.0), (25, 8.0), (50, 15.6), (75, 18.4)] {
+        assert!((light[band] - radiance).abs() < 1e-12, "band {band}: {}", light[band]);
+    }
+    assert!((light[37] - (8.0 + 7.6 * 0.48)).abs() < 1e-12);
+    // Other programs see the red, the green and the white.
+    let text = scenes::write_scene("cornell-76").unwrap();
+    let plain = text.split("<extra>").map(|part| part.rsplit("</extra>").next().unwrap()).collect::<String>();
+    let plain = self::scene(&plain);
+    let colour =
+        |name: &str| plain.patches.iter().find(|patch| patch.name == name).unwrap().reflectance.clone();
+    let [white, red, green] = ["floor", "left.1", "right"].map(colour);
+    assert!(red[0] > 3.0 * red[1] && red[0] > 3.0 * red[2], "{red:?}");
+    assert!(green[1] > 2.0 * green[2] && green[1] > 1.5 * green[0], "{green:?}");
+    assert!(white.iter().all(|band| (0.6..0.8).contains(band)), "{white:?}");
 }
 
 #[test]

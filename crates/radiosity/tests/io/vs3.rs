@@ -81,3 +81,10 @@ fn a_surface_that_is_all_holes_is_nothing() {
     let text = SQUARES.replace("S 3  9 10 11 0  1", "S 3  1 2 3 4  1");
     assert!(read(&text).patches.iter().all(|patch| patch.name != "low"));
 }
+
+#[test]
+fn a_vertex_21_decades_away_leaves_no_area() {
+    let far = "V 1 1. 0. 1.\nV 2 0. .230957 1854.916382\nV 3 1. 1. 1.\nV 4 2217984.06 91. 2222222222222222222222.\n";
+    let refused = Vs3::from_text("test.vs3", format!("{far}S 1 1 2 3 4 0 0 .5 spike\n")).scene().unwrap_err();
+    assert!(refused.to_string().starts_with("test.vs3:5: polygon 0: "), "{refused}");
+}

@@ -35,6 +35,31 @@ fn seventy_six_bands_are_seventy_six_scenes_of_one() {
 }
 
 #[test]
+fn the_cornell_box_in_76_bands_is_what_each_band_is_alone() {
+    let scene = radiosity::scenes::scene("cornell-76").expect("a built-in scene");
+    let options = Options { elements: 100, tolerance: 1e-4, spread: 1e-3, ..Options::default() };
+    let all = solved(&scene, &options);
+    assert!(all.converged);
+    assert_eq!(all.ledger.emitted[0], 0.0, "the lamp gives nothing at 400 nm");
+    assert!(all.radiosity.iter().step_by(76).all(|b| *b == 0.0));
+    for band in [5, 40, 75] {
+        let mut one = Scene { bands: 1, wavelengths: Vec::new(), ..scene.clone() };
+        for patch in &mut one.patches {
+            patch.reflectance = vec![patch.reflectance[band]];
+            patch.emission = vec![patch.emission[band]];
+        }
+        let one = solved(&one, &options);
+        // Where a shooter is split goes by all bands together: what differs is what `spread` leaves.
+        let mean = |solution: &radiosity::Solution, bands: usize, band: usize| -> f64 {
+            let areas = (0..solution.mesh.elements.len()).map(|element| solution.mesh.area(element));
+            areas.zip(solution.irradiance.iter().skip(band).step_by(bands)).map(|(area, h)| area * h).sum()
+        };
+        let (found, alone) = (mean(&all, 76, band), mean(&one, 1, 0));
+        assert!((found / alone - 1.0).abs() < 2e-3, "band {band}: {found} {alone}");
+    }
+}
+
+#[test]
 fn a_band_without_emission_is_dark_and_costs_nothing() {
     let scene = banded(3, |_, _| 0.95, |band| if band == 1 { 1.0 } else { 0.0 });
     let alone = banded(1, |_, _| 0.95, |_| 1.0);

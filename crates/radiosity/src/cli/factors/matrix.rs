@@ -71,8 +71,9 @@ pub(super) fn from_areas(
     let found = if named.is_empty() {
         enclosure.area_matrix(tolerance, || false).map_err(Failure::usage)?.unwrap_or_default()
     } else {
-        let rows = named.iter().map(|&patch| enclosure.area_row(patch, tolerance).map_err(Failure::usage));
-        rows.collect::<Result<_, _>>()?
+        let row = |patch: &usize| enclosure.area_row(*patch, tolerance, || false);
+        let rows: Result<Vec<_>, _> = named.iter().map(row).collect();
+        rows.map_err(Failure::usage)?.into_iter().flatten().collect()
     };
     let all = named.is_empty();
     let from = if all { (0..scene.patches.len()).collect() } else { named.to_vec() };

@@ -3,13 +3,14 @@ use super::super::{Error, Fault};
 use super::file::{File, Node, child, descend};
 use super::walk::{Sight, name_of};
 use crate::Camera;
+use crate::inspect::Finding;
 use glam::DVec3;
 
 /// The cameras of the scene; others than perspective ones draw a warning.
 pub(super) fn cameras<'a>(
     file: &File<'a>,
     sights: &[Sight<'a>],
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Camera>, Error> {
     let mut all = Vec::new();
     for sight in sights {
@@ -17,7 +18,8 @@ pub(super) fn cameras<'a>(
             Some(perspective) => all.push(camera(file, sight, perspective)?),
             None => {
                 let place = file.place(sight.camera);
-                warnings.push(format!("{place}: only perspective cameras are read; this one is left out"));
+                let what = format!("{place}: only perspective cameras are read; this one is left out");
+                warnings.push(Finding::of_file(what, "make it a perspective camera, or give --camera"));
             }
         }
     }

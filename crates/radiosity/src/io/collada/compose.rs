@@ -1,6 +1,7 @@
 //! A model as COLLADA 1.4 text: one node, geometry and polygon list per face.
 use super::mesh_text::{decimal, escape, list};
 use super::model::{Face, Material, Model};
+use super::spectra::PROFILE;
 use crate::{Asset, Camera, Texture};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -9,7 +10,8 @@ use std::fmt::Write;
 /// The whole file, always the same bytes for the same model.
 pub(crate) fn text(model: &Model) -> String {
     let images: String = model.materials.iter().filter_map(image).collect();
-    let effects: String = model.materials.iter().map(effect).collect();
+    let effects: String =
+        model.materials.iter().map(|material| effect(material, &model.wavelengths)).collect();
     let materials: String = model.materials.iter().map(material).collect();
     let faces = || model.faces.iter().enumerate();
     let geometries: String =
@@ -32,7 +34,7 @@ pub(crate) fn text(model: &Model) -> String {
   <scene>
     <instance_visual_scene url="#scene"/>
   </scene>
-</COLLADA>
+{wavelengths}</COLLADA>
 "##,
         asset = asset(&model.title, &model.asset),
         cameras = library("cameras", &lenses),
@@ -40,6 +42,7 @@ pub(crate) fn text(model: &Model) -> String {
         effects = library("effects", &effects),
         materials = library("materials", &materials),
         geometries = library("geometries", &geometries),
+        wavelengths = wavelengths(&model.wavelengths),
     )
 }
 
@@ -121,10 +124,11 @@ fn image(material: &Material) -> Option<String> {
     ))
 }
 
-fn effect(material: &Material) -> String {
+fn effect(material: &Material, wavelengths: &[f64]) -> String {
     let name = &material.name;
+    let [reflectance, emission] = material.colours(wavelengths);
     let (parameters, diffuse) = match &material.texture {
-        None => (String::new(), color(material.reflectance)),
+        None => (String::new(), color(reflectance)),
         Some(_) => (sampler(name), format!(r#"<texture texture="{name}-sampler" texcoord="UV"/>"#)),
     };
     format!(
@@ -137,9 +141,39 @@ fn effect(material: &Material) -> String {
           </lambert>
         </technique>
       </profile_COMMON>
-    </effect>
+{spectra}    </effect>
 "#,
-        emission = color(material.emission),
+        emission = color(emission),
+        spectra = spectra(material, wavelengths),
+    )
+}
+
+/// The values of bands that are not red, green and blue.
+fn spectra(material: &Material, wavelengths: &[f64]) -> String {
+    if material.reflectance.len() == 3 && wavelengths.is_empty() {
+        return String::new();
+    }
+    let [reflectance, emission] =
+        [&material.reflectance, &material.emission].map(|bands| list(bands.iter().map(decimal)));
+    format!(
+        r#"      <extra>
+        <technique profile="{PROFILE}">
+          <reflectance>{reflectance}</reflectance>
+          <emission>{emission}</emission>
+        </technique>
+      </extra>
+"#
+    )
+}
+
+fn wavelengths(wavelengths: &[f64]) -> String {
+    if wavelengths.is_empty() {
+        return String::new();
+    }
+    let numbers = list(wavelengths.iter().map(decimal));
+    format!(
+        "  <extra>\n    <technique profile=\"{PROFILE}\">\n      <wavelengths>{numbers}</wavelengths>\n    </technique>\n  \
+         </extra>\n"
     )
 }
 

@@ -2,6 +2,7 @@
 use super::super::image;
 use super::file::{File, Node, child, children, descend};
 use crate::Image;
+use crate::inspect::Finding;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,7 +25,7 @@ impl Images {
         file: &File<'a>,
         effect: Node<'a>,
         texture: Node<'a>,
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Finding>,
     ) -> Option<Arc<Image>> {
         let element = element(file, effect, texture);
         let id = element.and_then(|image| image.attribute("id")).unwrap_or_default();
@@ -37,7 +38,8 @@ impl Images {
         };
         let image = image.map(Arc::new).map_err(|reason| {
             let place = file.place(texture);
-            warnings.push(format!("{place}: the texture cannot be read: {reason}; reflectance 0.5 is taken"));
+            let what = format!("{place}: the texture cannot be read: {reason}; reflectance 0.5 is taken");
+            warnings.push(Finding::of_file(what, "put the picture beside the file, as PNG or JPEG"));
         });
         self.known.insert(id.into(), image.clone().ok());
         image.ok()

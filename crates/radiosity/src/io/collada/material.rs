@@ -3,6 +3,8 @@ use super::super::surface::Finish;
 use super::super::{Error, Fault};
 use super::file::{File, Node, child, children, descend};
 use super::images::Images;
+use super::spectra::spectra;
+use crate::inspect::Finding;
 
 /// The reflectance of a surface that says nothing, or shows a texture.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
@@ -13,25 +15,29 @@ pub(super) fn finish<'a>(
     instance: Node<'a>,
     symbol: Option<&str>,
     images: &mut Images,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Finish, Error> {
     let mut plain = |why: &str| {
         let place = file.place(instance);
-        warnings.push(format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken"));
-        Ok(Finish { reflectance: [DEFAULT_REFLECTANCE; 3], emission: [0.0; 3], image: None })
+        let what = format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken");
+        warnings.push(Finding::of_file(what, "give it a material with a diffuse colour"));
+        let reflectance = [DEFAULT_REFLECTANCE; 3];
+        Ok(Finish { reflectance, emission: [0.0; 3], image: None, spectra: None })
     };
     let Some(symbol) = symbol else { return plain("polygons without a material") };
     let Some(material) = bound(file, instance, symbol)? else {
         return plain(&format!("the material {symbol:?} is not bound"));
     };
     let effect = file.target(file.child(material, "instance_effect")?, "url", "effect")?;
+    let spectra = spectra(file, effect)?;
     let Some(shader) = shader(effect) else {
         return plain(&format!("the effect of {symbol:?} has no common shader"));
     };
     let emission = match slot(effect, shader, "emission") {
         Slot::Texture(texture) => {
             let place = file.place(texture);
-            warnings.push(format!("{place}: emission textures are not read; emission 0 is taken"));
+            let what = format!("{place}: emission textures are not read; emission 0 is taken");
+            warnings.push(Finding::of_file(what, "give it an emission colour"));
             [0.0; 3]
         }
         other => other.colour(file)?,
@@ -40,9 +46,9 @@ pub(super) fn finish<'a>(
         Slot::Texture(texture) => {
             let image = images.of_texture(file, effect, texture, warnings);
             let reflectance = if image.is_some() { [1.0; 3] } else { [DEFAULT_REFLECTANCE; 3] };
-            Ok(Finish { reflectance, emission, image })
+            Ok(Finish { reflectance, emission, image, spectra })
         }
-        other => Ok(Finish { reflectance: other.colour(file)?, emission, image: None }),
+        other => Ok(Finish { reflectance: other.colour(file)?, emission, image: None, spectra }),
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Read: the visual scene that `<scene>` instances, nodes with their transforms (all but `<skew>`), `<instance_node>`,
 //! `<polylist>`, `<polygons>` with holes, `<triangles>`, `<tristrips>`, `<trifans>`, materials by the diffuse colour
-//! (reflectance) and the emission colour (radiance) of their common profile, perspective cameras. What is left out draws a
-//! warning. Every polygon becomes a one-sided patch; its front is the side from which it is counter-clockwise.
+//! (reflectance) and the emission colour (radiance) of their common profile, or spectra of any number of bands from an
+//! `<extra>` of this program's, perspective cameras. What is left out draws a warning. Every polygon becomes a one-sided patch; its front is the side from which it is counter-clockwise.
 //!
 //! A polygon that is not planar is split into triangles, one without area is left out, both with a warning. A node whose
 //! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
@@ -17,6 +17,7 @@ mod mesh_text;
 mod model;
 mod patches;
 mod primitive;
+mod spectra;
 mod transform;
 mod walk;
 mod write;
@@ -55,8 +56,8 @@ impl Collada {
         }
     }
 
-    /// A new file of a scene, a node for each patch; its scene has the same patches. Colours are red, green and blue: the
-    /// first three bands.
+    /// A new file of a scene, a node for each patch; its scene has the same patches. Spectra are
+    /// written as such, beside what they look like.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         Self::from_text("scene.dae", text(&Model::of(scene)))
@@ -84,7 +85,8 @@ impl Collada {
             let mut images = images::Images::new(folder);
             let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
             let cameras = camera::cameras(file, &sights, &mut warnings)?;
-            Ok(Scene { patches, cameras, bands: 3, warnings, asset: asset(file)? })
+            let (bands, wavelengths) = spectra::bands(file, &patches)?;
+            Ok(Scene { patches, cameras, bands, wavelengths, warnings, asset: asset(file)? })
         })
     }
 

@@ -1,5 +1,5 @@
 //! A scene on its way to becoming a file: named faces and their materials.
-use crate::expose::rgb;
+use crate::spectrum::Colours;
 use crate::{Asset, Camera, Patch, Scene, Texture};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -10,17 +10,20 @@ pub(crate) struct Model {
     /// What it is and where its numbers come from.
     pub(crate) title: String,
     pub(crate) asset: Asset,
+    /// In nm; empty where bands are red, green and blue.
+    pub(crate) wavelengths: Vec<f64>,
     pub(crate) materials: Vec<Material>,
     pub(crate) faces: Vec<Face>,
     pub(crate) cameras: Vec<Camera>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Material {
     pub(crate) name: String,
-    pub(crate) reflectance: [f64; 3],
-    /// Radiance.
-    pub(crate) emission: [f64; 3],
+    /// Per band.
+    pub(crate) reflectance: Vec<f64>,
+    /// Radiance, per band.
+    pub(crate) emission: Vec<f64>,
     pub(crate) texture: Option<Texture>,
 }
 
@@ -47,7 +50,8 @@ impl Model {
         };
         let faces = scene.patches.iter().enumerate().map(&mut face).collect();
         let title = "Written from another scene file".to_owned();
-        Model { title, asset: scene.asset, materials, faces, cameras: scene.cameras.clone() }
+        let (asset, wavelengths, cameras) = (scene.asset, scene.wavelengths.clone(), scene.cameras.clone());
+        Model { title, asset, wavelengths, materials, faces, cameras }
     }
 }
 
@@ -59,12 +63,17 @@ fn kind(index: usize, patch: &Patch) -> (Vec<u64>, Option<usize>) {
 
 impl Material {
     fn of(number: usize, patch: &Patch) -> Material {
-        let colour = |values: &[f64]| rgb(values, values.len()).first().copied().unwrap_or_default();
         Material {
             name: format!("material-{}", number + 1),
-            reflectance: colour(&patch.reflectance),
-            emission: colour(&patch.emission),
+            reflectance: patch.reflectance.clone(),
+            emission: patch.emission.clone(),
             texture: patch.texture.clone(),
         }
+    }
+
+    /// What the reflectance and the emission look like, for programs that know no bands.
+    pub(crate) fn colours(&self, wavelengths: &[f64]) -> [[f64; 3]; 2] {
+        let colours = Colours::of(self.reflectance.len(), wavelengths);
+        [&self.reflectance, &self.emission].map(|bands| colours.row(bands).map(|part| part.max(0.0)))
     }
 }

@@ -6,6 +6,7 @@ use super::images::Images;
 use super::material::finish;
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
+use crate::inspect::Finding;
 use crate::{Origin, Patch};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -15,7 +16,7 @@ pub(super) fn patches<'a>(
     file: &File<'a>,
     instances: &[Instance<'a>],
     images: &mut Images,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Patch>, Error> {
     let mut geometries = HashMap::new();
     let mut surfaces = Surfaces::default();

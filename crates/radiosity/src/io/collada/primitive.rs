@@ -2,6 +2,7 @@
 use super::super::surface::{Corner, Polygon};
 use super::super::{Error, Fault};
 use super::file::{File, Node, child, children, descend};
+use crate::inspect::Finding;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -21,11 +22,11 @@ pub(super) struct Primitive<'a> {
 pub(super) fn primitives<'a>(
     file: &File<'a>,
     geometry: Node<'a>,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Primitive<'a>>, Error> {
     let Some(mesh) = child(geometry, "mesh") else {
-        warnings
-            .push(format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry)));
+        let what = format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry));
+        warnings.push(Finding::of_file(what, "turn it into a mesh"));
         return Ok(Vec::new());
     };
     let mut sources = HashMap::new();
@@ -37,7 +38,8 @@ pub(super) fn primitives<'a>(
     }
     if let Some(line) = mesh.children().find(|node| matches!(node.tag_name().name(), "lines" | "linestrips"))
     {
-        warnings.push(format!("{}: lines have no area; they are left out", file.place(line)));
+        let what = format!("{}: lines have no area; they are left out", file.place(line));
+        warnings.push(Finding::of_file(what, "remove them, or make them surfaces"));
     }
     Ok(all)
 }

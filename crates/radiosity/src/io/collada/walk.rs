@@ -2,6 +2,7 @@
 use super::super::{Error, Fault};
 use super::file::{File, Node, child, children};
 use super::transform;
+use crate::inspect::Finding;
 use glam::DMat4;
 
 /// Nodes entered while walking; instances of instances can multiply without bound.
@@ -35,7 +36,7 @@ pub(super) struct Sight<'a> {
 pub(super) struct Walk<'a> {
     pub(super) instances: Vec<Instance<'a>>,
     pub(super) sights: Vec<Sight<'a>>,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Finding>,
 }
 
 /// Walks the scene's nodes in document order.
@@ -65,7 +66,7 @@ pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, Error> {
 }
 
 /// The visual scene that `<scene>` instances; where it instances none, the first. One of several draws a warning.
-fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<String>) -> Result<Node<'a>, Error> {
+fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<Node<'a>, Error> {
     let libraries = children(file.root, "library_visual_scenes");
     let all: Vec<Node> = libraries.flat_map(|library| children(library, "visual_scene")).collect();
     let instance = child(file.root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
@@ -76,9 +77,9 @@ fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<String>) -> Result<Node<
     if all.len() > 1 {
         let which = if instance.is_some() { "the one that <scene> instances" } else { "the first" };
         let (place, count) = (file.place(scene), all.len());
-        warnings.push(format!(
-            "{place}: the file has {count} visual scenes; {which} is taken, the others are left"
-        ));
+        let what =
+            format!("{place}: the file has {count} visual scenes; {which} is taken, the others are left");
+        warnings.push(Finding::of_file(what, "let <scene> instance the one you want"));
     }
     Ok(scene)
 }
@@ -119,12 +120,13 @@ fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(
             }
             "instance_controller" => {
                 let place = file.place(element);
-                walk.warnings.push(format!("{place}: skinned and morphed geometry is left out; bake it"));
+                let what = format!("{place}: skinned and morphed geometry is left out");
+                walk.warnings.push(Finding::of_file(what, "bake it into plain geometry"));
             }
             "instance_light" => {
                 let place = file.place(element);
-                walk.warnings
-                    .push(format!("{place}: lights are left out; only surfaces that emit give light"));
+                let what = format!("{place}: lights are left out; only surfaces that emit give light");
+                walk.warnings.push(Finding::of_file(what, "put a surface with an emission in its place"));
             }
             _ => {}
         }

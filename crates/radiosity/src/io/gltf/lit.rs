@@ -2,7 +2,7 @@
 use super::super::image::bytes;
 use super::buffer::Buffer;
 use crate::Record;
-use crate::expose::{Exposure, rgb};
+use crate::expose::Exposure;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ pub(super) fn primitives(
     for &[patch, a, b, c] in &record.elements {
         groups.entry(record.patches[patch].picture).or_default().push([a, b, c]);
     }
-    let light = rgb(&record.vertex_radiosity, record.bands);
+    let light = record.colours();
     let received = record.under_pictures();
     let mut primitives = Vec::new();
     for (picture, triangles) in groups {

@@ -3,6 +3,7 @@ use super::super::image;
 use super::super::surface::Finish;
 use super::accessor::Buffers;
 use crate::Image;
+use crate::inspect::Finding;
 use gltf::material::AlphaMode;
 use std::collections::HashMap;
 use std::path::Path;
@@ -31,7 +32,7 @@ impl<'f> Materials<'f> {
     }
 
     /// A material; its warnings are told when it is met first.
-    pub(super) fn kind(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<String>) -> Kind {
+    pub(super) fn kind(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
         if let Some(kind) = self.known.get(&material.index()) {
             return kind.clone();
         }
@@ -40,14 +41,21 @@ impl<'f> Materials<'f> {
         kind
     }
 
-    fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<String>) -> Kind {
+    fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
         let name = material.name().map_or_else(|| format!("material {:?}", material.index()), Into::into);
-        let mut warn = |what: &str| warnings.push(format!("{name}: {what}"));
+        let mut warn =
+            |what: &str, mend: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), mend));
         if material.emissive_texture().is_some() {
-            warn("emissive textures are not read; the emissive factor alone is taken");
+            warn(
+                "emissive textures are not read; the emissive factor alone is taken",
+                "check that it is what you mean",
+            );
         }
         if material.alpha_mode() != AlphaMode::Opaque {
-            warn("transparency is left out; the surface is opaque");
+            warn(
+                "transparency is left out; the surface is opaque",
+                "remove surfaces that should let light through",
+            );
         }
         let surface = material.pbr_metallic_roughness();
         let [red, green, blue, _] = surface.base_color_factor().map(f64::from);
@@ -55,7 +63,7 @@ impl<'f> Materials<'f> {
         let emission = material.emissive_factor().map(|band| strength * f64::from(band));
         let texture = surface.base_color_texture();
         let image = texture.as_ref().and_then(|info| self.image(&info.texture().source(), warnings));
-        let finish = Finish { reflectance: [red, green, blue], emission, image };
+        let finish = Finish { reflectance: [red, green, blue], emission, image, spectra: None };
         Kind {
             finish,
             places: texture.map_or(0, |info| info.tex_coord()),
@@ -63,7 +71,7 @@ impl<'f> Materials<'f> {
         }
     }
 
-    fn image(&mut self, image: &gltf::Image<'_>, warnings: &mut Vec<String>) -> Option<Arc<Image>> {
+    fn image(&mut self, image: &gltf::Image<'_>, warnings: &mut Vec<Finding>) -> Option<Arc<Image>> {
         if let Some(known) = self.images.get(&image.index()) {
             return known.clone();
         }
@@ -76,7 +84,8 @@ impl<'f> Materials<'f> {
             gltf::image::Source::Uri { uri, .. } => image::fetch(uri, self.folder),
         };
         let read = read.map(Arc::new).map_err(|reason| {
-            warnings.push(format!("{name}: the texture cannot be read: {reason}; its factor alone is taken"));
+            let what = format!("{name}: the texture cannot be read: {reason}; its factor alone is taken");
+            warnings.push(Finding::of_file(what, "put the picture beside the file, as PNG or JPEG"));
         });
         self.images.insert(image.index(), read.clone().ok());
         read.ok()

@@ -4,7 +4,8 @@ use super::super::{Error, Fault};
 use super::accessor::Buffers;
 use super::document::File;
 use super::material::Materials;
-use crate::{Asset, Camera, Origin, Scene};
+use crate::inspect::Finding;
+use crate::{Camera, Origin, Scene};
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
@@ -27,7 +28,7 @@ pub(super) fn scene(file: &str, gltf: &File, folder: Option<&Path>) -> Result<Sc
     };
     reader.walk(&gltf.document)?;
     let Reader { surfaces, cameras, warnings, .. } = reader;
-    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, asset: Asset::default() })
+    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() })
 }
 
 struct Reader<'f> {
@@ -35,7 +36,7 @@ struct Reader<'f> {
     materials: Materials<'f>,
     surfaces: Surfaces,
     cameras: Vec<Camera>,
-    warnings: Vec<String>,
+    warnings: Vec<Finding>,
     instances: usize,
 }
 
@@ -45,11 +46,12 @@ impl Reader<'_> {
         let Some(scene) = gltf.default_scene().or_else(|| gltf.scenes().next()) else { return Ok(()) };
         if gltf.scenes().count() > 1 {
             let index = scene.index();
-            self.warnings.push(format!("{}: of its scenes number {index} is taken", self.file));
+            let what = format!("{}: of its scenes number {index} is taken", self.file);
+            self.warn(what, "make the one you want the default scene");
         }
         if gltf.extensions_used().any(|name| name == "KHR_lights_punctual") {
-            self.warnings
-                .push(format!("{}: lights are left out; only surfaces that emit give light", self.file));
+            let what = format!("{}: lights are left out; only surfaces that emit give light", self.file);
+            self.warn(what, "put a surface with an emission in their place");
         }
         let mut stack: Vec<(gltf::Node<'_>, DMat4, usize)> =
             scene.nodes().map(|node| (node, DMat4::IDENTITY, 0)).collect();
@@ -82,7 +84,7 @@ impl Reader<'_> {
         }
         let Some(mesh) = node.mesh() else { return Ok(()) };
         if node.skin().is_some() || mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
-            self.warnings.push(format!("{name}: skins and morphs are left out; bake them"));
+            self.warn(format!("{name}: skins and morphs are left out"), "bake them into plain geometry");
         }
         let instance = self.instances;
         self.instances += 1;
@@ -134,8 +136,8 @@ impl Reader<'_> {
     ) -> Result<Vec<Polygon>, Error> {
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            self.warnings
-                .push(format!("{}: {part}: points and lines have no area; they are left out", self.file));
+            let what = format!("{}: {part}: points and lines have no area; they are left out", self.file);
+            self.warn(what, "remove them, or make them surfaces");
             return Ok(Vec::new());
         }
         let corners = self.corners(primitive, set)?;
@@ -178,13 +180,17 @@ impl Reader<'_> {
     /// A camera looks along its node's −z, with +y up.
     fn look(&mut self, camera: &gltf::Camera<'_>, name: &str, world: DMat4) {
         let gltf::camera::Projection::Perspective(lens) = camera.projection() else {
-            self.warnings.push(format!("{name}: only perspective cameras are read; this one is left out"));
+            let what = format!("{name}: only perspective cameras are read; this one is left out");
+            self.warn(what, "make it a perspective camera, or give --camera");
             return;
         };
         let turned = |axis| world.transform_vector3(axis).try_normalize();
         let (fov, aspect) = (f64::from(lens.yfov()), f64::from(lens.aspect_ratio().unwrap_or(4.0 / 3.0)));
         let (Some(direction), Some(up)) = (turned(DVec3::NEG_Z), turned(DVec3::Y)) else {
-            self.warnings.push(format!("{name}: the camera has no view; it is left out"));
+            self.warn(
+                format!("{name}: the camera has no view; it is left out"),
+                "correct it, or give --camera",
+            );
             return;
         };
         let position = world.w_axis.truncate();
@@ -192,8 +198,15 @@ impl Reader<'_> {
         if camera.is_sound() {
             self.cameras.push(camera);
         } else {
-            self.warnings.push(format!("{name}: the camera has no view; it is left out"));
+            self.warn(
+                format!("{name}: the camera has no view; it is left out"),
+                "correct it, or give --camera",
+            );
         }
+    }
+
+    fn warn(&mut self, what: String, mend: &str) {
+        self.warnings.push(Finding::of_file(what, mend));
     }
 
     fn fault(&self, part: String, fault: Fault) -> Error {

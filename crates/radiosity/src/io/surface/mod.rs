@@ -60,6 +60,16 @@ pub(super) struct Finish {
     /// Radiance.
     pub(super) emission: [f64; 3],
     pub(super) image: Option<Arc<Image>>,
+    /// What takes the place of all that.
+    pub(super) spectra: Option<Spectra>,
+}
+
+/// What a surface reflects and emits in bands of any number.
+#[derive(Clone, Debug)]
+pub(super) struct Spectra {
+    pub(super) reflectance: Vec<f64>,
+    /// Radiance.
+    pub(super) emission: Vec<f64>,
 }
 
 /// Polygons of one material, in a node.

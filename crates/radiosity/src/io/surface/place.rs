@@ -1,7 +1,8 @@
 //! Into the world: transformed, checked, split where needed, named.
 use super::split::split;
 use super::warn::Flaws;
-use super::{Corner, Facet, Finish, Polygon, Surface, bits};
+use super::{Corner, Facet, Finish, Polygon, Spectra, Surface, bits};
+use crate::inspect::Finding;
 use crate::{Origin, Patch, Texture};
 use formfactor::PlanarPolygon;
 use glam::{DMat4, DVec3};
@@ -42,13 +43,14 @@ struct Draft {
 
 impl Surfaces {
     /// Adds a surface's patches.
-    pub(crate) fn add(&mut self, surface: &Surface<'_>, warnings: &mut Vec<String>) -> Result<(), Refusal> {
+    pub(crate) fn add(&mut self, surface: &Surface<'_>, warnings: &mut Vec<Finding>) -> Result<(), Refusal> {
         let world = &surface.world;
         if !(world.determinant().is_normal() && world.inverse().is_finite()) {
-            warnings.push(format!(
-                "{}: the node's transform flattens it to nothing; it is left out",
-                surface.place
-            ));
+            let what = format!(
+                "{}: the transform of {} flattens it to nothing; it is left out",
+                surface.place, surface.name
+            );
+            warnings.push(Finding::of_file(what, "give the node a scale that is not 0"));
             return Ok(());
         }
         let groups = self.smoothing(surface.facets);
@@ -56,7 +58,7 @@ impl Surfaces {
         for (facet, group) in surface.facets.iter().zip(groups) {
             self.add_facet(surface, facet, group, &mut flaws)?;
         }
-        warnings.extend(flaws.sentences().map(|flaw| format!("{}: {}: {flaw}", surface.place, surface.name)));
+        warnings.extend(flaws.findings(surface.place));
         Ok(())
     }
 
@@ -73,9 +75,9 @@ impl Surfaces {
         let count = self.counts.entry(surface.name.into()).or_default();
         *count += 1;
         let number = *count;
-        let polygon = facet.number;
+        let (polygon, name) = (facet.number, format!("{}.{number}", surface.name));
         let loops = transformed(&facet.loops, &surface.world);
-        let pieces = planar(&loops, polygon, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
+        let pieces = planar(&loops, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
         let texture = texture(&loops, facet, surface);
         let origin = Origin { polygon, ..surface.origin };
         let draft = |(piece, polygon, side)| {
@@ -146,6 +148,9 @@ fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
 
 /// A patch without a name; its reflectance is the texture's mean where it has one.
 fn finished(polygon: PlanarPolygon, finish: &Finish, texture: Option<Texture>) -> Patch {
+    if let Some(Spectra { reflectance, emission }) = finish.spectra.clone() {
+        return Patch::new("", polygon, reflectance, emission);
+    }
     let reflectance = texture.as_ref().map_or(finish.reflectance, |texture| texture.overall());
     let patch = Patch::new("", polygon, reflectance.into(), finish.emission.into());
     Patch { texture, ..patch }
@@ -165,24 +170,25 @@ fn texture(loops: &Polygon, facet: &Facet, surface: &Surface<'_>) -> Option<Text
 /// The polygon as it is, or, where it is not planar, its pieces, numbered from 1; nothing where it has no area.
 fn planar(
     loops: &Polygon,
-    polygon: usize,
+    name: &str,
     flaws: &mut Flaws,
 ) -> Result<Vec<(Option<usize>, PlanarPolygon)>, formfactor::Error> {
     let points = loops.iter().map(|ring| ring.iter().map(|corner| corner.point).collect::<Vec<_>>());
     match PlanarPolygon::new(points) {
         Ok(polygon) => Ok(vec![(None, polygon)]),
         Err(formfactor::Error::NotPlanar { distance, .. }) => {
-            flaws.bent.push((polygon, distance));
             let triangles = split(loops).into_iter().map(|part| part.map(|corner| corner.point));
             let pieces = triangles.filter_map(|corners| PlanarPolygon::new([corners]).ok());
-            Ok(pieces.zip(1..).map(|(piece, number)| (Some(number), piece)).collect())
+            let pieces: Vec<_> = pieces.zip(1..).map(|(piece, number)| (Some(number), piece)).collect();
+            flaws.bend((1..=pieces.len()).map(|number| format!("{name}.{number}")), distance);
+            Ok(pieces)
         }
         Err(
             formfactor::Error::ZeroArea
             | formfactor::Error::NoLoops
             | formfactor::Error::TooFewVertices { .. },
         ) => {
-            flaws.empty.push(polygon);
+            flaws.empty(name);
             Ok(Vec::new())
         }
         Err(other) => Err(other),

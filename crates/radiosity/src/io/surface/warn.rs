@@ -1,25 +1,44 @@
 //! What was wrong with a surface's polygons and was mended, told once.
+use crate::inspect::{Finding, Kind};
 
-/// Polygons by their index in the primitive.
+/// Polygons by the names of their patches.
 #[derive(Debug, Default)]
 pub(super) struct Flaws {
-    /// Those that are not planar, and by how much.
-    pub(super) bent: Vec<(usize, f64)>,
+    /// The pieces of those that are not planar, and how far off a plane the worst of these is.
+    bent: (Vec<String>, f64),
     /// Those that have no area.
-    pub(super) empty: Vec<usize>,
+    empty: Vec<String>,
 }
 
 impl Flaws {
-    /// One sentence for each kind of flaw.
-    pub(super) fn sentences(&self) -> impl Iterator<Item = String> {
-        let worst = self.bent.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a });
-        let bent = worst.map(|(polygon, distance)| {
-            let count = self.bent.len();
-            format!("{count} not planar (polygon {polygon} by {distance:.1e}); split into triangles")
+    /// A polygon was not planar by so much, and became some pieces.
+    pub(super) fn bend(&mut self, pieces: impl Iterator<Item = String>, distance: f64) {
+        self.bent.0.extend(pieces);
+        self.bent.1 = self.bent.1.max(distance);
+    }
+
+    /// A polygon had no area.
+    pub(super) fn empty(&mut self, name: &str) {
+        self.empty.push(name.to_owned());
+    }
+
+    /// A finding for each kind of flaw of the surface at a place in the file.
+    pub(super) fn findings(self, place: &str) -> impl Iterator<Item = Finding> {
+        let (pieces, distance) = self.bent;
+        let bent = (distance > 0.0).then(|| Finding {
+            kind: Kind::NonPlanar,
+            what: format!(
+                "{place}: not planar by up to {distance:.1e}; split into {} triangles",
+                pieces.len()
+            ),
+            patches: pieces,
+            mend: "move the vertices into one plane, or triangulate it yourself".into(),
         });
-        let empty = self.empty.first().map(|polygon| {
-            let count = self.empty.len();
-            format!("{count} without area (the first is polygon {polygon}); left out")
+        let empty = (!self.empty.is_empty()).then(|| Finding {
+            kind: Kind::NoArea,
+            what: format!("{place}: {} without area; left out", self.empty.len()),
+            patches: self.empty,
+            mend: "remove what has no area".into(),
         });
         bent.into_iter().chain(empty)
     }

@@ -1,0 +1,61 @@
+//! `radiosity compare`
+use super::{Failure, input, json, output, positive};
+use clap::Args;
+use radiosity::compare::{Comparison, compare};
+use std::fmt::Write;
+use std::{path::PathBuf, process::ExitCode};
+
+/// What `--fail-above` ends with.
+const ABOVE: u8 = 5;
+
+/// `radiosity compare`
+#[derive(Args, Debug)]
+pub(super) struct Compare {
+    /// A solution that solve wrote as .json
+    a: PathBuf,
+    /// Another one of the same scene, of any mesh: the reference
+    b: PathBuf,
+    /// End with exit code 5 when any norm in any band is above this
+    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    fail_above: Option<f64>,
+    /// Print JSON instead of text; a norm that is infinite is null
+    #[arg(long)]
+    json: bool,
+}
+
+/// Prints how far two solutions are from each other.
+pub(super) fn run(arguments: &Compare) -> Result<ExitCode, Failure> {
+    let (a, b) = (input::solution(&arguments.a)?, input::solution(&arguments.b)?);
+    let names = format!("{}, {}", arguments.a.display(), arguments.b.display());
+    let comparison = compare(&a, &b).map_err(|unlike| Failure::scene(format!("{names}: {unlike}")))?;
+    output::print(&if arguments.json { json::line(&comparison) } else { text(&comparison) })?;
+    let above = arguments.fail_above.filter(|most| comparison.largest() > *most);
+    Ok(match above {
+        Some(most) => {
+            eprintln!("{:.3e} is above {most:.3e}", comparison.largest());
+            ExitCode::from(ABOVE)
+        }
+        None => ExitCode::SUCCESS,
+    })
+}
+
+/// Lines for people.
+fn text(comparison: &Comparison) -> String {
+    let mut text = format!("{:>4} {:>10} {:>10} {:>10}\n", "band", "L1", "L2", "max");
+    for (band, off) in comparison.bands.iter().enumerate() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{band:>4} {:>10.3e} {:>10.3e} {:>10.3e}", off.l1, off.l2, off.max);
+    }
+    if let Some(worst) = &comparison.worst {
+        let [x, y, z] = worst.place.to_array();
+        let _ = writeln!(
+            text,
+            "worst: element {} of {} at {x:.4} {y:.4} {z:.4}, band {}: {:.6e} against {:.6e} W/m²",
+            worst.element, worst.patch, worst.band, worst.a, worst.b
+        );
+    }
+    if !comparison.same_mesh {
+        text += "the meshes differ: element against all it overlaps\n";
+    }
+    text
+}

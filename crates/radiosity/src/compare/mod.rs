@@ -1,0 +1,208 @@
+//! How far two solutions of one scene are from each other.
+//!
+//! ```text
+//! match      the patches of one in the other, by name
+//! overlap    the area that each element of one shares with each of the other: the meshes may differ
+//! norms      the difference of the light on those areas, in three norms
+//! ```
+//! A solution is taken as what its elements carry: one value each. What is compared is reflected light, radiosity less
+//! own emission, so that a lamp's brightness does not hide what is wrong with its light.
+mod overlap;
+
+use crate::Record;
+use glam::DVec3;
+use overlap::Piece;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use thiserror::Error;
+
+/// Two solutions side by side.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The difference in each band.
+    pub bands: Vec<Difference>,
+    /// Where the two are furthest apart; none where they agree everywhere.
+    pub worst: Option<Worst>,
+    /// Whether both have the same elements; else each element of one is held against all that it overlaps.
+    pub same_mesh: bool,
+}
+
+/// The difference of two solutions in one band, relative to the second one. Infinite where that is dark and the first is
+/// not.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// ∫|a − b| dA / ∫|b| dA.
+    pub l1: f64,
+    /// √(∫(a − b)² dA / ∫b² dA).
+    pub l2: f64,
+    /// max |a − b| / max |b|.
+    pub max: f64,
+}
+
+/// The place where two solutions are furthest apart, in shares of the second one's largest value in that band.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// The patch's name.
+    pub patch: String,
+    /// The element, by its number in the first solution.
+    pub element: usize,
+    /// Its centroid, in the scene's coordinates.
+    pub place: DVec3,
+    /// The band.
+    pub band: usize,
+    /// Reflected light there in the first solution, W/m².
+    pub a: f64,
+    /// The same in the second one.
+    pub b: f64,
+}
+
+/// Why two solutions cannot be compared.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unlike {
+    /// One has another number of bands.
+    #[error("one has {a} bands, the other {b}; compare solutions of one scene")]
+    Bands {
+        /// Of the first.
+        a: usize,
+        /// Of the second.
+        b: usize,
+    },
+    /// A patch is in one of them only.
+    #[error("patch {name} is in one of the two only; compare solutions of one scene")]
+    Patch {
+        /// Its name.
+        name: String,
+    },
+    /// A patch of that name lies elsewhere, or has another shape.
+    #[error(
+        "patch {name} is not the same in both: its elements do not cover each other; compare solutions of one scene"
+    )]
+    Shape {
+        /// Its name.
+        name: String,
+    },
+}
+
+/// What share of a patch rounding may leave uncovered when two meshes of it are laid over each other.
+const UNCOVERED: f64 = 1e-6;
+
+/// Holds `a` against `b`, the reference.
+///
+/// Meshes that differ are laid over each other, triangle on triangle, so that the norms are integrals over the scene.
+/// Takes O(n) for equal meshes, else about O(n √n) for n elements.
+///
+/// # Errors
+/// [`Unlike`] when they are not solutions of one scene.
+///
+/// ```
+/// use radiosity::{Options, Record, compare::compare, scenes, solve};
+/// use std::ops::ControlFlow;
+///
+/// let scene = scenes::scene("furnace").expect("a built-in scene");
+/// let solved = |elements| {
+///     let options = Options { elements, ..Options::default() };
+///     Ok::<_, radiosity::Error>(Record::new("furnace", &scene, &solve(&scene, &options, |_| ControlFlow::Continue(()))?))
+/// };
+/// let difference = compare(&solved(24)?, &solved(60)?)?;
+/// assert!(difference.largest() < 0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn compare(a: &Record, b: &Record) -> Result<Comparison, Unlike> {
+    if a.bands != b.bands {
+        return Err(Unlike::Bands { a: a.bands, b: b.bands });
+    }
+    let patches = matched(a, b)?;
+    let same_mesh = a.vertices == b.vertices && a.elements == b.elements;
+    let pieces = if same_mesh { overlap::same(a) } else { overlap::overlaps(a, b, &patches) };
+    if let Some(name) = moved(a, b, &patches, &pieces) {
+        return Err(Unlike::Shape { name });
+    }
+    let light = [reflected(a), reflected(b)];
+    let bands: Vec<Difference> = (0..a.bands).map(|band| norms(&pieces, &light, [a.bands, band])).collect();
+    Ok(Comparison { worst: worst(a, b, &pieces, &light), bands, same_mesh })
+}
+
+impl Comparison {
+    /// The largest norm of all bands.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.bands.iter().flat_map(|band| [band.l1, band.l2, band.max]).fold(0.0, f64::max)
+    }
+}
+
+/// For each patch of `a` its number in `b`.
+fn matched(a: &Record, b: &Record) -> Result<Vec<usize>, Unlike> {
+    let numbers = |record: &Record| -> BTreeMap<String, usize> {
+        record.patches.iter().enumerate().map(|(number, patch)| (patch.name.clone(), number)).collect()
+    };
+    let (of_a, of_b) = (numbers(a), numbers(b));
+    let alone = |name: &&String| !of_a.contains_key(*name) || !of_b.contains_key(*name);
+    match of_a.keys().chain(of_b.keys()).find(alone) {
+        Some(name) => Err(Unlike::Patch { name: name.clone() }),
+        None => Ok(a.patches.iter().map(|patch| of_b[&patch.name]).collect()),
+    }
+}
+
+/// The name of a patch whose elements in one do not cover those in the other.
+fn moved(a: &Record, b: &Record, patches: &[usize], pieces: &[Piece]) -> Option<String> {
+    let areas = |record: &Record| {
+        let mesh = record.mesh();
+        let mut areas = vec![0.0; record.patches.len()];
+        mesh.elements
+            .iter()
+            .enumerate()
+            .for_each(|(index, element)| areas[element.patch] += mesh.area(index));
+        areas
+    };
+    let (of_a, of_b, mut shared) = (areas(a), areas(b), vec![0.0; a.patches.len()]);
+    pieces.iter().for_each(|piece| shared[a.elements[piece.elements[0]][0]] += piece.area);
+    let off = |patch: &usize| {
+        let most = of_a[*patch].max(of_b[patches[*patch]]);
+        (most - shared[*patch]).abs() > UNCOVERED * most
+    };
+    (0..patches.len()).find(off).map(|patch| a.patches[patch].name.clone())
+}
+
+/// Radiosity less own emission, elements × bands.
+fn reflected(record: &Record) -> Vec<f64> {
+    let elements = record.elements.iter().zip(record.radiosity.chunks(record.bands));
+    let own = |patch: usize, band: usize| PI * record.patches[patch].emission[band];
+    elements.flat_map(|(e, light)| light.iter().enumerate().map(|(k, b)| b - own(e[0], k))).collect()
+}
+
+fn norms(pieces: &[Piece], light: &[Vec<f64>; 2], [bands, band]: [usize; 2]) -> Difference {
+    let (mut off, mut size) = ([0.0f64; 3], [0.0f64; 3]);
+    for piece in pieces {
+        let [a, b] = [0, 1].map(|side| light[side][piece.elements[side] * bands + band]);
+        for (sums, value) in [(&mut off, (a - b).abs()), (&mut size, b.abs())] {
+            *sums = [sums[0] + piece.area * value, sums[1] + piece.area * value * value, sums[2].max(value)];
+        }
+    }
+    let share = |k: usize| if off[k] == 0.0 { 0.0 } else { off[k] / size[k] };
+    Difference { l1: share(0), l2: share(1).sqrt(), max: share(2) }
+}
+
+fn worst(a: &Record, b: &Record, pieces: &[Piece], light: &[Vec<f64>; 2]) -> Option<Worst> {
+    let bands = a.bands;
+    let mut largest = vec![0.0f64; bands];
+    for values in light[1].chunks(bands).take(b.elements.len()) {
+        largest.iter_mut().zip(values).for_each(|(largest, value)| *largest = largest.max(value.abs()));
+    }
+    let mut found: Option<(f64, [usize; 2], [f64; 2])> = None;
+    for (piece, band) in pieces.iter().flat_map(|piece| (0..bands).map(move |band| (piece, band))) {
+        let [x, y] = [0, 1].map(|side| light[side][piece.elements[side] * bands + band]);
+        let off = if x == y { 0.0 } else { (x - y).abs() / largest[band] };
+        if off > found.as_ref().map_or(0.0, |(most, ..)| *most) {
+            found = Some((off, [piece.elements[0], band], [x, y]));
+        }
+    }
+    found.map(|(_, [element, band], [x, y])| {
+        let patch = a.patches[a.elements[element][0]].name.clone();
+        Worst { patch, element, place: a.mesh().centroid(element), band, a: x, b: y }
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,69 @@
+//! Materials of any number of bands: in a COLLADA `<extra>` of this program's own, which other programs pass over.
+//!
+//! ```xml
+//! <effect id="…">…
+//!   <extra><technique profile="radiosity">
+//!     <reflectance>.343 .445 …</reflectance>   <!-- a value for each band -->
+//!     <emission>0 0 …</emission>               <!-- radiance; left out where nothing is emitted -->
+//!   </technique></extra>
+//! </effect>
+//! …
+//! <COLLADA>…
+//!   <extra><technique profile="radiosity"><wavelengths>400 404 …</wavelengths></technique></extra>   <!-- in nm -->
+//! </COLLADA>
+//! ```
+use super::super::surface::Spectra;
+use super::super::{Error, Fault};
+use super::file::{File, Node, child, children};
+use crate::Patch;
+
+/// What technique is this program's.
+pub(super) const PROFILE: &str = "radiosity";
+
+/// What an effect says of its bands; nothing where it has but colours.
+pub(super) fn spectra<'a>(file: &File<'a>, effect: Node<'a>) -> Result<Option<Spectra>, Error> {
+    let Some(own) = own(effect) else { return Ok(None) };
+    let reflectance = values(file, file.child(own, "reflectance")?)?;
+    let Some(element) = child(own, "emission") else {
+        let emission = vec![0.0; reflectance.len()];
+        return Ok(Some(Spectra { reflectance, emission }));
+    };
+    let emission = values(file, element)?;
+    let (found, wanted) = (emission.len(), reflectance.len());
+    if found != wanted {
+        return Err(file.fault(element, Fault::Count { found, wanted }));
+    }
+    Ok(Some(Spectra { reflectance, emission }))
+}
+
+/// How many bands the patches have, and their wavelengths. A patch of fewer bands than the others is refused by the
+/// solver, by its name.
+pub(super) fn bands<'a>(file: &File<'a>, patches: &[Patch]) -> Result<(usize, Vec<f64>), Error> {
+    let bands = patches.iter().map(|patch| patch.reflectance.len()).max().unwrap_or(3);
+    let Some(element) = own(file.root).and_then(|own| child(own, "wavelengths")) else {
+        return Ok((bands, Vec::new()));
+    };
+    let wavelengths = values(file, element)?;
+    if wavelengths.len() != bands {
+        return Err(file.fault(element, Fault::Count { found: wavelengths.len(), wanted: bands }));
+    }
+    Ok((bands, wavelengths))
+}
+
+/// This program's technique among an element's extras.
+fn own<'a>(element: Node<'a>) -> Option<Node<'a>> {
+    let techniques = children(element, "extra").flat_map(|extra| children(extra, "technique"));
+    techniques.into_iter().find(|technique| technique.attribute("profile") == Some(PROFILE))
+}
+
+/// One number or more, none below 0.
+fn values<'a>(file: &File<'a>, element: Node<'a>) -> Result<Vec<f64>, Error> {
+    let numbers = file.numbers(element)?;
+    if numbers.is_empty() {
+        return Err(file.fault(element, Fault::Count { found: 0, wanted: 1 }));
+    }
+    match numbers.iter().find(|value| **value < 0.0) {
+        Some(value) => Err(file.fault(element, Fault::Negative(*value))),
+        None => Ok(numbers),
+    }
+}

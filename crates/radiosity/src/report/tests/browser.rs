@@ -1,0 +1,91 @@
+//! The page in a browser: no label lies on another one or outside of its plot, in the light and in the dark.
+//!
+//! Needs `chromium` (Debian: `apt-get install chromium`) or the program that CHROMIUM names; without one the test says so
+//! and checks nothing.
+use super::glance;
+use crate::report::{Report, Row, booleans, jobs, stress};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+/// Measures the boxes of all labels.
+const SCRIPT: &str = r#"<script>
+window.onload = () => {
+  const found = { plots: 0, labels: 0, outside: [], overlaps: [], wide: document.documentElement.scrollWidth > window.innerWidth };
+  for (const plot of document.querySelectorAll("svg.plot")) {
+    const frame = plot.getBoundingClientRect();
+    const boxes = [...plot.querySelectorAll("text")].filter(text => text.textContent).map(text => [text.textContent, text.getBoundingClientRect()]);
+    found.plots += 1;
+    found.labels += boxes.length;
+    boxes.forEach(([label, a], i) => {
+      if (a.left < frame.left || a.right > frame.right || a.top < frame.top || a.bottom > frame.bottom) found.outside.push(label);
+      for (const [other, b] of boxes.slice(0, i)) {
+        const apart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 2 || b.bottom <= a.top + 2;
+        if (!apart) found.overlaps.push([label, other]);
+      }
+    });
+  }
+  found.paper = getComputedStyle(document.body).backgroundColor;
+  found.ink = getComputedStyle(document.body).color;
+  document.body.innerHTML = "<pre>REPORT" + ":" + JSON.stringify(found) + "</pre>";
+};
+</script></body>"#;
+
+fn browser() -> Option<String> {
+    let asked = std::env::var("CHROMIUM").ok();
+    let names = asked.into_iter().chain(["chromium", "chromium-browser", "google-chrome"].map(Into::into));
+    names.into_iter().find(|name| Command::new(name).arg("--version").output().is_ok())
+}
+
+/// What the script finds on a page of so many pixels across.
+fn looked_at(browser: &str, folder: &Path, width: u32, dark: bool) -> Value {
+    let scheme = if dark { 0 } else { 1 };
+    let output = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--dump-dom"])
+        .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
+        .arg(format!("--window-size={width},900"))
+        .arg(format!("--user-data-dir={}", folder.display()))
+        .arg(format!("file://{}", folder.join("page.html").display()))
+        .output()
+        .unwrap();
+    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
+    let report = dom.split("<pre>REPORT:").nth(1).and_then(|rest| rest.split("</pre>").next());
+    let report = report.unwrap_or_else(|| {
+        panic!("the page did not come to its end: {}", String::from_utf8_lossy(&output.stderr))
+    });
+    serde_json::from_str(report).unwrap()
+}
+
+/// A page with plots of three chapters.
+fn page() -> String {
+    let plan = super::plan(&[]);
+    let Report { mut rows, machine, portraits, .. } = glance(&["obstruction"]);
+    let middle = jobs::middle(&plan);
+    for (_, question) in stress::questions(&plan).into_iter().take(3) {
+        rows.extend(question.measure(&middle[..1], 1).into_iter().map(Row::Measured));
+    }
+    rows.extend(booleans::measure(&plan).into_iter().map(Row::Measured));
+    Report { rows, machine, portraits, quick: true }.page(None).replace("</body>", SCRIPT)
+}
+
+#[test]
+fn no_label_lies_on_another_one_in_the_light_and_in_the_dark() {
+    let Some(browser) = browser() else {
+        eprintln!("no chromium: the page was not looked at");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("page.html"), page()).unwrap();
+    let [light, dark, narrow] = [(1500, false), (1500, true), (500, false)]
+        .map(|(width, dark)| looked_at(&browser, folder.path(), width, dark));
+    for found in [&light, &dark, &narrow] {
+        assert!(found["plots"].as_u64() >= Some(10) && found["labels"].as_u64() > Some(150), "{found}");
+        assert_eq!(
+            (&found["outside"], &found["overlaps"]),
+            (&Value::from(Vec::<Value>::new()), &Value::from(Vec::<Value>::new()))
+        );
+        assert_eq!(found["wide"], false, "the page is wider than its window");
+    }
+    assert_eq!((&light["paper"], &light["ink"]), (&"rgb(253, 253, 251)".into(), &"rgb(27, 29, 33)".into()));
+    assert_eq!((&dark["paper"], &dark["ink"]), (&"rgb(21, 23, 26)".into(), &"rgb(232, 232, 228)".into()));
+}

@@ -1,0 +1,122 @@
+mod browser;
+
+use super::*;
+use crate::scenes;
+use analysis::{lines, subjects};
+use row::Time;
+use table::Table;
+
+fn plan(names: &[&str]) -> Plan {
+    let scene = |name: &&str| ((*name).to_owned(), scenes::scene(name).unwrap());
+    Plan { scenes: names.iter().map(scene).collect(), quick: true, general: false }
+}
+
+/// The cheapest setting of every method.
+fn cheapest() -> Vec<Step> {
+    let mut steps = jobs::steps(&plan(&[]));
+    let mut known: Vec<&str> = Vec::new();
+    steps.retain(|step| !known.contains(&step.series) && (known.push(step.series), true).1);
+    steps
+}
+
+/// Every method at its cheapest, from a few points of each scene.
+fn glance(names: &[&str]) -> Report {
+    let steps = cheapest();
+    let mut rows = Vec::new();
+    for (name, scene) in &plan(names).scenes {
+        let stage = Stage::new(name, scene, 120).unwrap();
+        rows.extend(stage.question(4).measure(&steps, 1).into_iter().map(Row::Measured));
+    }
+    Report { rows, machine: Machine::here(), quick: true, portraits: Vec::new() }
+}
+
+/// The tables of a text in Markdown, each with the heading above it.
+fn tables(text: &str) -> Vec<(String, Table)> {
+    let cells = |line: &str| -> Vec<String> {
+        line.trim().trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
+    };
+    let (mut heading, mut tables, mut inside) = (String::new(), Vec::new(), false);
+    for line in text.lines() {
+        if line.starts_with('#') {
+            heading = line.trim_start_matches('#').trim().to_owned();
+        }
+        if line.starts_with("| ---") {
+            continue;
+        }
+        match (line.starts_with('|'), inside) {
+            (true, false) => tables.push((heading.clone(), Table { header: cells(line), rows: Vec::new() })),
+            (true, true) => tables.last_mut().unwrap().1.rows.push(cells(line)),
+            _ => {}
+        }
+        inside = line.starts_with('|');
+    }
+    tables
+}
+
+/// What stays when figures change: the header and the first cell of each row.
+fn shape(table: &Table) -> (Vec<String>, Vec<String>) {
+    (table.header.clone(), table.rows.iter().map(|row| row[0].clone()).collect())
+}
+
+const BARRETO: [&str; 5] = ["emission", "obstruction", "beams", "small-occluders", "perforated"];
+
+#[test]
+fn the_readme_has_the_tables_that_its_command_writes() {
+    let readme = include_str!("../../../README.md");
+    let command = format!("radiosity report {} -o report", BARRETO.join(" "));
+    assert!(readme.contains(&command), "the README names no command: {command}");
+    let shown = tables(readme);
+    let made = tables(&glance(&BARRETO).tables());
+    for (heading, table) in made.iter().filter(|(_, table)| !table.rows.is_empty()) {
+        let found = shown.iter().find(|(shown, _)| shown == heading);
+        let (_, found) = found.unwrap_or_else(|| panic!("the README has no table {heading}"));
+        assert_eq!(shape(found), shape(table), "{heading}: make the README's tables anew by its command");
+    }
+}
+
+#[test]
+fn on_scenes_with_occlusion_the_exact_bound_is_below_1e_12_and_no_sampling_is_as_exact() {
+    let report = glance(&["obstruction", "beams", "perforated"]);
+    for (name, rows) in subjects(report.measured(Chapter::Scenes)) {
+        for line in lines(&rows) {
+            let best = line.best()[0];
+            assert_eq!(line.name == jobs::EXACT, best < 1e-12, "{name}, {}: {best}", line.name);
+        }
+    }
+}
+
+#[test]
+fn the_rows_of_two_runs_differ_in_times_alone() {
+    let untimed = |report: &Report| -> Vec<Measured> {
+        let row = |row: &Measured| Measured { time: Time::default(), ..row.clone() };
+        report.measured(Chapter::Scenes).map(row).collect()
+    };
+    assert_eq!(untimed(&glance(&["beams"])), untimed(&glance(&["beams"])));
+}
+
+#[test]
+fn every_row_is_a_line_of_json_and_every_scene_a_section() {
+    let report = glance(&["obstruction", "wall"]);
+    let lines: Vec<serde_json::Value> =
+        report.lines().lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 1 + report.rows.len());
+    assert!(lines[1..].iter().all(|line| line["error"]["max"].is_number() && line["row"] == "measured"));
+    let page = report.page(None);
+    for part in
+        ["<h3 id=\"obstruction\">", "<h3 id=\"wall\">", "prefers-color-scheme: dark", "<svg class=\"plot\""]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("http://") && !page.contains("https://"), "nothing is fetched");
+}
+
+#[test]
+fn a_method_that_samples_everywhere_agrees_with_the_exact_references_of_points() {
+    let rays = &jobs::middle(&plan(&[]))[5];
+    for question in cases::questions() {
+        let exact = question.measure(&cheapest()[..1], 1);
+        assert!(exact[0].error.max <= exact[0].bound.unwrap() + 1e-16, "{}", question.subject);
+        let sampled = question.measure(std::slice::from_ref(rays), 1);
+        assert!(sampled[0].error.max < 0.02, "{}: {:?}", question.subject, sampled[0].error);
+    }
+}
