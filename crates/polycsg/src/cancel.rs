@@ -14,7 +14,7 @@
 
 use crate::copies::mixed;
 use crate::edges::{Edges, Ring};
-use crate::predicates::{lexicographic, rightward};
+use crate::predicates::lexicographic;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -46,7 +46,10 @@ struct Run {
 /// The buffers of the stage.
 #[derive(Debug, Default)]
 pub(crate) struct Cancel {
-    sample: Vec<u32>,
+    /// Edges by their keys.
+    sample: Vec<(u64, u32)>,
+    /// Whether all rings change one counter.
+    alike: bool,
     /// A hash table with open addressing.
     kinds: Vec<Kind>,
     /// Per edge the next in its kind's list, and whether it has cancelled.
@@ -79,18 +82,17 @@ impl Cancel {
         self.sample.clear();
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
             for vertex in (ring.start..ring.end).filter(|&v| digits(edges.point(v)) >> shift == 0) {
-                self.sample.extend([ring.previous(vertex), vertex]);
+                self.sample.extend([ring.previous(vertex), vertex].map(|edge| (key(edges, edge), edge)));
             }
         }
-        let sample = &mut self.sample;
-        sample.sort_unstable_by(|&e, &f| by_kind(edges, e, f).then(e.cmp(&f)));
-        sample.dedup();
-        let cancels = |kind: &[u32]| {
-            let rightward = kind.iter().filter(|&&edge| is_rightward(edges, edge)).count();
-            2 * rightward.min(kind.len() - rightward)
+        self.sample.sort_unstable();
+        self.sample.dedup();
+        let cancels = |same: &[(u64, u32)]| {
+            let rightward = same.iter().filter(|&&(_, edge)| is_rightward(edges, edge)).count();
+            2 * rightward.min(same.len() - rightward)
         };
-        let kinds = sample.chunk_by(|&e, &f| by_kind(edges, e, f) == Ordering::Equal);
-        !sample.is_empty() && 8 * kinds.map(cancels).sum::<usize>() >= sample.len()
+        let kinds = self.sample.chunk_by(|a, b| a.0 == b.0);
+        !self.sample.is_empty() && 8 * kinds.map(cancels).sum::<usize>() >= self.sample.len()
     }
 
     /// Finds the edges that cancel.
@@ -102,6 +104,7 @@ impl Cancel {
         self.next.resize(edges.len(), NONE);
         self.gone.clear();
         self.gone.resize(edges.len(), false);
+        self.alike = edges.rings().windows(2).all(|pair| pair[0].counter() == pair[1].counter());
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
             let mut key = mixed(edges.point(ring.start));
             for edge in ring.start..ring.end {
@@ -116,7 +119,7 @@ impl Cancel {
     fn add(&mut self, edges: &Edges, edge: u32, key: u64) {
         let mask = self.kinds.len() - 1;
         let mut place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
-        while self.kinds[place].one != NONE && !is_kind(edges, self.kinds[place].one, edge) {
+        while self.kinds[place].one != NONE && !self.is_kind(edges, self.kinds[place].one, edge) {
             place = (place + 1) & mask;
         }
         let kind = &mut self.kinds[place];
@@ -128,6 +131,14 @@ impl Cancel {
             self.next[edge as usize] = kind.left;
             *kind = Kind { one: edge, left: edge };
         }
+    }
+
+    /// Whether two edges have the same ends and change the same counter.
+    #[inline]
+    fn is_kind(&self, edges: &Edges, e: u32, f: u32) -> bool {
+        let ([a, b], [c, d]) = (edges.segment(e), edges.segment(f));
+        ((a == d && b == c) || (a == c && b == d))
+            && (self.alike || edges.ring(e).counter() == edges.ring(f).counter())
     }
 
     fn find_runs(&mut self, edges: &Edges) {
@@ -243,16 +254,8 @@ fn is_rightward(edges: &Edges, edge: u32) -> bool {
     lexicographic(a, b) == Ordering::Less
 }
 
-/// Whether two edges have the same ends and change the same counter.
-#[inline]
-fn is_kind(edges: &Edges, e: u32, f: u32) -> bool {
-    let ([a, b], [c, d]) = (edges.segment(e), edges.segment(f));
-    ((a == c && b == d) || (a == d && b == c)) && edges.ring(e).counter() == edges.ring(f).counter()
-}
-
-fn by_kind(edges: &Edges, e: u32, f: u32) -> Ordering {
-    let ends = |edge: u32| rightward(edges.segment(edge));
-    let ([a, b], [c, d]) = (ends(e), ends(f));
-    let counter = |edge: u32| edges.ring(edge).counter();
-    lexicographic(a, c).then_with(|| lexicographic(b, d)).then_with(|| counter(e).cmp(&counter(f)))
+/// Equal for edges with the same ends and counter, and hardly ever for others.
+fn key(edges: &Edges, edge: u32) -> u64 {
+    let [a, b] = edges.segment(edge).map(mixed);
+    a.wrapping_add(b) ^ edges.ring(edge).counter().map_or(0, u64::from)
 }

@@ -99,6 +99,18 @@ impl Place {
     }
 }
 
+/// Whether each ring lies about as near to the one before it as it would when sorted by columns.
+fn are_near(places: &[Place]) -> bool {
+    let (mut low, mut high, mut way) = (DVec2::MAX, DVec2::MIN, DVec2::ZERO);
+    for (a, b) in places.iter().zip(&places[1..]) {
+        low = low.min(b.point);
+        high = high.max(b.point);
+        way += (b.point - a.point).abs();
+    }
+    let columns = DVec2::splat(places.len() as f64).powf(0.5);
+    way.cmple(4.0 * columns * (high - low)).all()
+}
+
 /// Sorts by columns of about as many rings as there are columns, up and down in turn.
 fn sort_by_place(places: &mut [Place]) {
     places.sort_unstable_by(|a, b| {
@@ -125,7 +137,9 @@ impl Edges {
             for (operand, leaf) in leaves.iter().enumerate() {
                 places.extend(leaf.rings().into_iter().flat_map(|rings| Place::of_all(rings, operand)));
             }
-            sort_by_place(&mut places);
+            if !are_near(&places) {
+                sort_by_place(&mut places);
+            }
             for place in places {
                 self.add_ring(leaves[place.operand as usize], place.operand, place.ring as usize, truth);
             }
