@@ -107,7 +107,8 @@ impl Suspects {
                 let t = edges.segment(other);
                 let gap =
                     (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
-                if other == edge || gap > self.margins.close {
+                // The neighbour on the other side is looked at from there.
+                if other == edge || step(ring, other) == edge || gap > self.margins.close {
                     break;
                 }
                 let areas = |line: Segment, ends: Segment| ends.map(|p| doubled_area(line[0], line[1], p));
