@@ -224,6 +224,9 @@ impl Contacts {
     #[inline]
     fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut Suspects) {
         let (s, t) = (edges.segment(e), edges.segment(f));
+        if f == e + 1 && suspects.margins().are_steep([s, t], doubled_area(s[0], s[1], t[1])) {
+            return; // neighbours that meet in their common end alone
+        }
         let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
         if suspects.margins().are_apart(s, ends_of_f) {
             return;

@@ -106,7 +106,7 @@ pub struct Csg<'a> {
 
 impl<'a> From<&'a Region> for Csg<'a> {
     fn from(region: &'a Region) -> Self {
-        Csg { postfix: vec![Token::Region(region)] }
+        Csg::leaf(Token::Region(region))
     }
 }
 
@@ -124,7 +124,7 @@ impl<'a> Csg<'a> {
         R::Item: AsRef<[P]>,
         P: Copy + Into<DVec2>,
     {
-        Ok(Csg { postfix: vec![Token::Rings(Rings::read(rings)?, rule)] })
+        Ok(Csg::leaf(Token::Rings(Rings::read(rings)?, rule)))
     }
 
     /// The union of any number of operands; of none, the empty set.
@@ -166,11 +166,18 @@ impl<'a> Csg<'a> {
 
     /// Positively wound rings, already read.
     pub(crate) fn positive(rings: Rings) -> Csg<'static> {
-        Csg { postfix: vec![Token::Rings(rings, FillRule::Positive)] }
+        Csg::leaf(Token::Rings(rings, FillRule::Positive))
     }
 
     pub(crate) fn postfix(&self) -> &[Token<'a>] {
         &self.postfix
+    }
+
+    /// One operand, with room for another one and an operator.
+    fn leaf(token: Token<'a>) -> Csg<'a> {
+        let mut postfix = Vec::with_capacity(3);
+        postfix.push(token);
+        Csg { postfix }
     }
 
     fn joined<I>(operator: Operator, operands: I) -> Csg<'a>

@@ -23,7 +23,9 @@ impl Rings {
     {
         let mut read = Rings::default();
         for (ring, points) in rings.into_iter().enumerate() {
-            for (vertex, &point) in points.as_ref().iter().enumerate() {
+            let points = points.as_ref();
+            read.points.reserve(points.len() + 1);
+            for (vertex, &point) in points.iter().enumerate() {
                 let point: DVec2 = point.into();
                 if !point.is_finite() {
                     return Err(Error::NonFinite { ring, vertex });

@@ -7,7 +7,7 @@
 use crate::chains::LONGEST;
 use crate::contacts::{Contact, Met, Partner};
 use crate::edges::{Edges, Ring};
-use crate::predicates::{Margins, Parameter, Segment, doubled_area};
+use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
 
 /// See the module's page.
 #[derive(Debug, Default)]
@@ -102,13 +102,16 @@ impl Suspects {
             if turns_back && !self.margins.are_steep([s, t], doubled_area(corner, start, end)) {
                 self.add(edge, other);
             }
+            let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
+            if !leads_on(t) {
+                continue; // another chain: its boxes were looked at
+            }
             for _ in 0..LONGEST {
                 other = step(ring, other);
                 let t = edges.segment(other);
                 let gap =
                     (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
-                // The neighbour on the other side is looked at from there.
-                if other == edge || step(ring, other) == edge || gap > self.margins.close {
+                if gap > self.margins.close || !leads_on(t) {
                     break;
                 }
                 let areas = |line: Segment, ends: Segment| ends.map(|p| doubled_area(line[0], line[1], p));

@@ -63,9 +63,11 @@ pub(crate) struct Truth {
     gates: Vec<Gate>,
     /// The counter of each operand; an open edge has none.
     operands: Vec<Option<u32>>,
+    open: Vec<Open>,
 }
 
 /// A gate that awaits operands: `remaining` of them, the first into `first`, all others into `rest`.
+#[derive(Clone, Copy, Debug)]
 struct Open {
     remaining: usize,
     first: u32,
@@ -79,16 +81,20 @@ impl Truth {
         self.gates.clear();
         self.operands.clear();
         self.add_gate(Kind::Any, None);
-        let mut open = vec![Open { remaining: 1, first: 0, rest: 0 }];
+        self.open.clear();
+        self.open.push(Open { remaining: 1, first: 0, rest: 0 });
         for token in csg.postfix().iter().rev() {
-            while open.last().is_some_and(|top| top.remaining == 0) {
-                open.pop();
+            while self.open.last().is_some_and(|top| top.remaining == 0) {
+                self.open.pop();
             }
-            let Some(top) = open.last_mut() else { break };
+            let Some(top) = self.open.last_mut() else { break };
             top.remaining -= 1;
             let gate = if top.remaining == 0 { top.first } else { top.rest };
             match token {
-                Token::Operator(operator, count) => open.push(self.open(*operator, *count, gate)),
+                Token::Operator(operator, count) => {
+                    let gate = self.gate_for(*operator, *count, gate);
+                    self.open.push(gate);
+                }
                 Token::Region(_) => self.add_region(gate),
                 Token::Rings(_, rule) => self.add_rings(*rule, gate),
                 Token::Edge(_) => self.operands.push(None),
@@ -97,7 +103,7 @@ impl Truth {
         self.operands.reverse();
     }
 
-    fn open(&mut self, operator: Operator, count: usize, above: u32) -> Open {
+    fn gate_for(&mut self, operator: Operator, count: usize, above: u32) -> Open {
         let kind = match operator {
             Operator::Union => Kind::Any,
             Operator::Intersection | Operator::Difference => Kind::All,
