@@ -36,14 +36,43 @@ impl Bodies {
         bodies
     }
 
-    /// Whether polygon `id` turns its back to dA and belongs to a body around which dA is outside, and not on it.
-    pub(crate) fn is_far_side(&self, polygons: &[PlanarPolygon], from: &DifferentialArea, id: usize) -> bool {
+    /// Whether polygon `id` turns its back to dA and belongs to a body around which dA is outside, and not on it. `last`
+    /// keeps what was found of the last body: faces of one body mostly come in a row.
+    pub(crate) fn is_far_side(
+        &self,
+        polygons: &[PlanarPolygon],
+        from: &DifferentialArea,
+        id: usize,
+        last: &mut Option<Outside>,
+    ) -> bool {
         let Some(body) = self.of[id] else { return false };
-        let side = |face: usize| polygons[face].plane().side_of(from.position());
-        from.owner().is_none_or(|owner| self.of[owner] != Some(body))
-            && side(id) == Ordering::Less
-            && self.faces[body].iter().any(|face| side(*face) == Ordering::Greater)
+        if polygons[id].plane().side_of(from.position()) != Ordering::Less {
+            return false;
+        }
+        let known = last.filter(|last| last.body == body);
+        let found =
+            known.unwrap_or_else(|| Outside { body, is_outside: self.is_outside(polygons, from, body) });
+        *last = Some(found);
+        found.is_outside
     }
+
+    /// Whether dA is before a face. It is not said where that is a matter of rounding: the face may lie in the plane of dA's
+    /// owner, and hides nothing then.
+    fn is_outside(&self, polygons: &[PlanarPolygon], from: &DifferentialArea, body: usize) -> bool {
+        if from.owner().is_some_and(|owner| self.of[owner] == Some(body)) {
+            return false;
+        }
+        let planes = self.faces[body].iter().map(|face| polygons[*face].plane());
+        let mut near = planes.filter(|plane| plane.side_of(from.position()) == Ordering::Greater).peekable();
+        near.peek().is_some() && near.all(|plane| plane.quick_side(from.position()).is_some())
+    }
+}
+
+/// Whether dA is outside of a body, so that its far side hides nothing more than its near side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outside {
+    body: usize,
+    is_outside: bool,
 }
 
 /// The polygons across each polygon's edges, `None` where an edge has not exactly one partner that runs the other way.

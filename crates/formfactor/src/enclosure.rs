@@ -150,7 +150,7 @@ impl Enclosure {
             return unseen(from, to);
         }
         self.pool.lend(|Buffers { quick, scratch, stats }| {
-            let others = || near.iter().filter(|i| self.can_hide(from, **i)).map(|i| &self.polygons[*i]);
+            let others = || self.others(from, id, near.iter().copied());
             quick::form_factor(from, to, |_| others(), quick, stats)
                 .unwrap_or_else(|| by_csg(from, to, |_| others(), scratch, stats))
         })
@@ -161,15 +161,16 @@ impl Enclosure {
         &self,
         from: &DifferentialArea,
         id: usize,
-        found: Vec<usize>,
+        found: impl IntoIterator<Item = usize>,
     ) -> impl Iterator<Item = &PlanarPolygon> {
-        let found = found.into_iter();
-        found.filter(move |i| *i != id && self.can_hide(from, *i)).map(|i| &self.polygons[i])
-    }
-
-    /// Whether polygon `id` can hide anything that no other one hides: not when it is edge-on, nor on the far side of a body.
-    fn can_hide(&self, from: &DifferentialArea, id: usize) -> bool {
-        !self.is_edge_on(from, id) && !self.bodies.is_far_side(&self.polygons, from, id)
+        let mut last = None;
+        // Not what is edge-on, nor the far side of a body, which hides nothing that its near side does not.
+        let can_hide = move |i: &usize| {
+            *i != id
+                && !self.is_edge_on(from, *i)
+                && !self.bodies.is_far_side(&self.polygons, from, *i, &mut last)
+        };
+        found.into_iter().filter(can_hide).map(|i| &self.polygons[i])
     }
 
     /// Whether polygon `id` owns `from` or lies in the plane of the one that does.

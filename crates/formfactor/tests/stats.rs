@@ -110,3 +110,29 @@ fn from_inside_a_body_its_walls_hide() {
     let polygons = [vec![square(1.0, 2.0)], solid].concat();
     assert_eq!(Enclosure::new(polygons).form_factor(&from, 0).value, 0.0);
 }
+
+#[test]
+fn a_body_on_a_slope_hides_all_from_what_it_stands_on() {
+    // The slope z = x / 3, a prism on it, and a ceiling. Points of the slope are rounded to either side of it.
+    let polygon = |corners: [[f64; 3]; 4]| PlanarPolygon::new([corners]).unwrap();
+    let slope = polygon([[0.0, 0.0, 0.0], [3.0, 0.0, 1.0], [3.0, 3.0, 1.0], [0.0, 3.0, 0.0]]);
+    let ceiling = polygon([[0.0, 0.0, 5.0], [0.0, 3.0, 5.0], [3.0, 3.0, 5.0], [3.0, 0.0, 5.0]]);
+    let (low, high) = (0.75, 2.25);
+    let base = [[low, low, 0.25], [high, low, 0.75], [high, high, 0.75], [low, high, 0.25]];
+    let top = base.map(|[x, y, _]| [x, y, 2.0]);
+    let [a, b, c, d] = base;
+    let mut polygons = vec![slope, ceiling, polygon([d, c, b, a]), polygon(top)];
+    polygons.extend((0..4).map(|i| polygon([base[i], base[(i + 1) % 4], top[(i + 1) % 4], top[i]])));
+    let room = Enclosure::new(polygons);
+    let seen = |x: f64| {
+        let normal = DVec3::new(-1.0, 0.0, 3.0);
+        let from = DifferentialArea::new(DVec3::new(x, 1.3, x / 3.0), normal).unwrap().owned_by(0);
+        let alone = room.form_factor(&from, 1).value;
+        assert_eq!(alone, room.form_factors(&[from], 1)[0].value);
+        alone
+    };
+    for i in 0..100u32 {
+        assert_eq!(seen(0.8 + 0.014 * f64::from(i)), 0.0);
+        assert!(seen(2.3 + 0.005 * f64::from(i)) > 0.0);
+    }
+}

@@ -74,6 +74,7 @@ fn report_refuses_before_it_measures() {
     let bad = radiosity(at, &["report", "furnace", "-o", "out", "--peers", "peers"]);
     assert_eq!(code(&bad), 3);
     assert!(stderr(&bad).contains("line 1"), "{}", stderr(&bad));
+    assert!(!at.join("out").exists(), "nothing is made for what is refused");
     assert_eq!(code(&radiosity(at, &["report", "furnace", "-o", "peers"])), 1);
     assert_eq!(code(&radiosity(at, &["report", "furnace"])), 2);
 }

@@ -1,5 +1,5 @@
 //! `radiosity report`
-use super::{Failure, input};
+use super::{Failure, input, output::Output};
 use clap::Args;
 use radiosity::report::{Peers, Plan, report};
 use radiosity::{Scene, io, scenes};
@@ -27,11 +27,13 @@ pub(super) struct Report {
 /// Measures every method on every scene; writes the page, the lines and the tables.
 pub(super) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
     let peers = arguments.peers.as_deref().map(peers).transpose()?;
+    let plan = plan(arguments)?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::internal(format!("{}: cannot be made: {error}; name another folder", folder.display()))
     })?;
-    let plan = plan(arguments)?;
+    // Half an hour of work is not begun for a folder that takes no files.
+    Output::new(&folder.join("report.html"))?;
     let report = report(&plan, |next| eprintln!("{next}"))?;
     let files = [
         ("report.html", report.page(peers.as_ref())),

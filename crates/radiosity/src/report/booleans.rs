@@ -19,7 +19,7 @@ type Axis = (&'static str, fn(i32) -> Case, Vec<i32>);
 /// All axes.
 pub(super) fn measure(plan: &Plan) -> Vec<Measured> {
     let axes: [Axis; 5] = [
-        ("scale of the coordinates", scaled, (-150..=150).step_by(50).collect()),
+        ("scale of the coordinates", scaled, (-480..=480).step_by(160).collect()),
         ("distance of 64 wedges from one point", concurrent, (0..=20).step_by(4).collect()),
         ("shift of a grid on its copy", coincident, (0..=50).step_by(10).collect()),
         ("length of nearly parallel edges / their distance", parallel, (0..=50).step_by(10).collect()),

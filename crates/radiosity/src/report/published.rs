@@ -39,7 +39,7 @@ pub(super) struct Published {
 }
 
 /// Number of the table, scene, elements, and what was printed of the exact method and of the visibility index.
-const BARRETO: [(&str, &str, usize, [&str; 2]); 5] = [
+pub(super) const BARRETO: [(&str, &str, usize, [&str; 2]); 5] = [
     ("4.1", "emission", 4770, ["4770 elements, 5040 vertices, 62.203 s", "4767, 5037, 64.75 s"]),
     ("4.2", "obstruction", 3035, ["3035 elements, 3295 vertices, 147.235 s", "3656, 3988, 338.047 s"]),
     ("4.3", "beams", 18_716, ["18716 elements, 19977 vertices, 99.145 s", "18644, 19929, 197.047 s"]),

@@ -24,26 +24,32 @@ const AXES: [&str; 3] = [
 
 /// All solvers along all axes.
 pub(super) fn measure(plan: &Plan) -> Result<Vec<Measured>, Error> {
-    let nines = [0.5, 0.1, 1e-2, 1e-3, 1e-6, 1e-9, 1e-12];
     let shots = if plan.quick { 20_000 } else { 400_000 };
-    let (mut rows, known) = (Vec::new(), &RefCell::default());
-    for absorbed in nines {
-        let furnace = scenes::scene(&format!("furnace-{}", 1.0 - absorbed)).expect("reflectance below 1");
-        let on = |axis, scene| Room { axis, at: 1.0 / absorbed, scene, shots, known };
-        rows.extend(on(AXES[0], &furnace).measure(plan.rounds(), |_| Ok(None))?);
-        let cube = cube(1.0 - absorbed, 1.0);
-        rows.extend(
-            on(AXES[1], &cube).measure(plan.rounds(), |method| converged(&cube, method, known).map(Some))?,
-        );
+    let absorbed = [0.5, 0.1, 1e-2, 1e-3, 1e-6, 1e-9, 1e-12];
+    let scales = [1e-30, 1e-20, 1e-10, 1.0, 1e10, 1e20, 1e30];
+    along(&absorbed, &scales, shots, plan.rounds())
+}
+
+/// All solvers at these shares of light that rooms absorb, and at these scales of emission.
+fn along(absorbed: &[f64], scales: &[f64], shots: usize, rounds: usize) -> Result<Vec<Measured>, Error> {
+    let mut rows = Vec::new();
+    let (in_furnace, known) = (&RefCell::default(), &RefCell::default());
+    for absorbed in absorbed {
+        let scene = &scenes::scene(&format!("furnace-{}", 1.0 - absorbed)).expect("reflectance below 1");
+        let room = Room { axis: AXES[0], at: 1.0 / absorbed, scene, shots, known: in_furnace };
+        rows.extend(room.measure(rounds, |_| Ok(None))?);
+        let scene = &cube(1.0 - absorbed, 1.0);
+        let room = Room { axis: AXES[1], at: 1.0 / absorbed, scene, shots, known };
+        rows.extend(room.measure(rounds, |method| converged(scene, method, known).map(Some))?);
     }
     let plain = cube(0.5, 1.0);
-    for scale in [1e-30, 1e-20, 1e-10, 1.0, 1e10, 1e20, 1e30] {
+    for &scale in scales {
         let scaled = |method| {
             let light = converged(&plain, method, known)?;
             Ok(Some(light.iter().map(|b| b * scale).collect()))
         };
         let room = Room { axis: AXES[2], at: scale, scene: &cube(0.5, scale), shots, known };
-        rows.extend(room.measure(plan.rounds(), scaled)?);
+        rows.extend(room.measure(rounds, scaled)?);
     }
     Ok(rows)
 }
@@ -128,6 +134,23 @@ impl Room<'_> {
             bound: solution.bound.first().map(|bound| bound / largest).filter(|bound| bound.is_finite()),
             valid: Some(solution.converged),
             time,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_solvers_that_converge_meet_their_references() {
+        let rows = along(&[0.5, 1e-6], &[1e20], 20_000, 1).unwrap();
+        assert_eq!(rows.len(), 5 * METHODS.len());
+        for row in rows {
+            let (axis, name, error) = (&row.subject, &row.series, row.error.max);
+            let converges = name != "shooting" || row.amount == 2.0;
+            assert!(row.valid == Some(true) || !converges, "{axis} {name}");
+            assert!(error < 1e-8 || !converges, "{axis} {name}: {error}");
         }
     }
 }

@@ -32,6 +32,7 @@ pub(super) fn questions(plan: &Plan) -> Vec<(f64, Question)> {
 
 fn axes(plan: &Plan) -> Vec<Axis> {
     let every = |quick: usize, full: usize| if plan.quick { quick } else { full };
+    let most = if plan.quick { 6 } else { 8 };
     vec![
         (
             "distance / size",
@@ -45,8 +46,8 @@ fn axes(plan: &Plan) -> Vec<Axis> {
         ),
         ("distance from the origin / size", far_off, (0..=48).step_by(every(12, 4)).collect()),
         ("1 / grazing angle", grazing, (0..=12).step_by(every(3, 1)).collect()),
-        ("number of occluders", many, (0..=8).step_by(every(2, 1)).collect()),
-        ("occluders one behind the other", deep, (0..=10).step_by(every(2, 1)).collect()),
+        ("number of occluders", many, (0..=most).step_by(every(2, 1)).collect()),
+        ("occluders one behind the other", deep, (0..=most).step_by(every(2, 1)).collect()),
         (
             "size of the target / size of what is seen",
             |k| Spot { at: 10f64.powi(k), ..window(1.0, [1.0, 1.0], [10f64.powi(-k); 2]) },
