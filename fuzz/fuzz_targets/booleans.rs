@@ -1,4 +1,5 @@
-//! Lattice rings, some of them scaled by a fraction or moved by single ulps: every operation against the exact oracle.
+//! Lattice rings, some of them scaled by a fraction or moved by single ulps: every operation against the exact oracle,
+//! and found by boxes as by slabs.
 #![no_main]
 use arbitrary::Arbitrary;
 use glam::DVec2;
@@ -43,8 +44,10 @@ fuzz_target!(|input: Input| {
         if let Err(e) = check(&pair, operation, &arrangement) {
             panic!("{operation:?}: {e}\n{:?}\n{:?}", pair.a, pair.b);
         }
+        let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
+        let by_slabs = expression.evaluate_in(&mut polycsg::fuzzing::hasty());
+        assert_eq!(by_slabs, expression.evaluate(), "{operation:?} by slabs\n{:?}\n{:?}", pair.a, pair.b);
         if matches!(input.step, Step::One) {
-            let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
             let boundary = expression.boundary(&mut scratch);
             if let Err(e) = check_boundary(boundary.edges(), &arrangement.operation(operation)) {
                 panic!("boundary of {operation:?}: {e}\n{:?}\n{:?}", pair.a, pair.b);

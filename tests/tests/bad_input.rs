@@ -1,6 +1,10 @@
 //! Input that is no polygon: a typed error, or the set that it stands for; never a panic, never a hang.
 use glam::DVec2;
 use polycsg::{Csg, Error, FillRule, Location, Region, classify};
+use tests::against::check;
+use tests::generators::Pair;
+use tests::oracle::{Arrangement, Operand, Operation, Rule};
+use tests::random::Random;
 
 const RULES: [FillRule; 3] = [FillRule::EvenOdd, FillRule::NonZero, FillRule::Positive];
 
@@ -126,4 +130,27 @@ fn opposite_corners_of_the_range() {
     assert_eq!(all.intersection(&dot), dot);
     assert_eq!(all.difference(&dot).polygons().map(|p| p.holes().count()).sum::<usize>(), 1);
     assert_eq!(all.area(), f64::INFINITY);
+}
+
+/// Edges wider than the largest double: their widths overflow, and nothing may be read off an overflow.
+#[test]
+fn edges_wider_than_the_range() {
+    let point = |x: i32, y: i32| DVec2::new(f64::from(x) / 8.0 * f64::MAX, f64::from(y));
+    let operand = |rings: &[&[(i32, i32)]]| Operand {
+        rings: rings.iter().map(|ring| ring.iter().map(|&(x, y)| point(x, y)).collect()).collect(),
+        rule: Rule::EvenOdd,
+    };
+    // Found at random: the nesting never came to an end.
+    let a = operand(&[&[(7, 0), (-1, 10), (-3, 28)], &[(7, 25), (0, 10), (1, 32)]]);
+    let b = operand(&[&[(5, 19), (-8, 23), (1, 2), (6, 4)]]);
+    let mut random = Random::new(5);
+    let mut triangle = || [(); 3].map(|()| (random.between(-8, 8), random.between(0, 40)));
+    let pairs = (0..100).map(|_| (operand(&[&triangle(), &triangle()]), operand(&[&triangle()])));
+    for (a, b) in std::iter::once((a, b)).chain(pairs) {
+        let pair = Pair { name: "wide".into(), a, b };
+        let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
+        for operation in Operation::ALL {
+            check(&pair, operation, &arrangement).unwrap_or_else(|e| panic!("{operation:?}: {e}\n{pair:?}"));
+        }
+    }
 }

@@ -133,3 +133,19 @@ fn extreme_coordinates_neither_panic_nor_leave_the_unit_interval() {
         assert!((0.0..=1.0).contains(&factor.value) && factor.error_bound >= 0.0, "{factor:?}");
     }
 }
+
+#[test]
+fn what_lies_in_a_plane_of_the_question_blocks_nothing() {
+    let to = PlanarPolygon::new([square(-1.0, 1.0, 2.0)]).unwrap();
+    let from = area_at([0.25, 0.5, 3.0], [0.0, 0.0, -1.0]);
+    let at = |z: f64| [PlanarPolygon::new([square(-9.0, 9.0, z)]).unwrap()];
+    let free = unoccluded(&from, &to);
+    assert!(free.value > 0.2);
+    // In the target's plane or in the point's, and one ulp beyond either: nothing is hidden. One ulp between: all is.
+    for z in [2.0, 2.0_f64.next_down(), 3.0, 3.0_f64.next_up()] {
+        assert_eq!(form_factor(&from, &to, &at(z)).value, free.value, "at {z}");
+    }
+    for z in [2.0_f64.next_up(), 3.0_f64.next_down()] {
+        assert_eq!(form_factor(&from, &to, &at(z)).value, 0.0, "at {z}");
+    }
+}

@@ -42,6 +42,13 @@ pub(crate) struct Patience {
     pub(crate) blocks_per_edge: usize,
 }
 
+#[cfg(any(test, fuzzing))]
+impl Patience {
+    /// Slabs at once.
+    pub(crate) const NONE: Patience =
+        Patience { pairs: 0, pairs_per_edge: 0, pairs_per_node: 0, blocks_per_edge: 0 };
+}
+
 impl Default for Patience {
     fn default() -> Patience {
         Patience { pairs: 1000, pairs_per_edge: 12, pairs_per_node: 8, blocks_per_edge: 32 }

@@ -92,6 +92,9 @@ mod csg;
 mod double;
 mod edges;
 mod error;
+#[cfg(fuzzing)]
+#[doc(hidden)]
+pub mod fuzzing;
 #[cfg(feature = "geo-types")]
 mod geo;
 mod labels;

@@ -5,8 +5,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 fn hasty() -> Scratch {
-    let patience = Patience { pairs: 0, pairs_per_edge: 0, pairs_per_node: 0, blocks_per_edge: 0 };
-    Scratch { patience, ..Scratch::default() }
+    Scratch { patience: Patience::NONE, ..Scratch::default() }
 }
 
 fn rings(points: impl Strategy<Value = DVec2>) -> impl Strategy<Value = Vec<Vec<DVec2>>> {

@@ -14,13 +14,19 @@
 //! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
 
 mod clear;
+#[cfg(any(test, fuzzing))]
+mod configurations;
 mod exact;
+#[cfg(any(test, fuzzing))]
+mod laws;
 mod order;
 mod orient;
 mod parameter;
 mod round;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod whole_range;
 
 pub(crate) use clear::{Clear, Margins};
 pub(crate) use exact::{Ratio, exact_area};
@@ -35,3 +41,14 @@ use glam::DVec2;
 
 /// A directed straight edge, from `[0]` to `[1]`.
 pub(crate) type Segment = [DVec2; 2];
+
+/// Asks every predicate about one configuration, made of a stream of words.
+///
+/// # Errors
+/// The predicate that is wrong, and the points.
+#[cfg(fuzzing)]
+pub(crate) fn check(mut word: impl FnMut() -> u64) -> Result<(), String> {
+    let points = configurations::configuration(&mut word);
+    let wrong = laws::LAWS.iter().find(|(_, law)| law(&points) == Some(false));
+    wrong.map_or(Ok(()), |(name, _)| Err(format!("{name} is wrong about {points:?}")))
+}

@@ -70,12 +70,13 @@ pub(crate) fn rightward(e: Segment) -> Segment {
 
 /// The ordinate of a rightward, not vertical edge at `x`, and a bound on its error.
 ///
-/// With the parameter in [0, 1] the seven roundings amount to less than 8u (|y0| + |y1|); an overflow makes the sum
-/// NaN or infinite, and either fails every comparison.
+/// With the parameter in [0, 1] the seven roundings amount to less than 8u (|y0| + |y1|). An edge wider than the largest
+/// double has no parameter, so no bound; an overflow of ordinates makes the bound infinite, which fails every comparison.
 fn height(e: Segment, x: f64) -> (f64, f64) {
-    let t = (x - e[0].x) / (e[1].x - e[0].x);
+    let run = e[1].x - e[0].x;
+    let t = (x - e[0].x) / run;
     let scale = e[0].y.abs() + e[1].y.abs();
-    let error = if scale > 1e-290 { 16.0 * UNIT * scale } else { f64::INFINITY };
+    let error = if scale > 1e-290 && run.is_finite() { 16.0 * UNIT * scale } else { f64::INFINITY };
     (e[0].y + t * (e[1].y - e[0].y), error)
 }
 

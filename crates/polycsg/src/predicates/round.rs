@@ -49,7 +49,7 @@ fn area(f: Segment, p: DVec2) -> (Double, f64) {
 }
 
 /// The rounded crossing, when double-double arithmetic proves both roundings.
-fn crossing_in_double_double(e: Segment, f: Segment) -> Option<DVec2> {
+pub(super) fn crossing_in_double_double(e: Segment, f: Segment) -> Option<DVec2> {
     // One direction of e, so that the answer has one history; the answer itself is the same from any.
     let e = if lexicographic(e[0], e[1]) == Ordering::Greater { [e[1], e[0]] } else { e };
     if ![e[0], e[1], f[0], f[1]].iter().all(|p| in_window(p.x) && in_window(p.y)) {

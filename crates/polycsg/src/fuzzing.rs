@@ -1,0 +1,17 @@
+//! What fuzz targets need to see and users do not. Exists in builds by cargo-fuzz only.
+
+use crate::Scratch;
+use crate::contacts::Patience;
+
+/// Asks every predicate about one configuration of points, made of a stream of words.
+///
+/// # Errors
+/// The predicate that is wrong, and the points.
+pub fn check_predicates(word: impl FnMut() -> u64) -> Result<(), String> {
+    crate::predicates::check(word)
+}
+
+/// Finds what meets by slabs, without looking at boxes first.
+pub fn hasty() -> Scratch {
+    Scratch { patience: Patience::NONE, ..Scratch::default() }
+}
