@@ -95,6 +95,7 @@ mod error;
 #[cfg(fuzzing)]
 #[doc(hidden)]
 pub mod fuzzing;
+mod gates;
 #[cfg(feature = "geo-types")]
 mod geo;
 mod labels;
