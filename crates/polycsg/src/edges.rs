@@ -324,6 +324,21 @@ impl Edges {
         }
     }
 
+    /// Whether the expression holds to the right of an edge, from the left of which the walk looks.
+    #[inline]
+    pub(crate) fn holds_behind(&self, edge: u32, truth: &mut Truth) -> bool {
+        let ring = self.ring(edge);
+        match ring.counter {
+            Some(counter) if ring.also == END => truth.would_hold(counter, -ring.winds),
+            _ => {
+                self.cross(edge, true, truth);
+                let holds = truth.holds();
+                self.cross(edge, false, truth);
+                holds
+            }
+        }
+    }
+
     #[cold]
     fn cross_also(&self, mut place: u32, back: bool, truth: &mut Truth) {
         while place != END {

@@ -218,6 +218,28 @@ impl Gates {
         }
     }
 
+    /// Whether the whole expression would hold after a [`change`](Gates::change).
+    #[inline]
+    pub(crate) fn would_hold(&self, mut gate: u32, mut holds: bool) -> bool {
+        loop {
+            let mut about = self.gates[gate as usize];
+            about.true_others += if holds { 1 } else { -1 };
+            let (mut function, mut node) = (about.function(), about.place);
+            let Gate { tree, above, .. } = self.gates[about.top as usize];
+            let at = |node: u32| self.nodes[(tree + node) as usize];
+            while function != at(node) && node > 1 {
+                let other = at(node ^ 1);
+                function = if node & 1 == 0 { function.after(other) } else { other.after(function) };
+                node /= 2;
+            }
+            if function == at(node) {
+                return self.holds();
+            }
+            let Some((above, opposite)) = above else { return function.of(0) == 1 };
+            (gate, holds) = (above, (function.of(0) == 1) != opposite);
+        }
+    }
+
     /// Sets a node, and tells whether that changed it.
     #[inline]
     fn set(&mut self, tree: u32, node: u32, function: Function) -> bool {

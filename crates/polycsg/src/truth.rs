@@ -166,6 +166,14 @@ impl Truth {
         }
     }
 
+    /// Whether the expression would hold after a [`cross`](Truth::cross).
+    #[inline]
+    pub(crate) fn would_hold(&self, counter: u32, change: i32) -> bool {
+        let counter = &self.counters[counter as usize];
+        let holds = counter.rule.holds(counter.winding + change);
+        if holds == counter.holds { self.holds() } else { self.gates.would_hold(counter.gate, holds) }
+    }
+
     /// Whether the walk has come back to a place outside of everything.
     pub(crate) fn is_outside(&self) -> bool {
         self.counters.iter().all(|c| c.winding == 0)
