@@ -106,6 +106,15 @@ impl Gates {
         self.gates[gate as usize].others += 1;
     }
 
+    pub(crate) fn len(&self) -> u32 {
+        index(self.gates.len())
+    }
+
+    /// The gate that one is a member of, and whether that takes its opposite.
+    pub(crate) fn above(&self, gate: u32) -> Option<(u32, bool)> {
+        self.gates[gate as usize].above
+    }
+
     pub(crate) fn kind(&self, gate: u32) -> Kind {
         self.gates[gate as usize].kind
     }

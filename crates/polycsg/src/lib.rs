@@ -120,6 +120,7 @@ mod triangulate;
 mod truth;
 mod union_find;
 mod validate;
+mod windows;
 
 pub use boundary::{Boundary, BoundaryEdge};
 pub use classify::{Interval, classify};

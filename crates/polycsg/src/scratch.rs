@@ -16,6 +16,7 @@ use crate::slabs::Slabs;
 use crate::strips::Strips;
 use crate::suspects::Suspects;
 use crate::truth::Truth;
+use crate::windows::Windows;
 
 /// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
 ///
@@ -32,6 +33,7 @@ use crate::truth::Truth;
 #[derive(Debug, Default)]
 pub struct Scratch {
     pub(crate) truth: Truth,
+    pub(crate) windows: Windows,
     pub(crate) edges: Edges,
     pub(crate) cancel: Cancel,
     pub(crate) chains: Chains,

@@ -95,11 +95,8 @@ impl Truth {
     fn gate_for(&mut self, operator: Operator, count: usize, above: u32) -> Open {
         let kind = kind_of(operator);
         // Same in same is one gate.
-        let first = if self.gates.kind(above) == kind {
-            above
-        } else {
-            self.add_gate(kind, Some((above, false)))
-        };
+        let first =
+            if self.gates.kind(above) == kind { above } else { self.add_gate(kind, Some((above, false))) };
         let subtracts = operator == Operator::Difference;
         let rest = if subtracts { self.add_gate(Kind::Any, Some((first, true))) } else { first };
         Open { remaining: count, first, rest }
@@ -141,6 +138,15 @@ impl Truth {
         };
         let counter = self.add_counter(rule, gate);
         self.operands.push(Some(counter));
+    }
+
+    pub(crate) fn gates(&self) -> &Gates {
+        &self.gates
+    }
+
+    /// The gate that an operand is a member of; none for an open edge.
+    pub(crate) fn gate_of(&self, operand: usize) -> Option<u32> {
+        self.operands[operand].map(|counter| self.counters[counter as usize].gate)
     }
 
     /// The counter of an operand.

@@ -8,8 +8,16 @@ use crate::labels::Map;
 use crate::repair::{self, Rounded};
 use crate::{Boundary, Region, Scratch, nest};
 
-/// Edges, chains, contacts, arrangement, memberships.
-pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
+/// The expression's truth, and the edges that matter.
+fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
+    let Scratch { truth, windows, edges, .. } = scratch;
+    truth.compile(csg);
+    windows.find(csg, truth);
+    edges.collect(csg, truth, windows);
+}
+
+/// Their chains, contacts, arrangement, memberships.
+fn label(scratch: &mut Scratch) {
     let Scratch {
         truth,
         edges,
@@ -25,8 +33,6 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
         labels,
         ..
     } = scratch;
-    truth.compile(csg);
-    edges.collect(csg, truth);
     cancel.cancel(edges);
     chains.build(edges.points(), edges.spans());
     let copies = copies.find(edges, chains);
@@ -40,12 +46,23 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
 }
 
-/// … and the pieces whose sides differ, rounded.
-pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<'s> {
-    arrange(csg, scratch);
+/// The pieces whose sides differ, rounded.
+fn select(scratch: &mut Scratch) {
     let Scratch { edges, contacts, arrangement, labels, selection, .. } = scratch;
     selection.select(edges, contacts, arrangement, labels);
-    Boundary::new(selection, edges, contacts)
+}
+
+/// All edges with their memberships.
+pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
+    collect(csg, scratch);
+    label(scratch);
+}
+
+/// … and of these the boundary.
+pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<'s> {
+    arrange(csg, scratch);
+    select(scratch);
+    Boundary::new(&scratch.selection, &scratch.edges, &scratch.contacts)
 }
 
 /// … repaired where rounding broke something, linked to rings and nested.
@@ -53,7 +70,12 @@ pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<
 /// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
 pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
-    boundary(csg, scratch);
+    collect(csg, scratch);
+    if let Some(region) = untouched(csg, scratch) {
+        return region;
+    }
+    label(scratch);
+    select(scratch);
     let Scratch {
         edges,
         contacts,
@@ -83,4 +105,12 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
             region(&Csg::positive(rings), scratch)
         }
     }
+}
+
+/// The set, where by the boxes one region alone matters: all of it, or nothing.
+fn untouched(csg: &Csg<'_>, Scratch { truth, edges, .. }: &Scratch) -> Option<Region> {
+    let operand = edges.only_operand()? as usize;
+    let region = csg.postfix().iter().filter(|token| token.rings().is_some()).nth(operand)?.region()?;
+    let counter = truth.counter(operand)?;
+    Some(if truth.would_hold(counter, 1) { region.clone() } else { Region::default() })
 }
