@@ -16,8 +16,8 @@ fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
     edges.collect(csg, truth, windows);
 }
 
-/// Their chains, contacts, arrangement, memberships.
-fn label(scratch: &mut Scratch) {
+/// Their chains, contacts, arrangement, memberships, and if wanted which of them rounding may make meet.
+fn label(scratch: &mut Scratch, suspect: bool) {
     let Scratch {
         truth,
         edges,
@@ -41,6 +41,7 @@ fn label(scratch: &mut Scratch) {
         chains.build(edges.points(), edges.spans());
     }
     strips.build(chains.boxes());
+    suspects.want(suspect);
     contacts.find(edges, chains, strips, slabs, suspects, *patience);
     arrangement.split(edges, contacts);
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
@@ -55,7 +56,7 @@ fn select(scratch: &mut Scratch) {
 /// All edges with their memberships.
 pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
     collect(csg, scratch);
-    label(scratch);
+    label(scratch, false);
 }
 
 /// … and of these the boundary.
@@ -74,7 +75,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
     if let Some(region) = untouched(csg, scratch) {
         return region;
     }
-    label(scratch);
+    label(scratch, true);
     select(scratch);
     let Scratch {
         edges,
