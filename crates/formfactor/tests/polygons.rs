@@ -149,3 +149,20 @@ fn what_lies_in_a_plane_of_the_question_blocks_nothing() {
         assert_eq!(form_factor(&from, &to, &at(z)).value, 0.0, "at {z}");
     }
 }
+
+/// A triangle of three corners nearly on a line, which the target's plane cuts to one edge there and back.
+#[test]
+fn a_needle_given_twice_hides_nothing() {
+    let triangle = |corners: [[f64; 3]; 3]| {
+        PlanarPolygon::new([corners.map(|c| DVec3::from(c) * 0.1).to_vec()]).unwrap()
+    };
+    let from = area_at((DVec3::new(-3.0, -3.0, 2.0) * 0.1).to_array(), [5.0, 0.0, 7.0]);
+    let to = triangle([[0.0, 3.0, 0.0], [-2.0, 3.0, 0.0], [4.0, -3.0, -2.0]]);
+    let needle = triangle([[-1.0, 0.0, -2.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -5.0]]);
+    let free = unoccluded(&from, &to);
+    for copies in 1..5 {
+        let found = form_factor(&from, &to, &vec![needle.clone(); copies]);
+        let off = (found.value - free.value).abs();
+        assert!(off <= found.error_bound + free.error_bound, "{copies} copies: {found:?}, {free:?} without");
+    }
+}

@@ -23,7 +23,8 @@ const CLEAR: f64 = 16.0;
 #[inline(always)]
 pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
     let mut span = Span::WHOLE;
-    let mut open = None;
+    // Whether it may lie in a plane, and whether it is one of the cone's own edges, run the other way or the same way.
+    let (mut is_open, mut twins) = (false, [false; 2]);
     for plane in planes {
         match plane.side_of(edge) {
             Some(Place::Inside) => continue,
@@ -40,7 +41,10 @@ pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
         }
         let (across, doubt) = (start - end, start_doubt.max(end_doubt));
         if across.abs() <= CLEAR * doubt {
-            open = Some(plane);
+            is_open = true;
+            if let Some(is_same_way) = twin(edge, plane) {
+                twins[usize::from(is_same_way)] = true;
+            }
             continue;
         }
         let met = Mark::new(start / across, 1.2 * doubt / across.abs() + 4.0 * ROUNDING);
@@ -53,9 +57,12 @@ pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
     if span.is_nothing() {
         return Some(None);
     }
-    match open {
-        None => Some(Some(Held::Part(span))),
-        Some(plane) => twin(edge, plane).map(|is_same_way| Some(Held::Twin { is_same_way })),
+    match (is_open, twins) {
+        (false, _) => Some(Some(Held::Part(span))),
+        (true, [false, true]) => Some(Some(Held::Twin { is_same_way: true })),
+        (true, [true, false]) => Some(Some(Held::Twin { is_same_way: false })),
+        // No edge of the cone, or one that it has both ways: then rounding left it no width.
+        (true, _) => None,
     }
 }
 
