@@ -166,3 +166,17 @@ fn a_needle_given_twice_hides_nothing() {
         assert!(off <= found.error_bound + free.error_bound, "{copies} copies: {found:?}, {free:?} without");
     }
 }
+
+/// Of the target only a rounding is above the horizon, and the occluder lies elsewhere.
+#[test]
+fn nothing_covers_what_is_hardly_above_the_horizon() {
+    let triangle = |corners: [[f64; 3]; 3]| {
+        PlanarPolygon::new([corners.map(|c| DVec3::from(c) * 0.1).to_vec()]).unwrap()
+    };
+    let from = area_at((DVec3::new(0.0, 0.0, -4.0) * 0.1).to_array(), [1.0, -3.0, 0.0]);
+    let to = triangle([[-2.0, 4.0, 4.0], [3.0, 1.0, 1.0], [-5.0, 1.0, 1.0]]);
+    let aside = triangle([[1.0, -1.0, -6.0], [3.0, -2.0, -7.0], [1.0, -2.0, -7.0]]);
+    let (free, found) = (unoccluded(&from, &to), form_factor(&from, &to, &[aside]));
+    assert!(free.value > 0.0);
+    assert!((found.value - free.value).abs() <= found.error_bound + free.error_bound, "{found:?}, {free:?}");
+}

@@ -113,6 +113,10 @@ impl<'a> Target<'a> {
         }
         edges.clear();
         faces(origin, corners, edges);
+        if edges.len() < 3 {
+            // So little is above the horizon that its corners fall together: anything would seem to cover it.
+            return None;
+        }
         let error = blurred(origin, corners, edges)? + doubt::of_facing(origin, to);
         sides.clear();
         sides.extend([Side::before(to, origin), Side::above(from)]);
