@@ -97,3 +97,15 @@ fn many_needles_through_nearly_one_point() {
     let region = Region::from_rings(&needles, FillRule::EvenOdd).expect("finite");
     assert_eq!(region.validate(), Ok(()));
 }
+
+/// Seen from its leftmost, far corner the triangle's terms agree in their first 37 digits.
+#[test]
+fn areas_are_right_where_their_terms_cancel() {
+    let near = [DVec2::new(0.0, 0.0), DVec2::new(1e-10, 0.0)];
+    for far in [1e17, 1e20, 1e27, 1e30, 1e100] {
+        let triangle = [[near[0], near[1], DVec2::new(-0.3 * far, far)]];
+        let region = Region::from_rings(triangle, FillRule::EvenOdd).expect("finite");
+        let expected = 0.5 * 1e-10 * far;
+        assert!((region.area() - expected).abs() <= 2e-16 * expected, "{far:e}: {:e}", region.area());
+    }
+}

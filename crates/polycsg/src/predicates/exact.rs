@@ -31,12 +31,31 @@ pub(super) fn integers<const N: usize>(coordinates: [f64; N]) -> [IBig; N] {
 /// The coordinates as integers, and the exponent `s` such that `coordinate = integer · 2^s`.
 pub(super) fn scaled_integers<const N: usize>(coordinates: [f64; N]) -> ([IBig; N], i32) {
     let lowest = lowest_exponent(&coordinates);
-    let integer = |x: f64| {
-        let (sign, mantissa, exponent) = decode(x);
-        let shift = exponent.map_or(0, |e| (e - lowest).unsigned_abs() as usize);
-        IBig::from_parts(sign, UBig::from(mantissa)) << shift
+    (coordinates.map(|x| multiple(x, lowest)), lowest)
+}
+
+/// A number as a multiple of a power of two that is not above its lowest set bit.
+fn multiple(x: f64, lowest: i32) -> IBig {
+    let (sign, mantissa, exponent) = decode(x);
+    let shift = exponent.map_or(0, |e| (e - lowest).unsigned_abs() as usize);
+    IBig::from_parts(sign, UBig::from(mantissa)) << shift
+}
+
+/// The area that closed walks of directed edges enclose, correctly rounded; infinite beyond the range.
+#[cold]
+pub(crate) fn exact_area(edges: impl Iterator<Item = super::Segment> + Clone) -> f64 {
+    let exponents = edges.clone().flatten().map(|p| lowest_exponent(&[p.x, p.y]));
+    let lowest = exponents.min().unwrap_or(0);
+    let cross = |[a, b]: super::Segment| {
+        let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(|x| multiple(x, lowest));
+        ax * by - ay * bx
     };
-    (coordinates.map(integer), lowest)
+    let doubled = edges.map(cross).fold(IBig::ZERO, |sum, term| sum + term);
+    let exponent = 2 * lowest - 1;
+    if i64::from(exponent) + doubled.bit_len() as i64 > 1024 {
+        return if doubled.sign() == Sign::Positive { f64::INFINITY } else { f64::NEG_INFINITY };
+    }
+    Ratio::new(doubled, IBig::ONE, exponent).to_f64()
 }
 
 /// The rational number `numerator / denominator · 2^exponent` with a positive denominator.

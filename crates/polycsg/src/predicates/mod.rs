@@ -29,7 +29,7 @@ mod tests;
 mod whole_range;
 
 pub(crate) use clear::{Clear, Margins};
-pub(crate) use exact::Ratio;
+pub(crate) use exact::{Ratio, exact_area};
 pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
 };

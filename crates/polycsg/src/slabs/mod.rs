@@ -13,6 +13,10 @@
 //!   |    e   |       So an edge costs O(log n) in each of O(log n) slabs, and each crossing O(log n) at most.
 //! ```
 //!
+//! Edges that run within the heights' error of a rung from side to side *follow* it: whatever comes near the rung is
+//! compared with them too, and like the rung they are not handed on. Otherwise edges that all but coincide, as shadows of
+//! parallel edges do, would be compared in every slab.
+//!
 //! Heights are floats with a bound on their error: the index reports too much and never too little. Two edges with a
 //! common end are reported only if they may meet elsewhere too, so that a fan of edges costs no more than other edges.
 
@@ -76,6 +80,8 @@ pub(crate) struct Slabs {
     open: Vec<Bar>,
     spans: Vec<Span>,
     rungs: Vec<Span>,
+    /// The spans that follow a rung, by its place.
+    followers: Vec<(usize, Bar)>,
     /// The rungs that start in the slab's left point, and those that end in its right one.
     fans: [Range<usize>; 2],
     tops: Vec<u32>,
@@ -189,11 +195,13 @@ impl Slabs {
         self.sort_out_spans(slab, start);
         while !self.spans.is_empty() {
             self.choose_rungs();
+            self.sort_out_followers();
+            self.compare_followers(slab);
             for i in 0..self.spans.len() {
-                self.compare(self.spans[i].bar, slab);
+                self.compare(self.spans[i].bar, slab, true);
             }
             for i in start..self.open.len() {
-                self.compare(self.open[i], slab);
+                self.compare(self.open[i], slab, true);
             }
             if slab[1] - slab[0] > 1 {
                 self.open.extend(self.spans.drain(..).map(|span| span.bar));
@@ -344,18 +352,59 @@ impl Slabs {
         });
     }
 
-    /// Finds the rungs that an edge may meet in a slab.
-    fn compare(&mut self, bar: Bar, slab: Slab) {
+    /// Takes the spans that follow a rung.
+    fn sort_out_followers(&mut self) {
+        let Slabs { spans, rungs, followers, slack, .. } = self;
+        followers.clear();
+        spans.retain(|span| {
+            let at = rungs.partition_point(|rung| rung.heights[0] + *slack < span.heights[0]);
+            let is_near =
+                |rung: &Span, side: usize| (rung.heights[side] - span.heights[side]).abs() <= *slack;
+            let near = rungs[at..].iter().take_while(|rung| is_near(rung, 0));
+            // Of a fan all are near there: those that end alike and are near on the other side are few.
+            let mut near = near.take(FEW).zip(at..);
+            let found = near.find(|(rung, _)| rung.is_end == span.is_end && is_near(rung, 1));
+            followers.extend(found.map(|(_, place)| (place, span.bar)));
+            found.is_none()
+        });
+        followers.sort_unstable_by_key(|&(place, bar)| (place, bar.id));
+    }
+
+    /// Finds the pairs of followers and rungs, and of followers of one rung or of rungs near one another, that may meet in
+    /// a slab.
+    fn compare_followers(&mut self, slab: Slab) {
+        for i in 0..self.followers.len() {
+            self.compare(self.followers[i].1, slab, false);
+        }
+        for (i, &(place, e)) in self.followers.iter().enumerate() {
+            let [left, right] = self.rungs[place].heights;
+            let are_near = |other: usize| {
+                let heights = self.rungs[other].heights;
+                heights[0] - left <= 3.0 * self.slack || heights[1] - right <= 3.0 * self.slack
+            };
+            for &(_, f) in self.followers[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
+                if self.may_meet(e, f, slab) {
+                    self.found.push([e.id.min(f.id), e.id.max(f.id)]);
+                }
+            }
+        }
+    }
+
+    /// Finds the rungs, and if asked for their followers, that an edge may meet in a slab.
+    fn compare(&mut self, bar: Bar, slab: Slab, with_followers: bool) {
         let line = self.line(bar);
         let (near_left, left) = self.position(bar, line, 0, slab, None);
         // Most edges meet none, and are between the same two all the way.
         let (near_right, right) = self.position(bar, line, 1, slab, Some(left.start));
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
-        for rungs in near_left.into_iter().chain(near_right).chain([crossed]) {
-            for i in rungs {
-                let rung = self.rungs[i].bar.id;
-                self.found.push([bar.id.min(rung), bar.id.max(rung)]);
-            }
+        let any = |rungs: &Range<usize>| rungs.start < rungs.end;
+        for rungs in near_left.into_iter().chain(near_right).chain([crossed]).filter(any) {
+            let all = if with_followers { &self.followers[..] } else { &[] };
+            let first = all.partition_point(|&(place, _)| place < rungs.start);
+            let followers = all[first..].iter().take_while(|&&(place, _)| place < rungs.end);
+            let near =
+                self.rungs[rungs.clone()].iter().map(|rung| rung.bar).chain(followers.map(|&(_, bar)| bar));
+            self.found.extend(near.map(|other| [bar.id.min(other.id), bar.id.max(other.id)]));
         }
     }
 
@@ -374,8 +423,9 @@ impl Slabs {
         let at = |rung: &Span| {
             if rank == slab[side] { rung.heights[side] } else { self.height_inside(rung, rank) }
         };
-        let is_below = |rung: &Span| at(rung) + self.slack < height;
-        let may_touch = |rung: &Span| at(rung) <= height + self.slack;
+        // Followers are within one slack of their rung, and may touch within one more.
+        let is_below = |rung: &Span| at(rung) + 3.0 * self.slack < height;
+        let may_touch = |rung: &Span| at(rung) <= height + 3.0 * self.slack;
         let fits = |&guess: &usize| {
             self.rungs[..guess].last().is_none_or(is_below) && !self.rungs.get(guess).is_some_and(is_below)
         };

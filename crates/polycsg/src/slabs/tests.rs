@@ -150,6 +150,21 @@ fn fans_cost_nothing() {
     assert!(found(&crossed).len() < 320, "{}", found(&crossed).len());
 }
 
+/// Edges that all but coincide, with ends all along them.
+#[test]
+fn bundles_are_compared_once() {
+    let along = |i: u32, x: f64| DVec2::new(x, f64::from_bits((0.5 + 0.25 * x).to_bits() + u64::from(i % 3)));
+    let bundle: Vec<Segment> = (0..60_u32)
+        .map(|i| [along(i, f64::from(i) * 1e-3), along(i + 1, 1.0 - f64::from(i * 7 % 60) * 1e-3)])
+        .chain((0..60).map(|i| [along(i, 0.1 + f64::from(i) / 80.0), DVec2::new(0.5, 1.0 + f64::from(i))]))
+        .collect();
+    check(&bundle);
+    let mut slabs = Slabs::default();
+    slabs.build(bundle.iter().flatten().copied(), (0..120).map(|i| (i, [2 * i, 2 * i + 1])));
+    slabs.find();
+    assert!(slabs.found.capacity() < 60_000, "{}", slabs.found.capacity());
+}
+
 #[test]
 fn parallel_edges_cost_nothing() {
     let comb: Vec<Segment> =
