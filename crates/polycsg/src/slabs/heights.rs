@@ -1,0 +1,65 @@
+//! Where an edge is at an end of another one: a height with a bound on its error.
+
+use super::rungs::Span;
+use super::{Bar, Slabs};
+use glam::DVec2;
+
+/// Coordinates between this and its inverse have slopes.
+pub(super) const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
+
+/// `64u`, see [`Slabs::height`]: rungs keep their computed order between the slab's sides, too.
+pub(super) const SLACK: f64 = 64.0 * (f64::EPSILON / 2.0);
+
+/// The line through an edge: by its left end and its slope, which is NaN where it would not do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    start: DVec2,
+    slope: f64,
+}
+
+impl Slabs {
+    #[inline]
+    pub(super) fn line(&self, bar: Bar) -> Line {
+        let [a, b] = bar.ranks.map(|rank| self.ends[rank as usize]);
+        let is_slanted = self.has_slopes && a.x != b.x;
+        Line { start: a, slope: if is_slanted { (b.y - a.y) / (b.x - a.x) } else { f64::NAN } }
+    }
+
+    /// Where an edge has a rank, as a height; wrong by a quarter of the slack at most.
+    #[inline]
+    pub(super) fn height(&self, ranks: [u32; 2], line: Line, rank: u32) -> f64 {
+        let p = self.ends[rank as usize];
+        if ranks.contains(&rank) { p.y } else { self.height_at(ranks, line, p) }
+    }
+
+    /// The same, for a rank between the edge's ends.
+    #[inline]
+    pub(super) fn height_inside(&self, span: &Span, rank: u32) -> f64 {
+        self.height_at(span.bar.ranks, span.line, self.ends[rank as usize])
+    }
+
+    /// The slope is wrong by 3u of itself, its product by 5u, which is 10u times the larger height at most, and the sum by
+    /// 2u of that (u = 2^-53).
+    #[inline]
+    fn height_at(&self, ranks: [u32; 2], line: Line, p: DVec2) -> f64 {
+        if line.slope.is_nan() {
+            self.height_anywhere(ranks, p)
+        } else {
+            line.start.y + (p.x - line.start.x) * line.slope
+        }
+    }
+
+    /// The same for all coordinates. With t the part of the way: t is wrong by 3u t, 1 - t by 3u t + u, the products and
+    /// their sum by 2u each: less than 10u times the larger height.
+    #[cold]
+    fn height_anywhere(&self, ranks: [u32; 2], p: DVec2) -> f64 {
+        let [a, b] = ranks.map(|rank| self.ends[rank as usize]);
+        let run = b.x - a.x;
+        if run == 0.0 {
+            return p.y;
+        }
+        let halves = |x: f64| x * 0.5 - a.x * 0.5;
+        let t = if run.is_finite() { (p.x - a.x) / run } else { halves(p.x) / halves(b.x) };
+        a.y * (1.0 - t) + b.y * t
+    }
+}
