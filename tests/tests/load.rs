@@ -12,7 +12,7 @@
 //! | `four_million_crossings`, twice | 11 s | 2.5 GB |
 //! | `expressions_a_hundred_thousand_deep` (its time grows with the square of the depth) | 45 s | 95 MB |
 use glam::DVec2;
-use polycsg::{Csg, FillRule, Region};
+use polycsg::{Csg, Error, FillRule, Region, Scratch};
 use tests::Ring;
 
 fn read(rings: &[Ring], rule: FillRule) -> Region {
@@ -90,13 +90,30 @@ fn saw(n: usize) {
     assert_eq!((region.area(), region.polygons().count()), (coordinate(n), n));
 }
 
-/// An expression that is nested n deep, its operations alternating so that nothing can be flattened: built, evaluated
-/// and dropped without a stack that grows with it.
+/// Expressions that are nested n deep to the left and to the right, their operations alternating so that nothing can be
+/// flattened: built, evaluated and dropped without a stack that grows with them.
 fn chain(n: usize) {
     let square = |i: usize| read(&[rectangle([3 * i, 0], [3 * i + 2, 2])], FillRule::NonZero);
     let (keep, drop) = (square(0), square(1));
     let nested = (0..n).fold(Csg::from(&keep), |csg, _| (csg | Csg::from(&drop)) - Csg::from(&drop));
     assert_eq!(nested.evaluate(), keep);
+    let nested = (0..n).fold(Csg::from(&keep), |csg, _| Csg::from(&keep) & (Csg::from(&drop) | csg));
+    assert_eq!(nested.evaluate(), keep);
+}
+
+/// Bars across bars, slanted so that no two are in one direction: 4 n² crossings, of which all but `limit` never are.
+fn too_many(n: usize, limit: usize) {
+    let bars = || (0..n).map(|i| (coordinate(4 * i), coordinate(5 * i)));
+    let end = coordinate(5 * n);
+    let ring = |points: [[f64; 2]; 4]| points.map(DVec2::from).to_vec();
+    let upright: Vec<Ring> =
+        bars().map(|(x, y)| ring([[x, -2.0], [x + 1.0, -2.0], [y + 1.0, end], [y, end]])).collect();
+    let level: Vec<Ring> =
+        bars().map(|(x, y)| ring([[-2.0, x], [end, y], [end, y + 1.0], [-2.0, x + 1.0]])).collect();
+    let [upright, level] =
+        [upright, level].map(|bars| Csg::rings(&bars, FillRule::NonZero).expect("finite points"));
+    let refused = (upright & level).evaluate_within(&mut Scratch::default(), limit);
+    assert_eq!(refused, Err(Error::TooManyContacts { limit }));
 }
 
 #[test]
@@ -117,6 +134,11 @@ fn many_copies() {
 #[test]
 fn many_crossings() {
     comb(120);
+}
+
+#[test]
+fn more_crossings_than_asked_for() {
+    too_many(5_000, 100_000);
 }
 
 #[test]
@@ -156,6 +178,13 @@ fn a_million_copies() {
 #[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
 fn four_million_crossings() {
     comb(1_000);
+}
+
+/// 40 000 000 000 crossings would take 20 TB.
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn more_crossings_than_memory() {
+    too_many(100_000, 10_000_000);
 }
 
 #[test]

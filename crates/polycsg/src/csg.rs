@@ -3,6 +3,7 @@
 use crate::rings::Rings;
 use crate::{Boundary, Error, Region, Scratch, pipeline};
 use glam::DVec2;
+use std::collections::VecDeque;
 use std::ops::{BitAnd, BitOr, BitXor, Sub};
 
 /// What raw rings mean: which winding numbers are inside.
@@ -100,8 +101,9 @@ impl Token<'_> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Csg<'a> {
-    // Postfix, so that neither evaluating nor dropping a deep expression recurses.
-    postfix: Vec<Token<'a>>,
+    // Postfix, so that neither evaluating nor dropping a deep expression recurses; open at both ends, so that it grows
+    // either way at the price of what is added.
+    postfix: VecDeque<Token<'a>>,
 }
 
 impl<'a> From<&'a Region> for Csg<'a> {
@@ -160,8 +162,8 @@ impl<'a> Csg<'a> {
         there_and_back.extend(&edge);
         there_and_back.close();
         let postfix =
-            vec![Token::Edge(there_and_back), Token::Region(region), Token::Operator(Operator::Union, 2)];
-        Csg { postfix }
+            [Token::Edge(there_and_back), Token::Region(region), Token::Operator(Operator::Union, 2)];
+        Csg { postfix: postfix.into() }
     }
 
     /// Positively wound rings, already read.
@@ -169,14 +171,14 @@ impl<'a> Csg<'a> {
         Csg::leaf(Token::Rings(rings, FillRule::Positive))
     }
 
-    pub(crate) fn postfix(&self) -> &[Token<'a>] {
+    pub(crate) fn postfix(&self) -> &VecDeque<Token<'a>> {
         &self.postfix
     }
 
     /// One operand, with room for another one and an operator.
     fn leaf(token: Token<'a>) -> Csg<'a> {
-        let mut postfix = Vec::with_capacity(3);
-        postfix.push(token);
+        let mut postfix = VecDeque::with_capacity(3);
+        postfix.push_back(token);
         Csg { postfix }
     }
 
@@ -185,22 +187,22 @@ impl<'a> Csg<'a> {
         I: IntoIterator,
         I::Item: Into<Csg<'a>>,
     {
-        let mut postfix = Vec::new();
+        let mut postfix = VecDeque::new();
         let mut count = 0;
         for operand in operands {
-            postfix.append(&mut operand.into().postfix);
+            postfix = concatenated(postfix, operand.into().postfix);
             count += 1;
         }
         // Nothing combines to the empty set, which as an operand is not the same as no operand at all.
         let operator = if count == 0 { Operator::Union } else { operator };
-        postfix.push(Token::Operator(operator, count));
+        postfix.push_back(Token::Operator(operator, count));
         Csg { postfix }
     }
 
-    fn then(mut self, operator: Operator, mut other: Csg<'a>) -> Csg<'a> {
-        self.postfix.append(&mut other.postfix);
-        self.postfix.push(Token::Operator(operator, 2));
-        self
+    fn then(self, operator: Operator, other: Csg<'a>) -> Csg<'a> {
+        let mut postfix = concatenated(self.postfix, other.postfix);
+        postfix.push_back(Token::Operator(operator, 2));
+        Csg { postfix }
     }
 
     /// The set as a valid [`Region`]. Expected O((n + k) log n) for n edges with k contacts.
@@ -267,6 +269,16 @@ impl<'a> Csg<'a> {
     pub fn boundary<'s>(&self, scratch: &'s mut Scratch) -> Boundary<'s> {
         pipeline::boundary(self, scratch).expect("a scratch has no limit of its own")
     }
+}
+
+/// One after the other. The shorter one moves, so that n operands nested in any way take O(n log n) moves.
+fn concatenated<T>(mut first: VecDeque<T>, mut second: VecDeque<T>) -> VecDeque<T> {
+    if first.len() < second.len() {
+        first.into_iter().rev().for_each(|token| second.push_front(token));
+        return second;
+    }
+    first.append(&mut second);
+    first
 }
 
 /// Union.
