@@ -42,7 +42,7 @@ pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, E
         return Ok(Vec::new());
     }
     let mut scratch = Scratch::default();
-    pipeline::arrange(&Csg::edge_beside(segment, region), &mut scratch);
+    pipeline::arrange(&Csg::edge_beside(segment, region), &mut scratch)?;
     let Scratch { edges, contacts, arrangement, labels, .. } = &scratch;
     let point = |arc: u32| match contacts.place(arrangement.node(arc)) {
         Place::Vertex(vertex) => edges.point(vertex),

@@ -14,6 +14,7 @@
 //! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
 //! that equality along each edge is all that is needed to unify them.
 
+use crate::Error;
 use crate::chains::Chains;
 use crate::edges::Edges;
 use crate::predicates::{
@@ -40,18 +41,26 @@ pub(crate) struct Patience {
     pub(crate) pairs_per_edge: usize,
     pub(crate) pairs_per_node: usize,
     pub(crate) blocks_per_edge: usize,
+    /// The most contacts to be found at all, counted as [`Csg::evaluate_within`](crate::Csg::evaluate_within) does.
+    pub(crate) contacts: usize,
 }
 
 #[cfg(any(test, fuzzing))]
 impl Patience {
     /// Slabs at once.
     pub(crate) const NONE: Patience =
-        Patience { pairs: 0, pairs_per_edge: 0, pairs_per_node: 0, blocks_per_edge: 0 };
+        Patience { pairs: 0, pairs_per_edge: 0, pairs_per_node: 0, blocks_per_edge: 0, contacts: usize::MAX };
 }
 
 impl Default for Patience {
     fn default() -> Patience {
-        Patience { pairs: 1000, pairs_per_edge: 12, pairs_per_node: 8, blocks_per_edge: 32 }
+        Patience {
+            pairs: 1000,
+            pairs_per_edge: 12,
+            pairs_per_node: 8,
+            blocks_per_edge: 32,
+            contacts: usize::MAX,
+        }
     }
 }
 
@@ -126,6 +135,9 @@ pub(crate) struct Contacts {
 impl Contacts {
     /// Finds the contacts of all pairs of edges: of those whose chains' boxes meet, or, where that turns out to be far
     /// more than what meets, of those that [`Slabs`] finds.
+    ///
+    /// # Errors
+    /// [`Error::TooManyContacts`], by the limit that `patience` has.
     pub(crate) fn find(
         &mut self,
         edges: &Edges,
@@ -134,15 +146,21 @@ impl Contacts {
         slabs: &mut Slabs,
         suspects: &mut Suspects,
         patience: Patience,
-    ) {
+    ) -> Result<(), Error> {
+        let most = patience.contacts;
         self.start(edges, chains, suspects);
-        if !self.find_by_boxes(edges, chains, strips, suspects, patience) {
+        let is_done = self.find_by_boxes(edges, chains, strips, suspects, patience);
+        if !is_done && self.found.len() <= most {
             self.start(edges, chains, suspects);
             suspects.give_up();
-            self.find_by_slabs(edges, chains, slabs, suspects);
+            self.find_by_slabs(edges, chains, slabs, suspects, most)?;
+        }
+        if self.found.len() > most {
+            return Err(Error::TooManyContacts { limit: most });
         }
         self.bucket(edges.len());
         self.sort(edges, suspects);
+        Ok(())
     }
 
     fn start(&mut self, edges: &Edges, chains: &Chains, suspects: &mut Suspects) {
@@ -155,7 +173,7 @@ impl Contacts {
         suspects.start(chains.size());
     }
 
-    /// Returns false, with some contacts found, when it would take too long.
+    /// Returns false, with some contacts found, when it would take too long or they are too many.
     fn find_by_boxes(
         &mut self,
         edges: &Edges,
@@ -164,7 +182,7 @@ impl Contacts {
         suspects: &mut Suspects,
         patience: Patience,
     ) -> bool {
-        let Patience { pairs, pairs_per_edge, pairs_per_node, blocks_per_edge } = patience;
+        let Patience { pairs, pairs_per_edge, pairs_per_node, blocks_per_edge, contacts } = patience;
         let most = pairs + pairs_per_edge * edges.len();
         let mut met = 0;
         strips.pairs_within(pairs + blocks_per_edge * edges.len(), |a, b| {
@@ -173,11 +191,18 @@ impl Contacts {
                 met += 1;
                 self.meet(edges, e.min(f), e.max(f), suspects);
             });
-            met < most + pairs_per_node * self.nodes.len()
+            met < most + pairs_per_node * self.nodes.len() && self.found.len() <= contacts
         })
     }
 
-    fn find_by_slabs(&mut self, edges: &Edges, chains: &Chains, slabs: &mut Slabs, suspects: &mut Suspects) {
+    fn find_by_slabs(
+        &mut self,
+        edges: &Edges,
+        chains: &Chains,
+        slabs: &mut Slabs,
+        suspects: &mut Suspects,
+        most: usize,
+    ) -> Result<(), Error> {
         slabs.build(edges.points().iter().copied(), chains.edges().map(|edge| (edge, [edge, edge + 1])));
         for place in slabs.places() {
             let mut vertices = place.filter(|&slot| edges.ring(slot).end != slot);
@@ -185,7 +210,12 @@ impl Contacts {
             vertices.for_each(|vertex| first.into_iter().for_each(|first| self.join(edges, first, vertex)));
         }
         slabs.copies().for_each(|[e, f]| self.meet(edges, e, f, suspects));
-        slabs.pairs(|e, f| self.meet(edges, e.min(f), e.max(f), suspects));
+        let are_few = slabs.pairs_within(most, |e, f| {
+            if self.found.len() <= most {
+                self.meet(edges, e.min(f), e.max(f), suspects);
+            }
+        });
+        if are_few { Ok(()) } else { Err(Error::TooManyContacts { limit: most }) }
     }
 
     /// The contacts by edge and in order along it, each node once on each edge.

@@ -109,8 +109,8 @@ impl Token<'_> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Csg<'a> {
-    // Postfix, so that neither evaluating nor dropping a deep expression recurses; open at both ends, so that the
-    // longer of two operands stays where it is when they are joined.
+    // Postfix, so that neither evaluating nor dropping a deep expression recurses; open at both ends, so that it grows
+    // either way at the price of what is added.
     postfix: VecDeque<Token<'a>>,
 }
 
@@ -199,7 +199,7 @@ impl<'a> Csg<'a> {
         let mut postfix = VecDeque::new();
         let mut count = 0;
         for operand in operands {
-            join(&mut postfix, operand.into().postfix);
+            postfix = concatenated(postfix, operand.into().postfix);
             count += 1;
         }
         // Nothing combines to the empty set, which as an operand is not the same as no operand at all.
@@ -208,10 +208,10 @@ impl<'a> Csg<'a> {
         Csg { postfix }
     }
 
-    fn then(mut self, operator: Operator, other: Csg<'a>) -> Csg<'a> {
-        join(&mut self.postfix, other.postfix);
-        self.postfix.push_back(Token::Operator(operator, 2));
-        self
+    fn then(self, operator: Operator, other: Csg<'a>) -> Csg<'a> {
+        let mut postfix = concatenated(self.postfix, other.postfix);
+        postfix.push_back(Token::Operator(operator, 2));
+        Csg { postfix }
     }
 
     /// The set as a valid [`Region`]. Expected O((n + k) log n) for n edges with k contacts.
@@ -224,7 +224,37 @@ impl<'a> Csg<'a> {
 
     /// As [`evaluate`](Csg::evaluate), in buffers that the caller keeps from call to call: for many small jobs.
     pub fn evaluate_in(&self, scratch: &mut Scratch) -> Region {
-        pipeline::region(self, scratch)
+        pipeline::region(self, scratch).expect("a scratch has no limit of its own")
+    }
+
+    /// As [`evaluate_in`](Csg::evaluate_in), unless edges meet more than `contacts` times: for operands from strangers, as n
+    /// edges can have n² crossings, and memory goes with them (about 600 bytes for each).
+    ///
+    /// A crossing counts as two contacts, one on each of its edges, a vertex that touches an edge as one. Where many edges
+    /// lie closer to one another than floats can tell, pairs that only nearly meet may count as well. What is counted is
+    /// never stored beyond the limit.
+    ///
+    /// # Errors
+    /// [`Error::TooManyContacts`]; the scratch is as good as before.
+    ///
+    /// ```
+    /// use polycsg::{Csg, Error, FillRule, Scratch};
+    /// let bars = |n: usize| (0..n).map(|i| 2.0 * i as f64);
+    /// let upright = bars(50).map(|x| vec![[x, -1.0], [x + 1.0, -1.0], [x + 1.0, 100.0], [x, 100.0]]);
+    /// let level = bars(50).map(|y| vec![[-1.0, y], [100.0, y], [100.0, y + 1.0], [-1.0, y + 1.0]]);
+    /// let both = Csg::rings(upright, FillRule::NonZero)? & Csg::rings(level, FillRule::NonZero)?;
+    /// let mut scratch = Scratch::default();
+    /// let limit = 10_000; // 100 by 100 edges cross, and each crossing is a contact of both
+    /// assert_eq!(both.evaluate_within(&mut scratch, limit), Err(Error::TooManyContacts { limit }));
+    /// assert_eq!(both.evaluate_within(&mut scratch, 2 * limit)?.area(), 2500.0);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn evaluate_within(&self, scratch: &mut Scratch, contacts: usize) -> Result<Region, Error> {
+        let patience = scratch.patience;
+        scratch.patience.contacts = contacts;
+        let region = pipeline::region(self, scratch);
+        scratch.patience = patience;
+        region
     }
 
     /// The directed edges that bound the set, interior to the left, each vertex rounded once.
@@ -246,20 +276,18 @@ impl<'a> Csg<'a> {
     /// # Ok::<(), polycsg::Error>(())
     /// ```
     pub fn boundary<'s>(&self, scratch: &'s mut Scratch) -> Boundary<'s> {
-        pipeline::boundary(self, scratch)
+        pipeline::boundary(self, scratch).expect("a scratch has no limit of its own")
     }
 }
 
-/// Puts `back` behind `front`, moving the shorter one.
-fn join<'a>(front: &mut VecDeque<Token<'a>>, mut back: VecDeque<Token<'a>>) {
-    if front.len() < back.len() {
-        while let Some(token) = front.pop_back() {
-            back.push_front(token);
-        }
-        std::mem::swap(front, &mut back);
-    } else {
-        front.append(&mut back);
+/// One after the other. The shorter one moves, so that n operands nested in any way take O(n log n) moves.
+fn concatenated<T>(mut first: VecDeque<T>, mut second: VecDeque<T>) -> VecDeque<T> {
+    if first.len() < second.len() {
+        first.into_iter().rev().for_each(|token| second.push_front(token));
+        return second;
     }
+    first.append(&mut second);
+    first
 }
 
 /// Union.

@@ -1,7 +1,7 @@
-//! What can be wrong with input.
+//! What can be wrong with input, and how much of it there can be.
 use std::fmt;
 
-/// Why rings were refused.
+/// Why rings or an evaluation were refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -12,6 +12,11 @@ pub enum Error {
         /// Index of the vertex within that ring.
         vertex: usize,
     },
+    /// The operands' edges meet more often than [`Csg::evaluate_within`](crate::Csg::evaluate_within) may count.
+    TooManyContacts {
+        /// The limit that the call gave.
+        limit: usize,
+    },
 }
 
 impl fmt::Display for Error {
@@ -21,6 +26,9 @@ impl fmt::Display for Error {
                 f,
                 "ring {ring}, vertex {vertex}: a coordinate is NaN or infinite; give finite numbers"
             ),
+            Error::TooManyContacts { limit } => {
+                write!(f, "edges meet more than {limit} times; raise the limit or split the operands")
+            }
         }
     }
 }

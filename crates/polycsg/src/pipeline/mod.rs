@@ -6,7 +6,7 @@ mod tests;
 use crate::csg::Csg;
 use crate::labels::Map;
 use crate::repair::{self, Rounded};
-use crate::{Boundary, Region, Scratch, nest};
+use crate::{Boundary, Error, Region, Scratch, nest};
 
 /// The expression's truth, and the edges that matter.
 fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
@@ -16,8 +16,12 @@ fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
     edges.collect(csg, truth, windows);
 }
 
-/// Their chains, contacts, arrangement, memberships, and if wanted which of them rounding may make meet.
-fn label(scratch: &mut Scratch, suspect: bool) {
+/// Their chains, contacts, arrangement, memberships, and if wanted which of them rounding may make meet. All stages
+/// behind the contacts take memory in proportion to these.
+///
+/// # Errors
+/// [`Error::TooManyContacts`] by the limit in `scratch`, here and below.
+fn label(scratch: &mut Scratch, suspect: bool) -> Result<(), Error> {
     let Scratch {
         truth,
         edges,
@@ -42,9 +46,10 @@ fn label(scratch: &mut Scratch, suspect: bool) {
     }
     strips.build(chains.boxes());
     suspects.want(suspect);
-    contacts.find(edges, chains, strips, slabs, suspects, *patience);
+    contacts.find(edges, chains, strips, slabs, suspects, *patience)?;
     arrangement.split(edges, contacts);
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
+    Ok(())
 }
 
 /// The pieces whose sides differ, rounded.
@@ -54,28 +59,28 @@ fn select(scratch: &mut Scratch) {
 }
 
 /// All edges with their memberships.
-pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) {
+pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<(), Error> {
     collect(csg, scratch);
-    label(scratch, false);
+    label(scratch, false)
 }
 
 /// … and of these the boundary.
-pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Boundary<'s> {
-    arrange(csg, scratch);
+pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
+    arrange(csg, scratch)?;
     select(scratch);
-    Boundary::new(&scratch.selection, &scratch.edges, &scratch.contacts)
+    Ok(Boundary::new(&scratch.selection, &scratch.edges, &scratch.contacts))
 }
 
 /// … repaired where rounding broke something, linked to rings and nested.
 ///
 /// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
-pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
+pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Error> {
     collect(csg, scratch);
     if let Some(region) = untouched(csg, scratch) {
-        return region;
+        return Ok(region);
     }
-    label(scratch, true);
+    label(scratch, true)?;
     select(scratch);
     let Scratch {
         edges,
@@ -100,7 +105,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Region {
     }
     cycles.link(outline);
     match nest::nest(outline, cycles, chains, strips, slabs, nesting) {
-        Ok(region) => region,
+        Ok(region) => Ok(region),
         Err(nest::Misnested) => {
             let rings = cycles.rings().clone();
             region(&Csg::positive(rings), scratch)

@@ -1,6 +1,6 @@
 //! Boxes and slabs are two ways to one result.
 use crate::contacts::Patience;
-use crate::{Csg, FillRule, Region, Scratch};
+use crate::{Csg, Error, FillRule, Region, Scratch};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -117,4 +117,54 @@ fn what_lies_elsewhere_is_not_arranged() {
     let near = region((0..100).map(|i| square(0.5 + 2.0 * f64::from(i))).collect());
     assert_eq!((Csg::from(&a) - Csg::from(&near)).evaluate_in(&mut scratch).area(), 0.5);
     assert_eq!(scratch.edges.rings().len(), 2);
+}
+
+/// Uprights across levels, some of them slanted so that slabs have work: 4 n² crossings.
+fn comb(n: u32, slant: f64) -> Csg<'static> {
+    let bars = || (0..n).map(|i| 2.0 * f64::from(i));
+    let end = 2.0 * f64::from(n);
+    let upright = bars().map(|x| [[x, -1.0], [x + 1.0, -1.0], [x + slant + 1.0, end], [x + slant, end]]);
+    let level = bars().map(|y| [[-1.0, y], [end + slant, y], [end + slant, y + 1.0], [-1.0, y + 1.0]]);
+    Csg::rings(upright, FillRule::NonZero).expect("finite")
+        & Csg::rings(level, FillRule::NonZero).expect("finite")
+}
+
+/// Each of 4 n² crossings is a contact of two edges: by boxes and by slabs, one less than that is too little, and what is
+/// refused leaves the scratch as good as new.
+#[test]
+fn contacts_are_counted() {
+    for (n, slant) in [(30, 0.0), (30, 7.3), (3, 0.0)] {
+        let csg = comb(n, slant);
+        let needed = 8 * n as usize * n as usize;
+        for mut scratch in [Scratch::default(), hasty()] {
+            let refused = csg.evaluate_within(&mut scratch, needed - 1);
+            assert_eq!(refused, Err(Error::TooManyContacts { limit: needed - 1 }));
+            let small = comb(2, 0.5);
+            assert_eq!(small.evaluate_in(&mut scratch), small.evaluate());
+            assert_eq!(csg.evaluate_within(&mut scratch, needed), Ok(csg.evaluate()));
+            assert_eq!(csg.evaluate_in(&mut scratch), csg.evaluate());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(50))]
+
+    /// Any limit refuses or changes nothing, and a higher one refuses no more.
+    #[test]
+    fn a_limit_changes_no_result(
+        rings in rings((0.0..1.0, 0.0..1.0).prop_map(DVec2::from)),
+        limit in 0_usize..200,
+    ) {
+        let csg = Csg::rings(&rings, FillRule::EvenOdd).expect("finite");
+        for mut scratch in [Scratch::default(), hasty()] {
+            match csg.evaluate_within(&mut scratch, limit) {
+                Ok(region) => {
+                    prop_assert_eq!(&region, &csg.evaluate());
+                    prop_assert_eq!(csg.evaluate_within(&mut scratch, limit + 1), Ok(region));
+                }
+                Err(refused) => prop_assert_eq!(refused, Error::TooManyContacts { limit }),
+            }
+        }
+    }
 }

@@ -21,6 +21,7 @@
 //! common end are reported only if they may meet elsewhere too, so that a fan of edges costs no more than other edges.
 
 mod below;
+mod found;
 mod heights;
 mod rungs;
 #[cfg(test)]
@@ -28,6 +29,7 @@ mod tests;
 
 use crate::predicates::lexicographic;
 use crate::truth::index;
+use found::Found;
 use glam::DVec2;
 use heights::{LEAST, SLACK};
 use rungs::Span;
@@ -75,7 +77,7 @@ pub(crate) struct Slabs {
     fans: [Range<usize>; 2],
     tops: Vec<u32>,
     before: Vec<u32>,
-    found: Vec<[u32; 2]>,
+    found: Found,
     /// Points by rank, and of each one the bar found below it.
     queries: Vec<(u32, u32)>,
     nearest: Vec<u32>,
@@ -132,14 +134,22 @@ impl Slabs {
 
     /// Calls `visit` once for each pair of edges that may meet but in one common end or both, by their ids; of edges with
     /// both ends in common, one stands for all against another such.
-    pub(crate) fn pairs(&mut self, mut visit: impl FnMut(u32, u32)) {
-        self.find();
-        for i in 0..self.found.len() {
-            let [e, f] = self.found[i].map(|bar| self.copies_of(bar));
+    pub(crate) fn pairs(&mut self, visit: impl FnMut(u32, u32)) {
+        self.pairs_within(usize::MAX, visit);
+    }
+
+    /// As [`pairs`](Slabs::pairs), if there are so many at most; else returns false, and calls nothing.
+    pub(crate) fn pairs_within(&mut self, most: usize, mut visit: impl FnMut(u32, u32)) -> bool {
+        if !self.find(most) {
+            return false;
+        }
+        for bars in self.found.pairs() {
+            let [e, f] = bars.map(|bar| self.copies_of(bar));
             visit(self.all[e.start].id, self.all[f.start].id);
             f.clone().skip(1).for_each(|g| visit(self.all[e.start].id, self.all[g].id));
             e.skip(1).for_each(|g| visit(self.all[g].id, self.all[f.start].id));
         }
+        true
     }
 
     /// The places in `all` of the edges that a bar stands for.
@@ -149,14 +159,13 @@ impl Slabs {
         start..start + self.all[start..].iter().take_while(|bar| bar.ranks == ranks).count()
     }
 
-    /// Finds the pairs, as places in `bars`.
-    fn find(&mut self) {
-        self.found.clear();
+    /// Finds the pairs, as places in `bars`; false when there are more than so many.
+    fn find(&mut self, most: usize) -> bool {
+        self.found.start(most);
         if let Some(slab) = self.open_all() {
             self.look_into(slab, 0);
         }
-        self.found.sort_unstable();
-        self.found.dedup();
+        !self.found.count()
     }
 
     /// Opens all edges, under their places in `bars`, in the slab of all ends, if there are any.
@@ -170,6 +179,10 @@ impl Slabs {
     fn look_into(&mut self, slab: Slab, start: usize) {
         self.sort_out_spans(slab, start);
         while !self.spans.is_empty() {
+            if self.found.is_over() {
+                self.spans.clear();
+                break;
+            }
             self.choose_rungs();
             self.sort_out_followers();
             self.compare_followers(slab);
@@ -186,7 +199,7 @@ impl Slabs {
         let end = self.open.len();
         if end - start <= FEW {
             self.compare_all(slab, start..end);
-        } else {
+        } else if !self.found.is_over() {
             for half in halves(slab) {
                 self.open_again(half, start..end);
                 self.look_into(half, end);
@@ -211,7 +224,7 @@ impl Slabs {
             for j in open.start..i {
                 let [e, f] = [self.open[i], self.open[j]];
                 if self.may_meet(e, f, slab) {
-                    self.found.push([e.id.min(f.id), e.id.max(f.id)]);
+                    self.found.add(std::iter::once([e.id, f.id]));
                 }
             }
         }

@@ -105,7 +105,7 @@ impl Slabs {
             };
             for &(_, f) in self.followers[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
                 if self.may_meet(e, f, slab) {
-                    self.found.push([e.id.min(f.id), e.id.max(f.id)]);
+                    self.found.add(std::iter::once([e.id, f.id]));
                 }
             }
         }
@@ -125,7 +125,7 @@ impl Slabs {
             let followers = all[first..].iter().take_while(|&&(place, _)| place < rungs.end);
             let near =
                 self.rungs[rungs.clone()].iter().map(|rung| rung.bar).chain(followers.map(|&(_, bar)| bar));
-            self.found.extend(near.map(|other| [bar.id.min(other.id), bar.id.max(other.id)]));
+            self.found.add(near.map(|other| [bar.id, other.id]));
         }
     }
 

@@ -64,12 +64,16 @@ impl<'s> Factors<'s> {
 
     /// Whether the column of a piece is known.
     pub(super) fn is_known(&self, node: usize) -> bool {
-        self.state.column(self.fingerprint, node).is_some()
+        self.kept(node).is_some()
+    }
+
+    fn kept(&self, node: usize) -> Option<Arc<Column>> {
+        self.state.column(self.fingerprint, node, self.receivers.len())
     }
 
     /// The form factors from all elements to one piece. They never change, so they are kept while memory lasts.
     pub(super) fn column(&mut self, node: usize) -> Result<Arc<Column>, Error> {
-        if let Some(column) = self.state.column(self.fingerprint, node) {
+        if let Some(column) = self.kept(node) {
             return Ok(column);
         }
         let column = Arc::new(Column::new(&self.find(node)?));

@@ -50,6 +50,13 @@ impl Column {
         }
     }
 
+    fn is_lawful(&self) -> bool {
+        let Column { elements, factors } = self;
+        elements.len() == factors.len()
+            && elements.windows(2).all(|pair| pair[0] < pair[1])
+            && factors.iter().all(|factor| factor.is_finite() && *factor != 0.0)
+    }
+
     /// Elements and the factors from them, by ascending element.
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
         self.elements.iter().map(|element| *element as usize).zip(self.factors.iter().copied())
@@ -82,7 +89,15 @@ impl State {
         if super::fingerprint::of(body) != u64::from_le_bytes(*sum) {
             return Err(StateError::Damaged);
         }
-        postcard::from_bytes(body).map_err(|_| StateError::Format)
+        postcard::from_bytes(body).ok().filter(State::is_lawful).ok_or(StateError::Format)
+    }
+
+    /// Whether all is as [`Column::new`] and [`State::keep`] make it: a checksum may be right by intention.
+    fn is_lawful(&self) -> bool {
+        let columns = || self.meshes.values().flat_map(BTreeMap::values);
+        columns().all(|column| column.is_lawful())
+            && columns().map(|column| column.factors.len()).sum::<usize>() == self.count
+            && self.count <= KEPT
     }
 
     /// Whether nothing is known yet.
@@ -96,9 +111,11 @@ impl State {
         self.meshes.contains_key(&mesh)
     }
 
-    /// A column that is known.
-    pub(super) fn column(&self, mesh: u64, node: usize) -> Option<Arc<Column>> {
-        self.meshes.get(&mesh)?.get(&node).cloned()
+    /// A column that is known, of a mesh of so many elements.
+    pub(super) fn column(&self, mesh: u64, node: usize, elements: usize) -> Option<Arc<Column>> {
+        let column = self.meshes.get(&mesh)?.get(&node)?;
+        let is_within = column.elements.last().is_none_or(|last| (*last as usize) < elements);
+        is_within.then(|| Arc::clone(column))
     }
 
     /// Keeps a column while memory lasts.
@@ -125,10 +142,10 @@ mod tests {
     #[test]
     fn a_state_comes_back_bit_for_bit() {
         let again = State::from_bytes(&state().to_bytes()).unwrap();
-        let column = again.column(7, 3).unwrap();
+        let column = again.column(7, 3, 4).unwrap();
         assert_eq!(column.iter().collect::<Vec<_>>(), [(1, 0.1 + 0.2), (3, f64::MIN_POSITIVE)]);
         assert_eq!(column.from(2).collect::<Vec<_>>(), [(3, f64::MIN_POSITIVE)]);
-        assert!(again.knows(7) && !again.knows(8) && again.column(7, 4).is_none());
+        assert!(again.knows(7) && !again.knows(8) && again.column(7, 4, 4).is_none());
         assert_eq!(again.to_bytes(), state().to_bytes());
     }
 
@@ -142,6 +159,23 @@ mod tests {
             let mut bytes = bytes.clone();
             bytes[place] ^= 0x10;
             assert!(State::from_bytes(&bytes).is_err(), "byte {place}");
+        }
+    }
+    /// A right checksum over what no run writes: refused, or not of this mesh.
+    #[test]
+    fn forged_states_are_refused() {
+        let forged = |elements: Vec<u32>, factors: Vec<f64>, count: usize| {
+            let columns = BTreeMap::from([(3, Arc::new(Column { elements, factors }))]);
+            State::from_bytes(&State { meshes: BTreeMap::from([(7, columns)]), count }.to_bytes())
+        };
+        assert!(forged(vec![0, 5], vec![0.5, 0.25], 2).is_ok_and(|state| state.column(7, 3, 5).is_none()));
+        for (elements, factors, count) in [
+            (vec![0, 5], vec![0.5], 1),
+            (vec![5, 0], vec![0.5, 0.25], 2),
+            (vec![0], vec![f64::NAN], 1),
+            (vec![0], vec![0.5], usize::MAX),
+        ] {
+            assert_eq!(forged(elements, factors, count).err(), Some(StateError::Format));
         }
     }
 }

@@ -5,9 +5,6 @@ use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
 use std::path::Path;
 
-/// The most rows that an accessor without data may claim: zeros cost a file nothing.
-const MAX_ZEROS: usize = 1 << 24;
-
 /// The contents of the buffers, by index.
 pub(super) struct Buffers<'f> {
     file: &'f str,
@@ -31,6 +28,11 @@ impl<'f> Buffers<'f> {
             Ok(bytes)
         };
         Ok(Self { file, all: gltf.document.buffers().map(load).collect::<Result<_, _>>()? })
+    }
+
+    /// How many bytes there are in all.
+    fn size(&self) -> usize {
+        self.all.iter().map(Vec::len).sum()
     }
 
     /// The bytes of a view.
@@ -59,8 +61,9 @@ impl<'f> Buffers<'f> {
         let (kind, count) = (accessor.data_type(), accessor.count());
         let mut rows = match accessor.view() {
             Some(view) => self.strided::<N>(&view, accessor.offset(), kind, count)?,
-            None if count <= MAX_ZEROS => vec![[0.0; N]; count],
-            None => return Err(fault(Fault::TooMany { what: "empty rows", limit: MAX_ZEROS })),
+            // Zeros cost a file nothing: it may claim as many rows as it has bytes.
+            None if count <= self.size() => vec![[0.0; N]; count],
+            None => return Err(fault(Fault::TooMany { what: "rows without data", limit: self.size() })),
         };
         if let Some(sparse) = accessor.sparse() {
             let places = sparse.indices();

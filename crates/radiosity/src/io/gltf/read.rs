@@ -78,7 +78,8 @@ impl Reader<'_> {
     }
 
     fn meet(&mut self, node: &gltf::Node<'_>, world: DMat4) -> Result<(), Error> {
-        let name = node.name().map_or_else(|| format!("node-{}", node.index()), Into::into);
+        let name = node.name().map(str::trim).filter(|name| !name.is_empty());
+        let name = name.map_or_else(|| format!("node-{}", node.index()), Into::into);
         if let Some(camera) = node.camera() {
             self.look(&camera, &name, world);
         }
