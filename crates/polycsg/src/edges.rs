@@ -5,7 +5,7 @@ use crate::csg::{Csg, Token};
 use crate::predicates::Segment;
 use crate::rings::Rings;
 use crate::truth::{Truth, index};
-use crate::windows::Windows;
+use crate::window::Window;
 use glam::DVec2;
 use std::ops::Range;
 
@@ -127,9 +127,9 @@ fn sort_by_place(places: &mut [Place]) {
 }
 
 impl Edges {
-    /// Reads the operands, without the rings that miss their windows. Repeated points are dropped, and rings that have
+    /// Reads the operands, without the rings that miss the window. Repeated points are dropped, and rings that have
     /// fewer than three others left.
-    pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth, windows: &Windows) {
+    pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth, window: &Window) {
         self.clear();
         let leaves = csg.postfix().iter().filter(|token| !matches!(token, Token::Operator(..)));
         let rings = leaves.clone().map(|leaf| leaf.rings().map_or(0, Rings::len)).sum::<usize>();
@@ -144,12 +144,12 @@ impl Edges {
             }
             for place in places {
                 let leaf = leaves[place.operand as usize];
-                self.add_ring(leaf, place.operand, place.ring as usize, truth, windows);
+                self.add_ring(leaf, place.operand, place.ring as usize, truth, window);
             }
         } else {
             for (operand, leaf) in leaves.enumerate() {
                 for ring in 0..leaf.rings().map_or(0, Rings::len) {
-                    self.add_ring(leaf, index(operand), ring, truth, windows);
+                    self.add_ring(leaf, index(operand), ring, truth, window);
                 }
             }
         }
@@ -186,10 +186,10 @@ impl Edges {
         self.rings.push(Ring { start, end, counter, winds: 1, also: END, origin });
     }
 
-    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth, windows: &Windows) {
+    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth, window: &Window) {
         let Some(rings) = leaf.rings() else { return };
         let (start, points) = (index(self.points.len()), rings.closed(ring));
-        if !windows.meet(operand, points, truth) {
+        if !window.meets(points) {
             return;
         }
         let origin = Origin { operand, edge: index(rings.start(ring)) };

@@ -115,12 +115,13 @@ mod serde;
 mod slabs;
 mod strips;
 mod suspects;
+mod threads;
 #[cfg(feature = "triangulate")]
 mod triangulate;
 mod truth;
 mod union_find;
 mod validate;
-mod windows;
+mod window;
 
 pub use boundary::{Boundary, BoundaryEdge};
 pub use classify::{Interval, classify};

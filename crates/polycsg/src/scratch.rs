@@ -16,7 +16,7 @@ use crate::slabs::Slabs;
 use crate::strips::Strips;
 use crate::suspects::Suspects;
 use crate::truth::Truth;
-use crate::windows::Windows;
+use crate::window::Window;
 
 /// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
 ///
@@ -33,7 +33,7 @@ use crate::windows::Windows;
 #[derive(Debug, Default)]
 pub struct Scratch {
     pub(crate) truth: Truth,
-    pub(crate) windows: Windows,
+    pub(crate) window: Window,
     pub(crate) edges: Edges,
     pub(crate) cancel: Cancel,
     pub(crate) chains: Chains,

@@ -168,16 +168,27 @@ impl Strips {
         self.starts[strip] as usize..self.starts[strip + 1] as usize
     }
 
-    /// Calls `visit` once for each pair of boxes that meet, in an order that depends on the boxes alone.
+    /// The number of strips.
+    pub(crate) fn len(&self) -> usize {
+        if self.boxes.len() <= FEW { 1 } else { self.starts.len() - 1 }
+    }
+
+    /// Calls `visit` once for each pair of boxes that meet in some of the strips, in an order that depends on the boxes
+    /// alone.
     ///
     /// Gives up, and returns false, when `visit` does, or when more than so many blocks of boxes must be looked at.
-    pub(crate) fn pairs_within(&self, mut blocks: usize, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
+    pub(crate) fn pairs_within(
+        &self,
+        strips: Range<usize>,
+        mut blocks: usize,
+        mut visit: impl FnMut(u32, u32) -> bool,
+    ) -> bool {
         if self.boxes.len() <= FEW {
             self.few_pairs(visit);
             return true;
         }
         let count = self.starts.len() - 1;
-        for strip in 0..count {
+        for strip in strips {
             let entries = self.entries(strip);
             for i in entries.clone() {
                 let mut go_on = true;

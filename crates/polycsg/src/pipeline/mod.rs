@@ -10,10 +10,10 @@ use crate::{Boundary, Error, Region, Scratch, nest};
 
 /// The expression's truth, and the edges that matter.
 fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
-    let Scratch { truth, windows, edges, .. } = scratch;
+    let Scratch { truth, window, edges, .. } = scratch;
     truth.compile(csg);
-    windows.find(csg, truth);
-    edges.collect(csg, truth, windows);
+    window.find(csg, truth);
+    edges.collect(csg, truth, window);
 }
 
 /// Their chains, contacts, arrangement, memberships, and if wanted which of them rounding may make meet. All stages

@@ -56,9 +56,9 @@ proptest! {
 }
 
 /// Without the boxes' shortcut.
-fn unwindowed() -> Scratch {
+fn boundless() -> Scratch {
     let mut scratch = Scratch::default();
-    scratch.windows.off = true;
+    scratch.window.off = true;
     scratch
 }
 
@@ -83,9 +83,9 @@ fn expression<'a>(leaves: &'a [Region], operators: &[u8]) -> Csg<'a> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// Rings that miss their windows change nothing, not even by a vertex.
+    /// Rings that miss the window change nothing, not even by a vertex.
     #[test]
-    fn windows_change_nothing(
+    fn the_window_changes_nothing(
         leaves in prop::collection::vec((0..12_i32, 0..12_i32, prop::collection::vec((0..6_i32, 0..6_i32), 3..9)), 2..9),
         operators in prop::collection::vec(any::<u8>(), 8),
     ) {
@@ -95,9 +95,9 @@ proptest! {
         };
         let leaves: Vec<Region> = leaves.iter().map(region).collect();
         let csg = expression(&leaves, &operators);
-        prop_assert_eq!(csg.evaluate(), csg.evaluate_in(&mut unwindowed()));
+        prop_assert_eq!(csg.evaluate(), csg.evaluate_in(&mut boundless()));
         let edges = |scratch: &mut Scratch| csg.boundary(scratch).edges().collect::<Vec<_>>();
-        prop_assert_eq!(edges(&mut Scratch::default()), edges(&mut unwindowed()));
+        prop_assert_eq!(edges(&mut Scratch::default()), edges(&mut boundless()));
     }
 }
 

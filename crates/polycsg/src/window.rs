@@ -1,13 +1,13 @@
 //! Stage 0: which rings cannot matter, by their boxes alone.
 //!
 //! ```text
-//!   a & (b | c)   +---a---+       Outside of a's box the intersection is empty, whatever b and c are: that box is the
-//!        +--b--+  |   +---|--c-+  *window* of what stands beside a. A ring whose box misses the window winds around
-//!        +-----+  +---+---+    |  none of its points, so the set without it is the same set.
-//!                     +--------+  Windows come from the boxes of what must hold at once; a union alone has none.
+//!   a & (b | c)   +---a---+       Outside of a's box the set is empty, whatever b and c are: the set lies in the
+//!        +--b--+  |   +---|--c-+  *window*, the box that the boxes of all operands leave it. A ring whose box misses
+//!        +-----+  +---+---+    |  the window winds around none of its points and touches nothing in it, so the
+//!                     +--------+  result without it is the same result.
 //! ```
 //!
-//! Rings that only touch a window stay: their vertices are put into the edges that they touch.
+//! Rings that only touch the window stay: their vertices are put into the edges that they touch.
 
 use crate::csg::{Csg, Token};
 use crate::gates::Kind;
@@ -50,20 +50,20 @@ impl Bounds {
     }
 }
 
-/// The window of each gate's members.
+/// The box that the set lies in.
 #[derive(Debug, Default)]
-pub(crate) struct Windows {
-    /// Per gate the box outside of which it does not hold, then the window; none where there are no windows.
+pub(crate) struct Window {
+    /// Per gate the box outside of which it does not hold; none where no gate needs all of its members.
     bounds: Vec<Bounds>,
-    /// Per gate whether its box tells anything: all of something must hold where it does.
-    tell: Vec<bool>,
+    /// Per gate whether the window depends on its box: not if its opposite is asked for.
+    tells: Vec<bool>,
     /// Tests compare with the arrangement of all rings.
     #[cfg(test)]
     pub(crate) off: bool,
 }
 
-impl Windows {
-    /// Finds the windows of an expression's gates. O(n) for n points of operands that bound any, if there are any.
+impl Window {
+    /// Finds the window of an expression. O(n) for n points of operands that bound it, if any do.
     pub(crate) fn find(&mut self, csg: &Csg<'_>, truth: &Truth) {
         self.bounds.clear();
         #[cfg(test)]
@@ -74,36 +74,21 @@ impl Windows {
         if (0..gates.len()).all(|gate| gates.kind(gate) != Kind::All) {
             return;
         }
+        self.tells.clear();
+        for gate in 0..gates.len() {
+            let above = gates.above(gate);
+            self.tells.push(above.is_none_or(|(above, opposite)| !opposite && self.tells[above as usize]));
+        }
         let start = |gate| if gates.kind(gate) == Kind::All { Bounds::PLANE } else { Bounds::NOTHING };
         self.bounds.extend((0..gates.len()).map(start));
-        self.find_telling(truth);
-        self.bound_by_operands(csg, truth);
+        for (operand, rings) in csg.postfix().iter().filter_map(Token::rings).enumerate() {
+            if let Some(gate) = truth.gate_of(operand).filter(|&gate| self.tells[gate as usize]) {
+                self.bound(truth, gate, Bounds::of(rings.points()));
+            }
+        }
         for gate in (1..gates.len()).rev() {
             if let Some((above, false)) = gates.above(gate) {
                 self.bound(truth, above, self.bounds[gate as usize]);
-            }
-        }
-        for gate in 0..gates.len() {
-            let above = gates.above(gate).map_or(Bounds::PLANE, |(above, _)| self.bounds[above as usize]);
-            let own = if gates.kind(gate) == Kind::All { self.bounds[gate as usize] } else { Bounds::PLANE };
-            self.bounds[gate as usize] = own.common(above);
-        }
-    }
-
-    fn find_telling(&mut self, truth: &Truth) {
-        let gates = truth.gates();
-        self.tell.clear();
-        for gate in 0..gates.len() {
-            let by_above =
-                gates.above(gate).is_some_and(|(above, opposite)| !opposite && self.tell[above as usize]);
-            self.tell.push(by_above || gates.kind(gate) == Kind::All);
-        }
-    }
-
-    fn bound_by_operands(&mut self, csg: &Csg<'_>, truth: &Truth) {
-        for (operand, rings) in csg.postfix().iter().filter_map(Token::rings).enumerate() {
-            if let Some(gate) = truth.gate_of(operand).filter(|&gate| self.tell[gate as usize]) {
-                self.bound(truth, gate, Bounds::of(rings.points()));
             }
         }
     }
@@ -117,14 +102,10 @@ impl Windows {
         };
     }
 
-    /// Whether a ring of an operand may matter.
+    /// Whether a ring may matter.
     #[inline]
-    pub(crate) fn meet(&self, operand: u32, ring: &[DVec2], truth: &Truth) -> bool {
-        if self.bounds.is_empty() {
-            return true;
-        }
-        let Some(gate) = truth.gate_of(operand as usize) else { return true };
-        let window = self.bounds[gate as usize];
-        window.contains(ring[0]) || !window.misses(Bounds::of(ring))
+    pub(crate) fn meets(&self, ring: &[DVec2]) -> bool {
+        let window = self.bounds.first();
+        window.is_none_or(|window| window.contains(ring[0]) || !window.misses(Bounds::of(ring)))
     }
 }
