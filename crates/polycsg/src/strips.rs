@@ -11,6 +11,7 @@
 //! Coordinates are mapped to 31-bit integers by one weakly monotone function, so that boxes which meet as reals meet
 //! as integers: the index may report too much and never too little. A few boxes stay unsorted.
 
+use crate::threads::Threads;
 use crate::truth::index;
 use glam::DVec2;
 use std::ops::Range;
@@ -146,9 +147,15 @@ impl Strips {
             side.clear();
         }
         self.ids.clear();
+        let mut rest = &mut self.keys[..];
+        let strips = self.starts.windows(2).map(move |ends| {
+            let (strip, others) = std::mem::take(&mut rest).split_at_mut((ends[1] - ends[0]) as usize);
+            rest = others;
+            strip
+        });
+        Threads::for_edges(self.boxes.len()).for_each(strips, <[u64]>::sort_unstable);
         for strip in 0..self.starts.len() - 1 {
             let entries = self.entries(strip);
-            self.keys[entries.clone()].sort_unstable();
             let mut highest = 0;
             for &key in &self.keys[entries] {
                 let id = key & 0xffff_ffff;

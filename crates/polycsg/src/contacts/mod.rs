@@ -105,10 +105,12 @@ impl Contacts {
     /// The two edges that cross at a node that stands for all at its point, or a vertex there.
     #[inline]
     pub(crate) fn place(&self, node: u32) -> Place {
-        match self.nodes[node as usize] {
-            [vertex, NONE] => Place::Vertex(vertex),
-            [e, f] => Place::Crossing(e, f),
-        }
+        Place::of(self.nodes[node as usize])
+    }
+
+    /// What [`place`](Contacts::place) is made of, node by node, for all threads.
+    pub(crate) fn nodes(&self) -> &[[u32; 2]] {
+        &self.nodes
     }
 
     /// Whether there are nodes other than crossings of two edges.
@@ -199,4 +201,14 @@ impl Contacts {
 pub(crate) enum Place {
     Vertex(u32),
     Crossing(u32, u32),
+}
+
+impl Place {
+    #[inline]
+    pub(crate) fn of(node: [u32; 2]) -> Place {
+        match node {
+            [vertex, NONE] => Place::Vertex(vertex),
+            [e, f] => Place::Crossing(e, f),
+        }
+    }
 }
