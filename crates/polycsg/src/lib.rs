@@ -67,7 +67,8 @@
 //! # Features
 //!
 //! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`.
-//! - `rayon`: [`Csg::evaluate_all`](Csg#method.evaluate_all), many expressions on many threads.
+//! - `rayon`: many threads, inside one job of 20 000 edges or more, and over many jobs by
+//!   [`Csg::evaluate_all`](Csg#method.evaluate_all); the same bits as on one.
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!

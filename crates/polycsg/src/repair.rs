@@ -81,6 +81,8 @@ pub(crate) struct Mending {
     cuts: Vec<CutAt>,
     /// The suspected edges, sorted.
     edges: Vec<u32>,
+    /// How many vertices were put into edges since the count was set to 0.
+    pub(crate) mended: usize,
 }
 
 /// What the stage looks at.
@@ -145,12 +147,15 @@ pub(crate) fn mend(rounded: Rounded<'_>, slabs: &mut Slabs, mending: &mut Mendin
     loop {
         rounded.cut_up(&mending.parts, &mending.cuts, &mut mending.fragments);
         mending.find_conflicts(slabs);
+        mending.mended = mending.cuts.len();
         if mending.conflicts.is_empty() {
             let may_coincide = mending.classes.len() < mending.alike.len();
             return outline.build(mending.fragments.iter().map(|f| f.segment), may_coincide);
         }
         if !rounded.add_cuts(mending) {
-            return outline.build(cut_verticals(&mending.fragments).iter().copied(), true);
+            let segments = cut_verticals(&mending.fragments);
+            mending.mended += segments.len() - mending.fragments.len();
+            return outline.build(segments.iter().copied(), true);
         }
     }
 }

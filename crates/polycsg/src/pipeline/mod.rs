@@ -76,6 +76,7 @@ pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Bo
 /// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
 pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Error> {
+    scratch.mending.mended = 0;
     collect(csg, scratch);
     if let Some(region) = untouched(csg, scratch) {
         return Ok(region);
@@ -107,8 +108,10 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Err
     match nest::nest(outline, cycles, chains, strips, slabs, nesting) {
         Ok(region) => Ok(region),
         Err(nest::Misnested) => {
-            let rings = cycles.rings().clone();
-            region(&Csg::positive(rings), scratch)
+            let (rings, mended) = (cycles.rings().clone(), mending.mended);
+            let region = region(&Csg::positive(rings), scratch);
+            scratch.mending.mended += mended;
+            region
         }
     }
 }
