@@ -15,6 +15,11 @@ use std::ops::Range;
 /// More edges make a chain's box too large to tell anything.
 pub(crate) const LONGEST: u32 = 16;
 
+/// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a
+/// rectangle. Among few points anything is quick.
+const WIDEST: f64 = 32.0;
+const FEW: usize = 64;
+
 /// A run of edges and its box.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chain {
@@ -101,11 +106,25 @@ pub(crate) struct Chains {
 impl Chains {
     /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
     pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.cut(points, rings, LONGEST);
+    }
+
+    /// Makes each edge a chain.
+    pub(crate) fn cut_to_edges(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.cut(points, rings, 1);
+    }
+
+    fn cut(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>, longest: u32) {
         self.chains.clear();
         self.leftmost.clear();
         for slots in rings {
-            self.add_ring(points, slots);
+            self.add_ring(points, slots, longest);
         }
+    }
+
+    /// The number of chains.
+    pub(crate) fn len(&self) -> usize {
+        self.chains.len()
     }
 
     /// The lower left and upper right corner of each chain's box.
@@ -134,12 +153,12 @@ impl Chains {
         self.chains.iter().flat_map(|chain| [chain.low, chain.high]).fold(0.0, largest)
     }
 
-    fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>) {
+    fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
         let last = slots.end - 1;
         let mut leftmost = slots.start;
         let mut start = slots.start;
         while start < last {
-            let chain = longest_chain(points, start, last);
+            let chain = longest_chain(points, start, last.min(start + longest));
             let left = chain.slot(0);
             if lexicographic(points[left as usize], points[leftmost as usize]) == Ordering::Less {
                 leftmost = left;
@@ -151,17 +170,24 @@ impl Chains {
     }
 }
 
-/// The longest chain from a slot on.
+/// The longest chain from a slot on that does not go beyond another slot.
 #[inline]
-fn longest_chain(points: &[DVec2], first: u32, ring_end: u32) -> Chain {
+fn longest_chain(points: &[DVec2], first: u32, end: u32) -> Chain {
+    let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
     let rightward = lexicographic(a, b) == Ordering::Less;
     let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
+    let area = |a: DVec2, b: DVec2| ((b.x - a.x) * (b.y - a.y)).abs();
+    let mut areas = area(a, b);
     let mut last = first + 1;
-    let end = ring_end.min(first + LONGEST);
     while last < end {
         let c = points[last as usize + 1];
         if (lexicographic(b, c) == Ordering::Less) != rightward {
+            break;
+        }
+        areas += area(b, c);
+        let around = area(DVec2::new(a.x, bottom.min(c.y)), DVec2::new(c.x, top.max(c.y)));
+        if around > widest * areas {
             break;
         }
         (bottom, top) = (bottom.min(c.y), top.max(c.y));

@@ -115,6 +115,7 @@ mod select;
 mod serde;
 mod slabs;
 mod strips;
+mod survey;
 mod suspects;
 mod threads;
 #[cfg(feature = "triangulate")]

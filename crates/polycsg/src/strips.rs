@@ -194,14 +194,12 @@ impl Strips {
             self.few_pairs(visit);
             return true;
         }
-        let count = self.starts.len() - 1;
         for strip in strips {
             let entries = self.entries(strip);
             for i in entries.clone() {
                 let mut go_on = true;
                 let looked_at = self.above(i, entries.end, |j| {
-                    let left = self.x0[i].max(self.x0[j]);
-                    if go_on && (count == 1 || Strips::strip(left, count) == strip) {
+                    if go_on && self.is_first(strip, i, j) {
                         go_on = visit(self.ids[i], self.ids[j]);
                     }
                 });
@@ -212,6 +210,27 @@ impl Strips {
             }
         }
         true
+    }
+
+    /// Calls `visit` for each pair of every `step`-th box and one behind it in its strip.
+    pub(crate) fn sample(&self, step: usize, mut visit: impl FnMut(u32, u32)) {
+        for strip in 0..self.len() {
+            let entries = self.entries(strip);
+            for i in entries.clone().step_by(step) {
+                self.above(i, entries.end, |j| {
+                    if self.is_first(strip, i, j) {
+                        visit(self.ids[i], self.ids[j]);
+                    }
+                });
+            }
+        }
+    }
+
+    /// Whether of all strips in which two boxes meet one is the first.
+    #[inline]
+    fn is_first(&self, strip: usize, i: usize, j: usize) -> bool {
+        let count = self.starts.len() - 1;
+        count == 1 || Strips::strip(self.x0[i].max(self.x0[j]), count) == strip
     }
 
     fn few_pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) {

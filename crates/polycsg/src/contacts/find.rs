@@ -7,7 +7,7 @@ use crate::chains::Chains;
 use crate::edges::Edges;
 use crate::predicates::Margins;
 use crate::slabs::Slabs;
-use crate::strips::Strips;
+use crate::survey::Boxes;
 use crate::suspects::Suspects;
 use crate::threads::Threads;
 use std::ops::Range;
@@ -37,7 +37,7 @@ impl Default for Patience {
     fn default() -> Patience {
         Patience {
             pairs: 1000,
-            pairs_per_edge: 12,
+            pairs_per_edge: 48,
             pairs_per_node: 8,
             blocks_per_edge: 32,
             contacts: usize::MAX,
@@ -51,9 +51,21 @@ impl Patience {
         self.pairs + self.blocks_per_edge * edges.len()
     }
 
+    /// Twice as much, for those who were told that it would last.
+    pub(super) fn doubled(self) -> Patience {
+        let twice = |n: usize| n.saturating_mul(2);
+        Patience {
+            pairs: twice(self.pairs),
+            pairs_per_edge: twice(self.pairs_per_edge),
+            pairs_per_node: twice(self.pairs_per_node),
+            blocks_per_edge: twice(self.blocks_per_edge),
+            ..self
+        }
+    }
+
     /// Whether to go on when so many pairs of edges, nodes and contacts were found.
-    fn lasts(self, edges: &Edges, pairs: usize, nodes: usize, contacts: usize) -> bool {
-        let most = self.pairs + self.pairs_per_edge * edges.len();
+    pub(crate) fn lasts(self, edges: usize, pairs: usize, nodes: usize, contacts: usize) -> bool {
+        let most = self.pairs + self.pairs_per_edge * edges;
         pairs < most + self.pairs_per_node * nodes && contacts <= self.contacts
     }
 }
@@ -94,14 +106,13 @@ impl Contacts {
     /// Returns false, with some contacts found, when it would take too long or they are too many.
     pub(super) fn find_by_boxes(
         &mut self,
-        edges: &Edges,
-        chains: &Chains,
-        strips: &Strips,
+        boxes: Boxes<'_>,
         suspects: &mut Suspects,
         patience: Patience,
     ) -> bool {
+        let Boxes { edges, chains, strips } = boxes;
         if Threads::for_edges(edges.len()).are_many() {
-            return self.find_on_threads(edges, chains, strips, suspects, patience);
+            return self.find_on_threads(boxes, suspects, patience);
         }
         let mut met = 0;
         strips.pairs_within(0..strips.len(), patience.blocks(edges), |a, b| {
@@ -109,19 +120,13 @@ impl Contacts {
                 met += 1;
                 self.meet(edges, e.min(f), e.max(f), suspects);
             });
-            patience.lasts(edges, met, self.nodes.len(), self.found.len())
+            patience.lasts(edges.len(), met, self.nodes.len(), self.found.len())
         })
     }
 
     /// The same: pairs of edges are compared strip by strip on all threads, and what was found is noted strip by strip.
-    fn find_on_threads(
-        &mut self,
-        edges: &Edges,
-        chains: &Chains,
-        strips: &Strips,
-        suspects: &mut Suspects,
-        patience: Patience,
-    ) -> bool {
+    fn find_on_threads(&mut self, boxes: Boxes<'_>, suspects: &mut Suspects, patience: Patience) -> bool {
+        let Boxes { edges, chains, strips } = boxes;
         let margins = suspects.margins();
         let compared = |strips_at: Range<usize>| {
             let mut met = Met::default();
@@ -129,7 +134,7 @@ impl Contacts {
                 chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                     met.add(edges, [e.min(f), e.max(f)], margins);
                 });
-                patience.lasts(edges, met.pairs, met.meetings.len(), 2 * met.crossings)
+                patience.lasts(edges.len(), met.pairs, met.meetings.len(), 2 * met.crossings)
             });
             met
         };
@@ -140,7 +145,7 @@ impl Contacts {
                 Ok(crossing) => self.cross(edges, crossing),
                 Err([e, f]) => self.meet(edges, e, f, suspects),
             });
-            met.in_time && patience.lasts(edges, pairs, self.nodes.len(), self.found.len())
+            met.in_time && patience.lasts(edges.len(), pairs, self.nodes.len(), self.found.len())
         })
     }
 

@@ -192,6 +192,11 @@ pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meet
     }
 }
 
+/// Whether two edges cross, whatever rounding does.
+pub(crate) fn cross_clearly(edges: &Edges, pair: [u32; 2], margins: Margins) -> bool {
+    matches!(meeting(edges, pair, margins), Meeting::Crossing(_))
+}
+
 /// Two edges with one end in common.
 struct Corner {
     common: glam::DVec2,

@@ -11,13 +11,14 @@ mod meeting;
 mod partner;
 
 pub(crate) use find::Patience;
+pub(crate) use meeting::cross_clearly;
 pub(crate) use partner::{Contact, Met, Partner};
 
 use crate::Error;
 use crate::chains::Chains;
 use crate::edges::Edges;
 use crate::slabs::Slabs;
-use crate::strips::Strips;
+use crate::survey::{Boxes, Survey};
 use crate::suspects::Suspects;
 use crate::threads::Threads;
 use crate::truth::index;
@@ -55,16 +56,17 @@ impl Contacts {
     /// [`Error::TooManyContacts`], by the limit that `patience` has.
     pub(crate) fn find(
         &mut self,
-        edges: &Edges,
-        chains: &Chains,
-        strips: &Strips,
+        boxes: Boxes<'_>,
         slabs: &mut Slabs,
         suspects: &mut Suspects,
+        survey: Survey,
         patience: Patience,
     ) -> Result<(), Error> {
+        let Boxes { edges, chains, .. } = boxes;
         let most = patience.contacts;
         self.start(edges, chains, suspects);
-        let is_done = self.find_by_boxes(edges, chains, strips, suspects, patience);
+        let is_done =
+            survey.asks_for_boxes(patience) && self.find_by_boxes(boxes, suspects, patience.doubled());
         if !is_done && self.found.len() <= most {
             self.start(edges, chains, suspects);
             suspects.give_up();

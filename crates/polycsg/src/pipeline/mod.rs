@@ -6,6 +6,7 @@ mod tests;
 use crate::csg::Csg;
 use crate::labels::Map;
 use crate::repair::{self, Rounded};
+use crate::survey::{Boxes, Survey};
 use crate::{Boundary, Error, Region, Scratch, nest};
 
 /// The expression's truth, and the edges that matter.
@@ -45,8 +46,13 @@ fn label(scratch: &mut Scratch, suspect: bool) -> Result<(), Error> {
         chains.build(edges.points(), edges.spans());
     }
     strips.build(chains.boxes());
+    let survey = Survey::of(Boxes { edges, chains, strips });
+    if survey.asks_for_boxes(*patience) && survey.asks_for_single_edges() {
+        chains.cut_to_edges(edges.points(), edges.spans());
+        strips.build(chains.boxes());
+    }
     suspects.want(suspect);
-    contacts.find(edges, chains, strips, slabs, suspects, *patience)?;
+    contacts.find(Boxes { edges, chains, strips }, slabs, suspects, survey, *patience)?;
     arrangement.split(edges, contacts);
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
     Ok(())
