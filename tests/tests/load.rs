@@ -201,6 +201,12 @@ fn one_ring_of_two_million_edges() {
 
 #[test]
 #[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn one_ring_of_ten_million_edges() {
+    saw(5_000_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
 fn expressions_a_hundred_thousand_deep() {
     chain(100_000);
 }
