@@ -46,7 +46,8 @@ pub(crate) struct Arrangement {
     /// Per arc the one that stands for it and the next that coincides; empty when there are no junctions.
     stands: Vec<u32>,
     next: Vec<u32>,
-    at_junctions: Vec<(u32, u32)>,
+    /// The half-edges that leave one junction.
+    leaving: Vec<(Segment, u32)>,
 }
 
 /// Where an arc starts.
@@ -63,7 +64,6 @@ impl Arrangement {
         self.cut(edges, contacts);
         self.find_starting(contacts);
         self.gather(edges);
-        self.unite(edges);
         debug_assert!(self.check(edges));
     }
 
@@ -83,104 +83,95 @@ impl Arrangement {
         self.first.push(index(arc));
     }
 
-    /// Finds the arcs that start in each node.
+    /// Finds the arcs that start in each node, and counts them where that is a junction.
     fn find_starting(&mut self, contacts: &Contacts) {
+        let junctions = self.number_junctions(contacts);
+        self.starts.clear();
+        self.starts.resize(junctions + 2, 0);
+        for (i, arc) in (0..).zip(&self.arcs) {
+            let starting = &mut self.starting[arc.node as usize];
+            match *starting {
+                [NONE, NONE] => starting[0] = i,
+                [NONE, junction] => self.starts[junction as usize + 2] += 2,
+                [_, _] => starting[1] = i,
+            }
+        }
+        for junction in 2..self.starts.len() {
+            self.starts[junction] += self.starts[junction - 1];
+        }
+    }
+
+    /// Numbers the nodes that are vertices or several crossings in one point; returns how many there are.
+    fn number_junctions(&mut self, contacts: &Contacts) -> usize {
         self.starting.clear();
         self.starting.resize(contacts.node_count(), [NONE; 2]);
-        self.at_junctions.clear();
-        if contacts.degenerate() {
-            self.list_junctions(contacts);
-        } else {
-            for (i, arc) in self.arcs.iter().enumerate() {
-                let starting = &mut self.starting[arc.node as usize];
-                starting[usize::from(starting[0] != NONE)] = index(i);
-            }
+        if !contacts.degenerate() {
+            return 0;
         }
-        self.number_junctions();
-    }
-
-    /// Finds the starting arcs where there are junctions.
-    fn list_junctions(&mut self, contacts: &Contacts) {
-        let mut count: Vec<u8> = vec![0; contacts.node_count()];
         for node in 0..index(contacts.node_count()) {
-            let stands = contacts.node(node) as usize;
-            let alone = matches!(contacts.place(node), Place::Crossing(..));
-            count[stands] = count[stands].saturating_add(if alone { 1 } else { 2 });
-        }
-        for (i, arc) in (0..).zip(&self.arcs) {
-            if count[arc.node as usize] > 1 {
-                self.at_junctions.push((arc.node, i));
-            } else {
-                let starting = &mut self.starting[arc.node as usize];
-                starting[usize::from(starting[0] != NONE)] = i;
+            let stands = contacts.node(node);
+            if stands != node || matches!(contacts.place(node), Place::Vertex(_)) {
+                self.starting[stands as usize][1] = 0;
             }
         }
+        let junctions = self.starting.iter_mut().filter(|starting| starting[1] != NONE);
+        (0..).zip(junctions).map(|(junction, starting)| starting[1] = junction).count()
     }
 
-    fn number_junctions(&mut self) {
-        self.at_junctions.sort_unstable();
-        for (junction, arcs) in (0..).zip(self.at_junctions.chunk_by(|a, b| a.0 == b.0)) {
-            self.starting[arcs[0].0 as usize] = [NONE, junction];
-        }
-    }
-
-    /// Lists the half-edges of each junction by angle.
+    /// Lists the half-edges of each junction by angle, and unites those that leave it in one direction.
     fn gather(&mut self, edges: &Edges) {
-        let (mut around, mut starts) = (std::mem::take(&mut self.around), std::mem::take(&mut self.starts));
-        around.clear();
-        starts.clear();
-        starts.push(0);
-        for arcs in self.at_junctions.chunk_by(|a, b| a.0 == b.0) {
-            let start = around.len();
-            for &(_, arc) in arcs {
-                around.extend([2 * arc, 2 * self.previous(edges, arc) + 1]);
-            }
-            around[start..].sort_unstable_by(|&g, &h| {
-                by_angle(self.direction(edges, g), self.direction(edges, h)).then(g.cmp(&h))
-            });
-            starts.push(index(around.len()));
-        }
-        (self.around, self.starts) = (around, starts);
-    }
-
-    /// Finds the arcs that coincide: they leave a junction in one direction.
-    fn unite(&mut self, edges: &Edges) {
+        self.list_half_edges(edges);
         self.stands.clear();
         self.next.clear();
-        if self.at_junctions.is_empty() {
+        if self.around.is_empty() {
             return;
         }
         self.stands.extend(0..index(self.arcs.len()));
         self.next.resize(self.arcs.len(), NONE);
-        for junction in 0..index(self.starts.len() - 1) {
-            let around = self.span(junction);
-            let mut start = around.start;
-            while start < around.end {
-                let end = self.group_end(edges, start, around.end);
-                if end > start + 1 {
-                    self.unite_group(start..end);
-                }
-                start = end;
+        let mut leaving = std::mem::take(&mut self.leaving);
+        for junction in 0..index(self.junction_count()) {
+            let span = self.span(junction);
+            let half_edges = span.clone().map(|place| self.around(place));
+            leaving.clear();
+            leaving.extend(half_edges.map(|half_edge| (self.direction(edges, half_edge), half_edge)));
+            leaving.sort_unstable_by(|g, h| by_angle(g.0, h.0).then(g.1.cmp(&h.1)));
+            for (place, (_, half_edge)) in span.zip(&leaving) {
+                self.around[place as usize] = *half_edge;
+            }
+            leaving
+                .chunk_by(|g, h| by_angle(g.0, h.0) == Ordering::Equal)
+                .for_each(|bundle| self.unite(bundle));
+        }
+        self.leaving = leaving;
+    }
+
+    /// Lists the half-edges junction by junction; afterwards `starts[j]..starts[j + 1]` are those of junction j.
+    fn list_half_edges(&mut self, edges: &Edges) {
+        let mut around = std::mem::take(&mut self.around);
+        around.clear();
+        around.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
+        for arc in 0..index(self.arcs.len()) {
+            if let [NONE, junction] = self.starting[self.node(arc) as usize] {
+                let previous = self.previous(edges, arc);
+                let at = &mut self.starts[junction as usize + 1];
+                around[*at as usize] = 2 * arc;
+                around[*at as usize + 1] = 2 * previous + 1;
+                *at += 2;
             }
         }
+        self.starts.pop();
+        self.around = around;
     }
 
-    /// Bundles arcs, at one end of theirs; at the other it was or will be done alike.
-    fn unite_group(&mut self, group: Range<u32>) {
-        let mut arcs: Vec<u32> =
-            self.around[group.start as usize..group.end as usize].iter().map(|h| h >> 1).collect();
-        arcs.sort_unstable();
-        for pair in arcs.windows(2) {
-            self.next[pair[0] as usize] = pair[1];
-            self.stands[pair[1] as usize] = arcs[0];
+    /// Bundles arcs by half-edges in order that leave a junction in one direction; at the arcs' other ends it was or will
+    /// be done alike.
+    fn unite(&mut self, bundle: &[(Segment, u32)]) {
+        let stands = bundle[0].1 >> 1;
+        for pair in bundle.windows(2) {
+            let [arc, next] = [pair[0].1 >> 1, pair[1].1 >> 1];
+            self.next[arc as usize] = next;
+            self.stands[next as usize] = stands;
         }
-    }
-
-    /// Where the half-edges end that leave in the direction of the one at `place`.
-    fn group_end(&self, edges: &Edges, place: u32, end: u32) -> u32 {
-        let direction = |place: u32| self.direction(edges, self.around(place));
-        let first = direction(place);
-        (place + 1..end).find(|&p| by_angle(first, direction(p)) != Ordering::Equal).unwrap_or(end)
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -61,6 +61,14 @@ pub(crate) enum Token<'a> {
 }
 
 impl Token<'_> {
+    /// The region, if it is one.
+    pub(crate) fn region(&self) -> Option<&Region> {
+        match self {
+            Token::Region(region) => Some(region),
+            _ => None,
+        }
+    }
+
     /// The rings of an operand.
     pub(crate) fn rings(&self) -> Option<&Rings> {
         match self {
@@ -171,6 +179,7 @@ impl<'a> Csg<'a> {
         Csg::leaf(Token::Rings(rings, FillRule::Positive))
     }
 
+    /// The operands, and each operator behind its operands.
     pub(crate) fn postfix(&self) -> &VecDeque<Token<'a>> {
         &self.postfix
     }

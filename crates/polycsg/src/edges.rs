@@ -5,6 +5,7 @@ use crate::csg::{Csg, Token};
 use crate::predicates::Segment;
 use crate::rings::Rings;
 use crate::truth::{Truth, index};
+use crate::window::Window;
 use glam::DVec2;
 use std::ops::Range;
 
@@ -126,8 +127,9 @@ fn sort_by_place(places: &mut [Place]) {
 }
 
 impl Edges {
-    /// Reads the operands. Repeated points are dropped, and rings that have fewer than three others left.
-    pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth) {
+    /// Reads the operands, without the rings that miss the window. Repeated points are dropped, and rings that have
+    /// fewer than three others left.
+    pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth, window: &Window) {
         self.clear();
         let leaves = csg.postfix().iter().filter(|token| !matches!(token, Token::Operator(..)));
         let rings = leaves.clone().map(|leaf| leaf.rings().map_or(0, Rings::len)).sum::<usize>();
@@ -141,15 +143,22 @@ impl Edges {
                 sort_by_place(&mut places);
             }
             for place in places {
-                self.add_ring(leaves[place.operand as usize], place.operand, place.ring as usize, truth);
+                let leaf = leaves[place.operand as usize];
+                self.add_ring(leaf, place.operand, place.ring as usize, truth, window);
             }
         } else {
             for (operand, leaf) in leaves.enumerate() {
                 for ring in 0..leaf.rings().map_or(0, Rings::len) {
-                    self.add_ring(leaf, index(operand), ring, truth);
+                    self.add_ring(leaf, index(operand), ring, truth, window);
                 }
             }
         }
+    }
+
+    /// The operand that all rings come from, if that is one.
+    pub(crate) fn only_operand(&self) -> Option<u32> {
+        let first = self.rings.first()?.origin.operand;
+        self.rings.iter().all(|ring| ring.origin.operand == first).then_some(first)
     }
 
     pub(crate) fn clear(&mut self) {
@@ -177,9 +186,12 @@ impl Edges {
         self.rings.push(Ring { start, end, counter, winds: 1, also: END, origin });
     }
 
-    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth) {
+    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth, window: &Window) {
         let Some(rings) = leaf.rings() else { return };
         let (start, points) = (index(self.points.len()), rings.closed(ring));
+        if !window.meets(points) {
+            return;
+        }
         let origin = Origin { operand, edge: index(rings.start(ring)) };
         let counter = truth.counter(operand as usize);
         let fewest = if counter.is_none() { 2 } else { 3 };
@@ -321,6 +333,21 @@ impl Edges {
         }
         if ring.also != END {
             self.cross_also(ring.also, back, truth);
+        }
+    }
+
+    /// Whether the expression holds to the right of an edge, from the left of which the walk looks.
+    #[inline]
+    pub(crate) fn holds_behind(&self, edge: u32, truth: &mut Truth) -> bool {
+        let ring = self.ring(edge);
+        match ring.counter {
+            Some(counter) if ring.also == END => truth.would_hold(counter, -ring.winds),
+            _ => {
+                self.cross(edge, true, truth);
+                let holds = truth.holds();
+                self.cross(edge, false, truth);
+                holds
+            }
         }
     }
 

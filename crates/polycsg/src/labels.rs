@@ -377,9 +377,7 @@ impl Labels {
             return;
         }
         let left = truth.holds();
-        cross_bundle(arc, true, map, truth);
-        let right = truth.holds();
-        cross_bundle(arc, false, map, truth);
+        let right = holds_behind(arc, map, truth);
         let known = Label::KNOWN | (u8::from(left) * Label::LEFT) | (u8::from(right) * Label::RIGHT);
         let label = &mut self.labels[arc as usize];
         debug_assert!(!label.is(Label::KNOWN) || label.0 | Label::HUNG == known | Label::HUNG);
@@ -448,6 +446,18 @@ fn cross_bundle(arc: u32, back: bool, map: Map<'_>, truth: &mut Truth) {
         let along = map.arrangement.is_along(map.edges, arc, other);
         map.edges.cross(map.an_edge(other), back == along, truth);
     }
+}
+
+/// Whether the expression holds to the right of a bundle, from the left of which the walk looks.
+#[inline]
+fn holds_behind(arc: u32, map: Map<'_>, truth: &mut Truth) -> bool {
+    if map.arrangement.bundle(arc).nth(1).is_none() {
+        return map.edges.holds_behind(map.an_edge(arc), truth);
+    }
+    cross_bundle(arc, true, map, truth);
+    let holds = truth.holds();
+    cross_bundle(arc, false, map, truth);
+    holds
 }
 
 /// Moves over all crossings from `arc` back to `first`.

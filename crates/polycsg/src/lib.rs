@@ -68,7 +68,8 @@
 //! # Features
 //!
 //! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`.
-//! - `rayon`: [`Csg::evaluate_all`](Csg#method.evaluate_all), many expressions on many threads.
+//! - `rayon`: many threads, inside one job of 20 000 edges or more, and over many jobs by
+//!   [`Csg::evaluate_all`](Csg#method.evaluate_all); the same bits as on one.
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!
@@ -96,6 +97,7 @@ mod error;
 #[cfg(fuzzing)]
 #[doc(hidden)]
 pub mod fuzzing;
+mod gates;
 #[cfg(feature = "geo-types")]
 mod geo;
 mod labels;
@@ -115,11 +117,13 @@ mod serde;
 mod slabs;
 mod strips;
 mod suspects;
+mod threads;
 #[cfg(feature = "triangulate")]
 mod triangulate;
 mod truth;
 mod union_find;
 mod validate;
+mod window;
 
 pub use boundary::{Boundary, BoundaryEdge};
 pub use classify::{Interval, classify};

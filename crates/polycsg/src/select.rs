@@ -6,6 +6,7 @@ use crate::edges::{Edges, Ring};
 use crate::labels::Labels;
 use crate::membership::Membership;
 use crate::predicates::crossing_point;
+use crate::threads::Threads;
 use crate::truth::index;
 use glam::DVec2;
 use std::ops::Range;
@@ -75,6 +76,13 @@ pub(crate) struct Selection {
     /// Per node its point if it is a crossing where a piece ends.
     rounded: Vec<DVec2>,
 }
+
+/// A node that is no crossing where a piece ends, and one that is, before it is rounded.
+const UNUSED: DVec2 = DVec2::NEG_INFINITY;
+const WANTED: DVec2 = DVec2::INFINITY;
+
+/// So many nodes are a part of the work.
+const NODES: usize = 4096;
 
 /// A run of selected arcs, being built: from the start of one arc to that of another.
 #[derive(Clone, Copy)]
@@ -154,15 +162,20 @@ impl Selection {
 
     fn round(&mut self, edges: &Edges, contacts: &Contacts) {
         self.rounded.clear();
-        self.rounded.resize(contacts.node_count(), DVec2::NAN);
+        self.rounded.resize(contacts.node_count(), UNUSED);
         for node in self.pieces.iter().filter_map(|piece| piece.nodes).flatten() {
-            if let Place::Crossing(e, f) = contacts.place(node) {
-                let place = &mut self.rounded[node as usize];
-                if place.is_nan() {
-                    *place = crossing_point(edges.segment(e), edges.segment(f));
-                }
+            if let Place::Crossing(..) = contacts.place(node) {
+                self.rounded[node as usize] = WANTED;
             }
         }
+        let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));
+        Threads::for_edges(edges.len()).for_each(parts, |(points, nodes)| {
+            for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| **point == WANTED) {
+                if let Place::Crossing(e, f) = Place::of(node) {
+                    *point = crossing_point(edges.segment(e), edges.segment(f));
+                }
+            }
+        });
     }
 }
 

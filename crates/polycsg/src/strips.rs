@@ -11,6 +11,7 @@
 //! Coordinates are mapped to 31-bit integers by one weakly monotone function, so that boxes which meet as reals meet
 //! as integers: the index may report too much and never too little. A few boxes stay unsorted.
 
+use crate::threads::Threads;
 use crate::truth::index;
 use glam::DVec2;
 use std::ops::Range;
@@ -146,9 +147,15 @@ impl Strips {
             side.clear();
         }
         self.ids.clear();
+        let mut rest = &mut self.keys[..];
+        let strips = self.starts.windows(2).map(move |ends| {
+            let (strip, others) = std::mem::take(&mut rest).split_at_mut((ends[1] - ends[0]) as usize);
+            rest = others;
+            strip
+        });
+        Threads::for_edges(self.boxes.len()).for_each(strips, <[u64]>::sort_unstable);
         for strip in 0..self.starts.len() - 1 {
             let entries = self.entries(strip);
-            self.keys[entries.clone()].sort_unstable();
             let mut highest = 0;
             for &key in &self.keys[entries] {
                 let id = key & 0xffff_ffff;
@@ -168,16 +175,27 @@ impl Strips {
         self.starts[strip] as usize..self.starts[strip + 1] as usize
     }
 
-    /// Calls `visit` once for each pair of boxes that meet, in an order that depends on the boxes alone.
+    /// The number of strips.
+    pub(crate) fn len(&self) -> usize {
+        if self.boxes.len() <= FEW { 1 } else { self.starts.len() - 1 }
+    }
+
+    /// Calls `visit` once for each pair of boxes that meet in some of the strips, in an order that depends on the boxes
+    /// alone.
     ///
     /// Gives up, and returns false, when `visit` does, or when more than so many blocks of boxes must be looked at.
-    pub(crate) fn pairs_within(&self, mut blocks: usize, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
+    pub(crate) fn pairs_within(
+        &self,
+        strips: Range<usize>,
+        mut blocks: usize,
+        mut visit: impl FnMut(u32, u32) -> bool,
+    ) -> bool {
         if self.boxes.len() <= FEW {
             self.few_pairs(visit);
             return true;
         }
         let count = self.starts.len() - 1;
-        for strip in 0..count {
+        for strip in strips {
             let entries = self.entries(strip);
             for i in entries.clone() {
                 let mut go_on = true;

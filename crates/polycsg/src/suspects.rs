@@ -12,6 +12,8 @@ use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Suspects {
+    /// Whether anybody asks for the pairs.
+    wanted: bool,
     /// Whether all edges are suspected.
     all: bool,
     pairs: Vec<[u32; 2]>,
@@ -19,9 +21,14 @@ pub(crate) struct Suspects {
 }
 
 impl Suspects {
+    /// Tells whether pairs are noted from the next start on.
+    pub(crate) fn want(&mut self, wanted: bool) {
+        self.wanted = wanted;
+    }
+
     /// Starts over for coordinates up to a size.
     pub(crate) fn start(&mut self, size: f64) {
-        self.all = false;
+        self.all = !self.wanted;
         self.pairs.clear();
         self.margins = Margins::for_size(size);
     }
@@ -45,14 +52,16 @@ impl Suspects {
     }
 
     pub(crate) fn add(&mut self, e: u32, f: u32) {
-        self.pairs.push([e, f]);
+        if !self.all {
+            self.pairs.push([e, f]);
+        }
     }
 
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
     pub(crate) fn look_along(&mut self, edges: &Edges, contacts: &[Contact]) {
         let is_crossing =
             |contact: &Contact| matches!(contact.partner.met(), Met::FromLeft(_) | Met::FromRight(_));
-        if !contacts.iter().any(is_crossing) {
+        if self.all || !contacts.iter().any(is_crossing) {
             return;
         }
         let edge = contacts[0].edge;

@@ -1,12 +1,12 @@
 //! The state of a walk over the arrangement: how often each operand covers the place, and whether the whole
 //! expression holds there.
 //!
-//! Winding numbers are kept in counters; a gate counts its members that hold. When a counter's truth changes, the
-//! change climbs towards the root only while it changes a gate's truth too. Operands that wind once at most
-//! (regions) and stand under one union, intersection or symmetric difference share one counter: the number of
-//! operands that contain the place decides.
+//! Winding numbers are kept in counters, the members of [`Gates`]. Operands that wind once at most (regions) and stand
+//! under one union, intersection or symmetric difference share one counter: the number of operands that contain the
+//! place decides.
 
 use crate::csg::{Csg, FillRule, Operator, Token};
+use crate::gates::{Gates, Kind};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rule {
@@ -37,30 +37,13 @@ struct Counter {
     gate: u32,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Any,
-    All,
-    Odd,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Gate {
-    kind: Kind,
-    members: i32,
-    true_members: i32,
-    holds: bool,
-    /// The gate above and whether this one enters it negated; the root has none.
-    above: Option<(u32, bool)>,
-    /// The counter that the gate's regions share.
-    shared: Option<u32>,
-}
-
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Truth {
     counters: Vec<Counter>,
-    gates: Vec<Gate>,
+    gates: Gates,
+    /// Per gate the counter that its regions share.
+    shared: Vec<Option<u32>>,
     /// The counter of each operand; an open edge has none.
     operands: Vec<Option<u32>>,
     open: Vec<Open>,
@@ -79,8 +62,13 @@ impl Truth {
     pub(crate) fn compile(&mut self, csg: &Csg<'_>) {
         self.counters.clear();
         self.gates.clear();
+        self.shared.clear();
         self.operands.clear();
-        self.add_gate(Kind::Any, None);
+        let root = match csg.postfix().back() {
+            Some(Token::Operator(operator, _)) => kind_of(*operator),
+            _ => Kind::Any,
+        };
+        self.add_gate(root, None);
         self.open.clear();
         self.open.push(Open { remaining: 1, first: 0, rest: 0 });
         for token in csg.postfix().iter().rev() {
@@ -101,51 +89,41 @@ impl Truth {
             }
         }
         self.operands.reverse();
+        self.gates.lay_out();
     }
 
     fn gate_for(&mut self, operator: Operator, count: usize, above: u32) -> Open {
-        let kind = match operator {
-            Operator::Union => Kind::Any,
-            Operator::Intersection | Operator::Difference => Kind::All,
-            Operator::SymmetricDifference => Kind::Odd,
-        };
+        let kind = kind_of(operator);
         // Same in same is one gate.
-        let first = if self.gates[above as usize].kind == kind {
-            above
-        } else {
-            self.add_gate(kind, Some((above, false)))
-        };
+        let first =
+            if self.gates.kind(above) == kind { above } else { self.add_gate(kind, Some((above, false))) };
         let subtracts = operator == Operator::Difference;
         let rest = if subtracts { self.add_gate(Kind::Any, Some((first, true))) } else { first };
         Open { remaining: count, first, rest }
     }
 
     fn add_gate(&mut self, kind: Kind, above: Option<(u32, bool)>) -> u32 {
-        if let Some((gate, negated)) = above {
-            self.gates[gate as usize].members += 1;
-            self.gates[gate as usize].true_members += i32::from(negated);
-        }
-        self.gates.push(Gate { kind, members: 0, true_members: 0, holds: false, above, shared: None });
-        index(self.gates.len() - 1)
+        self.shared.push(None);
+        self.gates.add(kind, above)
     }
 
     fn add_counter(&mut self, rule: Rule, gate: u32) -> u32 {
-        self.gates[gate as usize].members += 1;
+        self.gates.add_member(gate);
         self.counters.push(Counter { winding: 0, rule, holds: false, gate });
         index(self.counters.len() - 1)
     }
 
     fn add_region(&mut self, gate: u32) {
-        let rule = match self.gates[gate as usize].kind {
+        let rule = match self.gates.kind(gate) {
             Kind::Any => Rule::Positive,
             Kind::All => Rule::Equal(0),
             Kind::Odd => Rule::Odd,
         };
-        let counter = match self.gates[gate as usize].shared {
+        let counter = match self.shared[gate as usize] {
             Some(counter) => counter,
             None => self.add_counter(rule, gate),
         };
-        self.gates[gate as usize].shared = Some(counter);
+        self.shared[gate as usize] = Some(counter);
         if let Rule::Equal(count) = &mut self.counters[counter as usize].rule {
             *count += 1;
         }
@@ -162,6 +140,15 @@ impl Truth {
         self.operands.push(Some(counter));
     }
 
+    pub(crate) fn gates(&self) -> &Gates {
+        &self.gates
+    }
+
+    /// The gate that an operand is a member of; none for an open edge.
+    pub(crate) fn gate_of(&self, operand: usize) -> Option<u32> {
+        self.operands[operand].map(|counter| self.counters[counter as usize].gate)
+    }
+
     /// The counter of an operand.
     pub(crate) fn counter(&self, operand: usize) -> Option<u32> {
         self.operands[operand]
@@ -170,7 +157,7 @@ impl Truth {
     /// Whether the expression holds at the walk's place.
     #[inline]
     pub(crate) fn holds(&self) -> bool {
-        self.gates[0].holds
+        self.gates.holds()
     }
 
     /// Moves the walk over an edge: the winding number of one counter changes by `change`.
@@ -181,32 +168,29 @@ impl Truth {
         let holds = counter.rule.holds(counter.winding);
         if holds != counter.holds {
             counter.holds = holds;
-            let gate = counter.gate;
-            self.climb(gate, holds);
+            self.gates.change(counter.gate, holds);
         }
     }
 
-    fn climb(&mut self, mut gate: u32, mut holds: bool) {
-        loop {
-            let g = &mut self.gates[gate as usize];
-            g.true_members += if holds { 1 } else { -1 };
-            let now = match g.kind {
-                Kind::Any => g.true_members > 0,
-                Kind::All => g.true_members == g.members,
-                Kind::Odd => g.true_members & 1 == 1,
-            };
-            if now == g.holds {
-                return;
-            }
-            g.holds = now;
-            let Some((above, negated)) = g.above else { return };
-            (gate, holds) = (above, now != negated);
-        }
+    /// Whether the expression would hold after a [`cross`](Truth::cross).
+    #[inline]
+    pub(crate) fn would_hold(&self, counter: u32, change: i32) -> bool {
+        let counter = &self.counters[counter as usize];
+        let holds = counter.rule.holds(counter.winding + change);
+        if holds == counter.holds { self.holds() } else { self.gates.would_hold(counter.gate, holds) }
     }
 
     /// Whether the walk has come back to a place outside of everything.
     pub(crate) fn is_outside(&self) -> bool {
         self.counters.iter().all(|c| c.winding == 0)
+    }
+}
+
+fn kind_of(operator: Operator) -> Kind {
+    match operator {
+        Operator::Union => Kind::Any,
+        Operator::Intersection | Operator::Difference => Kind::All,
+        Operator::SymmetricDifference => Kind::Odd,
     }
 }
 

@@ -1,4 +1,4 @@
-//! Jobs on any number of threads yield the same bits.
+//! Jobs on any number of threads, and one job on many, yield the same bits.
 
 use polycsg::{Csg, DVec2, FillRule, Region};
 
@@ -10,6 +10,27 @@ fn star(center: DVec2, spikes: u32) -> Region {
     };
     let ring: Vec<DVec2> = (0..2 * spikes).map(corner).collect();
     Region::from_rings([ring], FillRule::NonZero).expect("finite")
+}
+
+/// Enough edges for one job on many threads: stars over one another, on a lattice so that many meet in common points.
+#[test]
+fn inside_one_job() {
+    let at = |i: u32| DVec2::new(f64::from(i % 40) * 0.75, f64::from(i / 40) * 0.75);
+    let stars: Vec<Region> = (0..1600).map(|i| star(at(i), 7)).collect();
+    let (some, others) = stars.split_at(800);
+    let job = Csg::union(some) ^ Csg::union(others) ^ Csg::union(&stars[..40]);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let edges: Vec<_> = job.boundary(&mut polycsg::Scratch::default()).edges().collect();
+            (job.evaluate(), edges)
+        })
+    };
+    let serial = on(1);
+    assert!(serial.0.area() > 100.0);
+    for threads in [2, 3, 8] {
+        assert!(on(threads) == serial, "{threads} threads");
+    }
 }
 
 #[test]

@@ -8,11 +8,20 @@ use crate::labels::Map;
 use crate::repair::{self, Rounded};
 use crate::{Boundary, Error, Region, Scratch, nest};
 
-/// Edges, chains, contacts, arrangement, memberships. All stages behind the contacts take memory in proportion to them.
+/// The expression's truth, and the edges that matter.
+fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
+    let Scratch { truth, window, edges, .. } = scratch;
+    truth.compile(csg);
+    window.find(csg, truth);
+    edges.collect(csg, truth, window);
+}
+
+/// Their chains, contacts, arrangement, memberships, and if wanted which of them rounding may make meet. All stages
+/// behind the contacts take memory in proportion to these.
 ///
 /// # Errors
 /// [`Error::TooManyContacts`] by the limit in `scratch`, here and below.
-pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<(), Error> {
+fn label(scratch: &mut Scratch, suspect: bool) -> Result<(), Error> {
     let Scratch {
         truth,
         edges,
@@ -28,8 +37,6 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<(), Error>
         labels,
         ..
     } = scratch;
-    truth.compile(csg);
-    edges.collect(csg, truth);
     cancel.cancel(edges);
     chains.build(edges.points(), edges.spans());
     let copies = copies.find(edges, chains);
@@ -38,18 +45,30 @@ pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<(), Error>
         chains.build(edges.points(), edges.spans());
     }
     strips.build(chains.boxes());
+    suspects.want(suspect);
     contacts.find(edges, chains, strips, slabs, suspects, *patience)?;
     arrangement.split(edges, contacts);
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
     Ok(())
 }
 
-/// … and the pieces whose sides differ, rounded.
-pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
-    arrange(csg, scratch)?;
+/// The pieces whose sides differ, rounded.
+fn select(scratch: &mut Scratch) {
     let Scratch { edges, contacts, arrangement, labels, selection, .. } = scratch;
     selection.select(edges, contacts, arrangement, labels);
-    Ok(Boundary::new(selection, edges, contacts))
+}
+
+/// All edges with their memberships.
+pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<(), Error> {
+    collect(csg, scratch);
+    label(scratch, false)
+}
+
+/// … and of these the boundary.
+pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
+    arrange(csg, scratch)?;
+    select(scratch);
+    Ok(Boundary::new(&scratch.selection, &scratch.edges, &scratch.contacts))
 }
 
 /// … repaired where rounding broke something, linked to rings and nested.
@@ -57,7 +76,13 @@ pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Bo
 /// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
 pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Error> {
-    boundary(csg, scratch)?;
+    scratch.mending.mended = 0;
+    collect(csg, scratch);
+    if let Some(region) = untouched(csg, scratch) {
+        return Ok(region);
+    }
+    label(scratch, true)?;
+    select(scratch);
     let Scratch {
         edges,
         contacts,
@@ -83,8 +108,18 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Err
     match nest::nest(outline, cycles, chains, strips, slabs, nesting) {
         Ok(region) => Ok(region),
         Err(nest::Misnested) => {
-            let rings = cycles.rings().clone();
-            region(&Csg::positive(rings), scratch)
+            let (rings, mended) = (cycles.rings().clone(), mending.mended);
+            let region = region(&Csg::positive(rings), scratch);
+            scratch.mending.mended += mended;
+            region
         }
     }
+}
+
+/// The set, where by the boxes one region alone matters: all of it, or nothing.
+fn untouched(csg: &Csg<'_>, Scratch { truth, edges, .. }: &Scratch) -> Option<Region> {
+    let operand = edges.only_operand()? as usize;
+    let region = csg.postfix().iter().filter(|token| token.rings().is_some()).nth(operand)?.region()?;
+    let counter = truth.counter(operand)?;
+    Some(if truth.would_hold(counter, 1) { region.clone() } else { Region::default() })
 }

@@ -55,6 +55,70 @@ proptest! {
     }
 }
 
+/// Without the boxes' shortcut.
+fn boundless() -> Scratch {
+    let mut scratch = Scratch::default();
+    scratch.window.off = true;
+    scratch
+}
+
+/// Operands spread over the plane, by a stack of operators: each takes what stands below it.
+fn expression<'a>(leaves: &'a [Region], operators: &[u8]) -> Csg<'a> {
+    let mut rest = leaves.iter().map(Csg::from).collect::<Vec<_>>();
+    for operator in operators {
+        let (Some(b), Some(a)) = (rest.pop(), rest.pop()) else { break };
+        rest.insert(
+            usize::from(*operator) % (rest.len() + 1),
+            match operator % 4 {
+                0 => a | b,
+                1 => a & b,
+                2 => a - b,
+                _ => a ^ b,
+            },
+        );
+    }
+    Csg::union(rest)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    /// Rings that miss the window change nothing, not even by a vertex.
+    #[test]
+    fn the_window_changes_nothing(
+        leaves in prop::collection::vec((0..12_i32, 0..12_i32, prop::collection::vec((0..6_i32, 0..6_i32), 3..9)), 2..9),
+        operators in prop::collection::vec(any::<u8>(), 8),
+    ) {
+        let region = |(x, y, ring): &(i32, i32, Vec<(i32, i32)>)| {
+            let points: Vec<DVec2> = ring.iter().map(|(a, b)| DVec2::new(f64::from(x + a), f64::from(y + b))).collect();
+            Region::from_rings([points.as_slice(), &points[..3]], FillRule::NonZero).expect("finite")
+        };
+        let leaves: Vec<Region> = leaves.iter().map(region).collect();
+        let csg = expression(&leaves, &operators);
+        prop_assert_eq!(csg.evaluate(), csg.evaluate_in(&mut boundless()));
+        let edges = |scratch: &mut Scratch| csg.boundary(scratch).edges().collect::<Vec<_>>();
+        prop_assert_eq!(edges(&mut Scratch::default()), edges(&mut boundless()));
+    }
+}
+
+/// What is subtracted elsewhere costs nothing but a look at its boxes: no edge of it is arranged.
+#[test]
+fn what_lies_elsewhere_is_not_arranged() {
+    let square =
+        |x: f64| [DVec2::new(x, 0.0), DVec2::new(x + 1.0, 0.0), DVec2::new(x + 1.0, 1.0), DVec2::new(x, 1.0)];
+    let region = |rings: Vec<[DVec2; 4]>| Region::from_rings(rings, FillRule::NonZero).expect("finite");
+    let (a, far) =
+        (region(vec![square(0.0)]), region((2..100).map(|i| square(2.0 * f64::from(i))).collect()));
+    let mut scratch = Scratch::default();
+    assert_eq!((Csg::from(&a) - Csg::from(&far)).evaluate_in(&mut scratch), a);
+    assert_eq!(scratch.edges.rings().len(), 1);
+    assert!((Csg::from(&a) & Csg::from(&far)).evaluate_in(&mut scratch).is_empty());
+    assert_eq!(scratch.edges.rings().len(), 0);
+    let near = region((0..100).map(|i| square(0.5 + 2.0 * f64::from(i))).collect());
+    assert_eq!((Csg::from(&a) - Csg::from(&near)).evaluate_in(&mut scratch).area(), 0.5);
+    assert_eq!(scratch.edges.rings().len(), 2);
+}
+
 /// Uprights across levels, some of them slanted so that slabs have work: 4 n² crossings.
 fn comb(n: u32, slant: f64) -> Csg<'static> {
     let bars = || (0..n).map(|i| 2.0 * f64::from(i));

@@ -4,7 +4,7 @@ use dashu_int::{IBig, Sign, UBig, ops::BitTest};
 use std::cmp::Ordering;
 
 /// Sign, odd mantissa and exponent of a finite `f64`: `x = ± mantissa · 2^exponent`; zero has no exponent.
-fn decode(x: f64) -> (Sign, u64, Option<i32>) {
+pub(super) fn decode(x: f64) -> (Sign, u64, Option<i32>) {
     let bits = x.to_bits();
     let sign = if bits >> 63 == 0 { Sign::Positive } else { Sign::Negative };
     let biased = i32::from((bits >> 52) as u16 & 0x7ff);

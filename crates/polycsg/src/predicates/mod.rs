@@ -1,7 +1,7 @@
 //! The only place that decides a sign.
 //!
-//! Every predicate answers with an enum: a floating-point filter with a proven error bound first, exact
-//! integers where the filter cannot tell. All are right for every finite `f64`, subnormal and huge ones included.
+//! Every predicate answers with an enum: a floating-point filter with a proven error bound first; where that cannot
+//! tell, exact integers, of fixed size if the coordinates' exponents allow. All are right for every finite `f64`, subnormal and huge ones included.
 //!
 //! | predicate | question | degree |
 //! | --- | --- | --- |
@@ -17,6 +17,7 @@ mod clear;
 #[cfg(any(test, fuzzing))]
 mod configurations;
 mod exact;
+mod fixed;
 #[cfg(any(test, fuzzing))]
 mod laws;
 mod order;

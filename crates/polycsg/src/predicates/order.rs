@@ -2,7 +2,7 @@
 
 use super::orient::{Side, UNIT, side};
 use super::round::{crossing_point, crossing_ratio};
-use super::{Ratio, Segment, exact::integers, turn};
+use super::{Ratio, Segment, exact::integers, fixed, turn};
 use dashu_int::IBig;
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -22,6 +22,9 @@ pub(crate) fn lexicographic(a: DVec2, b: DVec2) -> Ordering {
 /// the parameter |n| / (|n| + |m|), so that the order is the sign of |n_f| |m_g| - |n_g| |m_f|.
 #[cold]
 pub(crate) fn crossing_order(e: Segment, f: Segment, g: Segment) -> Ordering {
+    if let Some(order) = fixed::crossing_order(e, f, g) {
+        return order;
+    }
     let [ax, ay, bx, by, fax, fay, fbx, fby, gax, gay, gbx, gby] = integers([
         e[0].x, e[0].y, e[1].x, e[1].y, f[0].x, f[0].y, f[1].x, f[1].y, g[0].x, g[0].y, g[1].x, g[1].y,
     ]);
@@ -46,8 +49,11 @@ pub(crate) fn height_order(e: Segment, f: Segment, x: f64) -> Ordering {
     if ye - de > yf + df {
         return Ordering::Greater;
     }
-    let at = Ratio::from_f64(x);
-    at.ordinate_on(e).compare(&at.ordinate_on(f)).then_with(|| match turn(f, e) {
+    let exactly = || {
+        let at = Ratio::from_f64(x);
+        at.ordinate_on(e).compare(&at.ordinate_on(f))
+    };
+    fixed::height_order(e, f, x).unwrap_or_else(exactly).then_with(|| match turn(f, e) {
         Side::Right => Ordering::Less,
         Side::On => Ordering::Equal,
         Side::Left => Ordering::Greater,
@@ -58,7 +64,10 @@ pub(crate) fn height_order(e: Segment, f: Segment, x: f64) -> Ordering {
 pub(crate) fn crossing_x_order(e: Segment, f: Segment, x: f64) -> Ordering {
     // Rounding to nearest is monotone and keeps x, so only a tie needs the exact crossing.
     match crossing_point(e, f).x.partial_cmp(&x) {
-        Some(Ordering::Equal) | None => crossing_ratio(e, f)[0].compare(&Ratio::from_f64(x)),
+        Some(Ordering::Equal) | None => {
+            let exactly = || crossing_ratio(e, f)[0].compare(&Ratio::from_f64(x));
+            fixed::crossing_x_order(e, f, x).unwrap_or_else(exactly)
+        }
         Some(order) => order,
     }
 }

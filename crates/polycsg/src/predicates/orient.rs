@@ -1,6 +1,6 @@
 //! Orientation signs: which side of a line, which turn between two directions.
 
-use super::{Segment, exact::integers};
+use super::{Segment, exact::integers, fixed};
 use dashu_int::{IBig, Sign};
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -138,7 +138,7 @@ fn turn_exact(e: Segment, g: Segment) -> Side {
         compare(e[1].y, e[0].y),
         compare(g[1].x, g[0].x),
     );
-    by_signs.unwrap_or_else(|| {
+    by_signs.or_else(|| fixed::turn(e, g)).unwrap_or_else(|| {
         let [ax, ay, bx, by, cx, cy, dx, dy] =
             integers([e[0].x, e[0].y, e[1].x, e[1].y, g[0].x, g[0].y, g[1].x, g[1].y]);
         side_of_integer((bx - ax) * (dy - cy) - (by - ay) * (dx - cx))

@@ -2,6 +2,7 @@
 
 use super::heights::Line;
 use super::{Bar, FEW, NONE, Slab, Slabs};
+use crate::predicates::Segment;
 use crate::truth::index;
 use std::ops::Range;
 
@@ -118,6 +119,7 @@ impl Slabs {
         // Most edges meet none, and are between the same two all the way.
         let (near_right, right) = self.position(bar, line, 1, slab, Some(left.start));
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
+        let ends = bar.ranks.map(|rank| self.ends[rank as usize]);
         let any = |rungs: &Range<usize>| rungs.start < rungs.end;
         for rungs in near_left.into_iter().chain(near_right).chain([crossed]).filter(any) {
             let all = if with_followers { &self.followers[..] } else { &[] };
@@ -125,7 +127,8 @@ impl Slabs {
             let followers = all[first..].iter().take_while(|&&(place, _)| place < rungs.end);
             let near =
                 self.rungs[rungs.clone()].iter().map(|rung| rung.bar).chain(followers.map(|&(_, bar)| bar));
-            self.found.add(near.map(|other| [bar.id, other.id]));
+            let meets = |other: &Bar| boxes_meet(ends, other.ranks.map(|rank| self.ends[rank as usize]));
+            self.found.add(near.filter(meets).map(|other| [bar.id, other.id]));
         }
     }
 
@@ -168,4 +171,11 @@ impl Slabs {
 #[inline]
 fn is_below(a: &Span, b: &Span, side: usize, slack: f64) -> bool {
     a.heights[side] + slack < b.heights[side] || (a.is_end[side] && b.is_end[side])
+}
+
+/// Whether the boxes of two edges meet: where all is within the heights' error, boxes still tell short edges apart.
+#[inline]
+fn boxes_meet([a, b]: Segment, [c, d]: Segment) -> bool {
+    let (low, high) = (a.min(b), a.max(b));
+    low.cmple(c.max(d)).all() && high.cmpge(c.min(d)).all()
 }

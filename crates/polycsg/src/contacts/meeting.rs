@@ -1,0 +1,220 @@
+//! How two edges meet, and the nodes and contacts that follow.
+//!
+//! ```text
+//!  crossing          touch             shared end       overlap = two touches or shared ends
+//!      \ f            f                  |f              ____f____
+//!   ----x---- e   ----+---- e        e---+              e----+====+
+//!        \
+//! ```
+
+use super::partner::{Contact, Partner};
+use super::{Contacts, NONE};
+use crate::edges::Edges;
+use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, is_inside, side_of};
+use crate::suspects::Suspects;
+
+impl Contacts {
+    /// Compares two edges and notes how they meet.
+    #[inline]
+    pub(super) fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut Suspects) {
+        match meeting(edges, [e, f], suspects.margins()) {
+            Meeting::Apart => {}
+            Meeting::Crossing(crossing) => self.cross(edges, crossing),
+            Meeting::Close { ends_of_f, ends_of_e } => {
+                self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, suspects);
+            }
+        }
+    }
+
+    pub(super) fn cross(&mut self, edges: &Edges, Crossing { edges: [e, f], at, from_left }: Crossing) {
+        let node = self.classes.push();
+        self.nodes.push([e, f]);
+        self.found.push(Contact { at: at[0], edge: e, node, partner: Partner::crossing(f, from_left) });
+        // Seen along f, e comes from the other side.
+        self.found.push(Contact { at: at[1], edge: f, node, partner: Partner::crossing(e, !from_left) });
+        self.rings.join(edges.ring_of(e), edges.ring_of(f));
+    }
+
+    /// As [`meet`](Contacts::meet), for edges that are not clear of one another or have an end in common.
+    fn meet_closely(
+        &mut self,
+        edges: &Edges,
+        [e, f]: [u32; 2],
+        ends_of_f: [Area; 2],
+        ends_of_e: [Area; 2],
+        suspects: &mut Suspects,
+    ) {
+        let (s, t) = (edges.segment(e), edges.segment(f));
+        if let Some(corner) = Corner::of(s, t) {
+            let area = doubled_area(corner.common, corner.end_of_s, corner.end_of_t);
+            if side_of(area, corner.common, corner.end_of_s, corner.end_of_t) != Side::On
+                || corner.is_straight()
+            {
+                return self.share(edges, [e, f], &corner, area, suspects);
+            }
+        }
+        let sides_of = |line: Segment, areas: [Area; 2], ends: Segment| {
+            [0, 1].map(|i| side_of(areas[i], line[0], line[1], ends[i]))
+        };
+        let ([p0, p1], [q0, q1]) = (sides_of(s, ends_of_f, t), sides_of(t, ends_of_e, s));
+        let on_one_side = |a: Side, b: Side| a == b && a != Side::On;
+        if on_one_side(p0, p1) || on_one_side(q0, q1) {
+            return suspects.add(e, f);
+        }
+        if ![p0, p1, q0, q1].contains(&Side::On) {
+            suspects.add(e, f);
+            let crossing = Crossing::new([e, f], ends_of_f, ends_of_e, p0 == Side::Left);
+            return self.cross(edges, crossing);
+        }
+        self.touch(edges, [e, f], [p0, p1, q0, q1]);
+        let line_up = [p0, p1, q0, q1] == [Side::On; 4];
+        let steep =
+            ends_of_f.iter().chain(&ends_of_e).any(|&area| suspects.margins().are_steep([s, t], area));
+        if !line_up && !steep {
+            suspects.add(e, f);
+        }
+    }
+
+    /// Two edges that have an end in common, and nothing else.
+    fn share(
+        &mut self,
+        edges: &Edges,
+        [e, f]: [u32; 2],
+        corner: &Corner,
+        area: Area,
+        suspects: &mut Suspects,
+    ) {
+        let (s, t) = (edges.segment(e), edges.segment(f));
+        if !corner.is_straight() && !suspects.margins().are_steep([s, t], area) {
+            suspects.add(e, f);
+        }
+        let v = if s[0] == corner.common { e } else { edges.head(e) };
+        let w = if t[0] == corner.common { f } else { edges.head(f) };
+        if v != w {
+            self.join(edges, v, w);
+        }
+    }
+
+    /// Contacts at ends: `sides` are those of f's ends against e and of e's ends against f.
+    fn touch(&mut self, edges: &Edges, [e, f]: [u32; 2], sides: [Side; 4]) {
+        for (side, (edge, vertex)) in
+            sides.into_iter().zip([(e, f), (e, edges.head(f)), (f, e), (f, edges.head(e))])
+        {
+            if side == Side::On {
+                self.put(edges, edge, vertex);
+            }
+        }
+    }
+
+    /// Records a vertex, a point on the line of `edge`, if it lies on the edge.
+    fn put(&mut self, edges: &Edges, edge: u32, vertex: u32) {
+        let (segment, point) = (edges.segment(edge), edges.point(vertex));
+        if point == segment[0] {
+            self.join(edges, edge, vertex);
+        } else if point == segment[1] {
+            self.join(edges, edges.head(edge), vertex);
+        } else if is_inside(segment, point) {
+            let node = self.make_node(edges, vertex);
+            let at = Parameter::of_point(segment, point);
+            self.found.push(Contact { at, edge, node, partner: Partner::vertex(vertex) });
+            self.rings.join(edges.ring_of(edge), edges.ring_of(vertex));
+        }
+    }
+
+    /// Makes two vertices at one point one node.
+    pub(super) fn join(&mut self, edges: &Edges, v: u32, w: u32) {
+        let (a, b) = (self.make_node(edges, v), self.make_node(edges, w));
+        self.classes.join(a, b);
+        self.rings.join(edges.ring_of(v), edges.ring_of(w));
+    }
+
+    fn make_node(&mut self, edges: &Edges, vertex: u32) -> u32 {
+        if !self.degenerate {
+            self.degenerate = true;
+            self.node_of_vertex.resize(edges.len(), NONE);
+        }
+        if self.node_of_vertex[vertex as usize] == NONE {
+            let node = self.classes.push();
+            self.node_of_vertex[vertex as usize] = node;
+            self.nodes.push([vertex, NONE]);
+            self.found.push(Contact { at: Parameter::START, edge: vertex, node, partner: Partner::START });
+        }
+        self.node_of_vertex[vertex as usize]
+    }
+}
+
+/// How two edges meet, as far as that is clear whatever rounding does.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Meeting {
+    Apart,
+    Crossing(Crossing),
+    /// Not clear, by the areas of each one's ends against the other.
+    Close {
+        ends_of_f: [Area; 2],
+        ends_of_e: [Area; 2],
+    },
+}
+
+/// Two edges that cross, and where along each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing {
+    edges: [u32; 2],
+    at: [Parameter; 2],
+    /// Whether the second one comes from the left of the first.
+    from_left: bool,
+}
+
+impl Crossing {
+    fn new(edges: [u32; 2], ends_of_f: [Area; 2], ends_of_e: [Area; 2], from_left: bool) -> Crossing {
+        let at = [ends_of_e, ends_of_f].map(|ends| Parameter::of_crossing(ends[0], ends[1]));
+        Crossing { edges, at, from_left }
+    }
+}
+
+/// Compares edge `e` with a later one.
+#[inline]
+pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
+    let (s, t) = (edges.segment(e), edges.segment(f));
+    if f == e + 1 && margins.are_steep([s, t], doubled_area(s[0], s[1], t[1])) {
+        return Meeting::Apart; // neighbours that meet in their common end alone
+    }
+    let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
+    if margins.are_apart(s, ends_of_f) {
+        return Meeting::Apart;
+    }
+    let ends_of_e = [doubled_area(t[0], t[1], s[0]), doubled_area(t[0], t[1], s[1])];
+    let crossing = |from_left| Meeting::Crossing(Crossing::new([e, f], ends_of_f, ends_of_e, from_left));
+    match margins.relation([s, t], ends_of_f, ends_of_e) {
+        Clear::Apart => Meeting::Apart,
+        Clear::CrossFromLeft => crossing(true),
+        Clear::CrossFromRight => crossing(false),
+        Clear::Unclear => Meeting::Close { ends_of_f, ends_of_e },
+    }
+}
+
+/// Two edges with one end in common.
+struct Corner {
+    common: glam::DVec2,
+    end_of_s: glam::DVec2,
+    end_of_t: glam::DVec2,
+}
+
+impl Corner {
+    fn of(s: Segment, t: Segment) -> Option<Corner> {
+        let corner = |i: usize, j: usize| Corner { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
+        let mut corners = [(1, 0), (0, 1), (0, 0), (1, 1)]
+            .into_iter()
+            .filter(|&(i, j)| s[i] == t[j])
+            .map(|(i, j)| corner(i, j));
+        let first = corners.next()?;
+        corners.next().is_none().then_some(first)
+    }
+
+    /// Whether the other ends lie in opposite quadrants from the common one: then the edges do not overlap, and are
+    /// not flat to one another.
+    fn is_straight(&self) -> bool {
+        let opposite = |a: f64, c: f64, b: f64| (a <= c && c <= b) || (b <= c && c <= a);
+        let (c, p, q) = (self.common, self.end_of_s, self.end_of_t);
+        opposite(p.x, c.x, q.x) && opposite(p.y, c.y, q.y)
+    }
+}

@@ -1,0 +1,214 @@
+//! Stage 3: where edges meet, exactly, sorted along each edge.
+//!
+//! Four orientation signs tell how two edges meet; everything else follows from them and from comparisons.
+//! Each point where something meets is a node. A crossing is a node of its own, known as the pair of edges; an
+//! explicit vertex becomes a node when anything touches it. A node has a contact on each edge that it lies inside of,
+//! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
+//! that equality along each edge is all that is needed to unify them.
+
+mod find;
+mod meeting;
+mod partner;
+
+pub(crate) use find::Patience;
+pub(crate) use partner::{Contact, Met, Partner};
+
+use crate::Error;
+use crate::chains::Chains;
+use crate::edges::Edges;
+use crate::slabs::Slabs;
+use crate::strips::Strips;
+use crate::suspects::Suspects;
+use crate::threads::Threads;
+use crate::truth::index;
+use crate::union_find::UnionFind;
+use partner::order;
+use std::cmp::Ordering;
+
+/// No edge, no node.
+const NONE: u32 = u32::MAX;
+
+/// All contacts, sorted by edge and along it, and the nodes.
+#[derive(Debug, Default)]
+pub(crate) struct Contacts {
+    found: Vec<Contact>,
+    sorted: Vec<Contact>,
+    starts: Vec<u32>,
+    /// Per node the two edges that cross there, or a vertex and `NONE`.
+    nodes: Vec<[u32; 2]>,
+    classes: UnionFind,
+    /// Per vertex its node; empty as long as no vertex has one.
+    node_of_vertex: Vec<u32>,
+    rings: UnionFind,
+    /// Whether any two nodes lie in one point, or any node is a vertex.
+    degenerate: bool,
+}
+
+impl Contacts {
+    /// Finds the contacts of all pairs of edges: of those whose chains' boxes meet, or, where that turns out to be far
+    /// more than what meets, of those that [`Slabs`] finds.
+    ///
+    /// # Errors
+    /// [`Error::TooManyContacts`], by the limit that `patience` has.
+    pub(crate) fn find(
+        &mut self,
+        edges: &Edges,
+        chains: &Chains,
+        strips: &Strips,
+        slabs: &mut Slabs,
+        suspects: &mut Suspects,
+        patience: Patience,
+    ) -> Result<(), Error> {
+        let most = patience.contacts;
+        self.start(edges, chains, suspects);
+        let is_done = self.find_by_boxes(edges, chains, strips, suspects, patience);
+        if !is_done && self.found.len() <= most {
+            self.start(edges, chains, suspects);
+            suspects.give_up();
+            self.find_by_slabs(edges, chains, slabs, suspects, most)?;
+        }
+        if self.found.len() > most {
+            return Err(Error::TooManyContacts { limit: most });
+        }
+        self.bucket(edges.len());
+        self.sort(edges);
+        self.unify(edges, suspects);
+        self.prefer_vertices();
+        Ok(())
+    }
+
+    fn start(&mut self, edges: &Edges, chains: &Chains, suspects: &mut Suspects) {
+        self.found.clear();
+        self.nodes.clear();
+        self.classes.reset(0);
+        self.node_of_vertex.clear();
+        self.rings.reset(edges.rings().len());
+        self.degenerate = false;
+        suspects.start(chains.size());
+    }
+
+    /// The contacts by edge and in order along it, each node once on each edge.
+    pub(crate) fn sorted(&self) -> &[Contact] {
+        &self.sorted
+    }
+
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The one node that stands for all at its point.
+    #[inline]
+    pub(crate) fn node(&self, node: u32) -> u32 {
+        self.classes.find(node)
+    }
+
+    /// The two edges that cross at a node that stands for all at its point, or a vertex there.
+    #[inline]
+    pub(crate) fn place(&self, node: u32) -> Place {
+        Place::of(self.nodes[node as usize])
+    }
+
+    /// What [`place`](Contacts::place) is made of, node by node, for all threads.
+    pub(crate) fn nodes(&self) -> &[[u32; 2]] {
+        &self.nodes
+    }
+
+    /// Whether there are nodes other than crossings of two edges.
+    pub(crate) fn degenerate(&self) -> bool {
+        self.degenerate
+    }
+
+    /// The node at a vertex, if it has one.
+    pub(crate) fn node_at(&self, vertex: u32) -> Option<u32> {
+        let node = self.node_of_vertex.get(vertex as usize).copied().filter(|&node| node != NONE)?;
+        Some(self.node(node))
+    }
+
+    /// The connected component of a ring, named by one of its rings.
+    pub(crate) fn component(&self, ring: u32) -> u32 {
+        self.rings.find(ring)
+    }
+
+    /// Moves the contacts near their edges' places (a counting sort by some leading bits of the edge).
+    fn bucket(&mut self, edge_count: usize) {
+        let shift = (edge_count / (self.found.len() + 1)).max(1).ilog2();
+        self.starts.clear();
+        self.starts.resize((edge_count >> shift) + 3, 0);
+        for contact in &self.found {
+            self.starts[(contact.edge >> shift) as usize + 2] += 1;
+        }
+        for bucket in 2..self.starts.len() {
+            self.starts[bucket] += self.starts[bucket - 1];
+        }
+        self.sorted.clear();
+        self.sorted.resize(self.found.len(), Contact::NOWHERE);
+        for &contact in &self.found {
+            let at = &mut self.starts[(contact.edge >> shift) as usize + 1];
+            self.sorted[*at as usize] = contact;
+            *at += 1;
+        }
+        self.starts.pop();
+    }
+
+    /// Sorts the contacts of each bucket by edge and along it.
+    fn sort(&mut self, edges: &Edges) {
+        let mut rest = &mut self.sorted[..];
+        let buckets = self.starts.windows(2).map(move |ends| {
+            let (bucket, others) = std::mem::take(&mut rest).split_at_mut((ends[1] - ends[0]) as usize);
+            rest = others;
+            bucket
+        });
+        let sort = |bucket: &mut [Contact]| bucket.sort_unstable_by(|a, b| order(edges, a, b));
+        Threads::for_edges(edges.len()).for_each(buckets.filter(|bucket| bucket.len() > 1), sort);
+    }
+
+    /// Unifies what lies in one place of an edge.
+    fn unify(&mut self, edges: &Edges, suspects: &mut Suspects) {
+        let mut kept = 0;
+        for i in 0..self.sorted.len() {
+            let contact = self.sorted[i];
+            let same = kept > 0 && order(edges, &self.sorted[kept - 1], &contact) == Ordering::Equal;
+            if same {
+                self.degenerate = true;
+                self.classes.join(self.sorted[kept - 1].node, contact.node);
+            } else {
+                self.sorted[kept] = contact;
+                kept += 1;
+            }
+        }
+        self.sorted.truncate(kept);
+        for on_edge in self.sorted.chunk_by(|a, b| a.edge == b.edge) {
+            suspects.look_along(edges, on_edge);
+        }
+    }
+
+    /// Lets a vertex, where there is one, tell the place of a node.
+    fn prefer_vertices(&mut self) {
+        if !self.degenerate {
+            return;
+        }
+        for node in 0..self.nodes.len() {
+            let stands = self.classes.find(index(node)) as usize;
+            if self.nodes[node][1] == NONE && self.nodes[stands][1] != NONE {
+                self.nodes[stands] = self.nodes[node];
+            }
+        }
+    }
+}
+
+/// Where a node is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Place {
+    Vertex(u32),
+    Crossing(u32, u32),
+}
+
+impl Place {
+    #[inline]
+    pub(crate) fn of(node: [u32; 2]) -> Place {
+        match node {
+            [vertex, NONE] => Place::Vertex(vertex),
+            [e, f] => Place::Crossing(e, f),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What meets an edge, and where on it.
+
+use crate::edges::Edges;
+use crate::predicates::{Parameter, crossing_order, lexicographic, point_crossing_order};
+use std::cmp::Ordering;
+
+/// What meets an edge in a contact: a kind in the top bits, and the id of an edge or vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Partner(u32);
+
+/// The kinds of [`Partner`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Met {
+    /// An edge that crosses from the left to the right.
+    FromLeft(u32),
+    /// An edge that crosses from the right to the left.
+    FromRight(u32),
+    /// A vertex inside the edge.
+    Vertex(u32),
+    /// The edge's own start.
+    Start,
+}
+
+impl Partner {
+    const ID: u32 = (1 << 30) - 1;
+    const FROM_RIGHT: u32 = 1 << 30;
+    const VERTEX: u32 = 2 << 30;
+    pub(super) const START: Partner = Partner(3 << 30);
+
+    pub(super) fn crossing(edge: u32, from_left: bool) -> Partner {
+        Partner(edge | if from_left { 0 } else { Partner::FROM_RIGHT })
+    }
+
+    pub(crate) fn vertex(vertex: u32) -> Partner {
+        Partner(vertex | Partner::VERTEX)
+    }
+
+    #[inline]
+    pub(crate) fn met(self) -> Met {
+        let id = self.0 & Partner::ID;
+        match self.0 >> 30 {
+            0 => Met::FromLeft(id),
+            1 => Met::FromRight(id),
+            2 => Met::Vertex(id),
+            _ => Met::Start,
+        }
+    }
+}
+
+/// A node on an edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    pub(super) at: Parameter,
+    pub(crate) edge: u32,
+    pub(crate) node: u32,
+    pub(crate) partner: Partner,
+}
+
+impl Contact {
+    pub(super) const NOWHERE: Contact =
+        Contact { at: Parameter::START, edge: u32::MAX, node: u32::MAX, partner: Partner::START };
+
+    #[inline]
+    pub(crate) fn at(&self) -> Parameter {
+        self.at
+    }
+}
+
+/// The order of two contacts by edge and along it: by the parameters where their bounds allow, else exactly.
+#[inline]
+pub(super) fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
+    if a.edge != b.edge {
+        return a.edge.cmp(&b.edge);
+    }
+    a.at.certain_order(b.at).unwrap_or_else(|| order_exactly(edges, a, b))
+}
+
+#[cold]
+fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
+    let e = edges.segment(a.edge);
+    match (a.partner.met(), b.partner.met()) {
+        (Met::Start, Met::Start) => Ordering::Equal,
+        (Met::Start, _) => Ordering::Less,
+        (_, Met::Start) => Ordering::Greater,
+        (Met::Vertex(v), Met::Vertex(w)) => {
+            let order = lexicographic(edges.point(v), edges.point(w));
+            if lexicographic(e[0], e[1]) == Ordering::Less { order } else { order.reverse() }
+        }
+        (Met::Vertex(v), Met::FromLeft(g) | Met::FromRight(g)) => {
+            point_crossing_order(e, edges.point(v), edges.segment(g))
+        }
+        (Met::FromLeft(g) | Met::FromRight(g), Met::Vertex(v)) => {
+            point_crossing_order(e, edges.point(v), edges.segment(g)).reverse()
+        }
+        (Met::FromLeft(f) | Met::FromRight(f), Met::FromLeft(g) | Met::FromRight(g)) => {
+            crossing_order(e, edges.segment(f), edges.segment(g))
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Cuts what conflicts until nothing does.
+
+use super::near::Near;
+use super::{Class, CutAt, Fragment, Mending, Rounded, in_conflict};
+use crate::outline::Outline;
+use crate::predicates::{Segment, lexicographic, rightward};
+use crate::slabs::Slabs;
+use crate::truth::index;
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// Puts the pieces into an outline: no two of its edges meet but in their ends.
+///
+/// After the first round only what is near the last cuts is looked at. Fragments that rounding made vertical and that
+/// overlap are not cut at abscissae; they are cut in the end.
+pub(crate) fn mend(rounded: Rounded<'_>, slabs: &mut Slabs, mending: &mut Mending, outline: &mut Outline) {
+    mending.cuts.clear();
+    rounded.list_parts(None, &mut mending.parts);
+    rounded.cut_up(&mending.parts, &[], &mut mending.fragments);
+    let (mut may_coincide, mut overlap) = (false, false);
+    let mut near = Near::EVERYTHING;
+    loop {
+        mending.find_alike(&mut near);
+        mending.find_conflicts(slabs);
+        may_coincide |= mending.classes.len() < mending.alike.len();
+        let cut = rounded.add_cuts(mending, &mut overlap);
+        if cut.is_empty() {
+            break;
+        }
+        rounded.cut_up(&mending.parts, &mending.cuts, &mut mending.fragments);
+        let is_new = |fragment: &&Fragment| cut.binary_search(&fragment.part).is_ok();
+        near = Near::to(mending.fragments.iter().filter(is_new).map(|fragment| fragment.segment));
+    }
+    mending.mended = mending.cuts.len();
+    if overlap {
+        let segments = cut_verticals(&mending.fragments);
+        let whole = mending.fragments.iter().filter(|f| f.segment[0] != f.segment[1]);
+        mending.mended += segments.len() - whole.count();
+        outline.build(segments.iter().copied(), true);
+    } else {
+        outline.build(mending.fragments.iter().map(|f| f.segment), may_coincide);
+    }
+}
+
+impl Mending {
+    /// Groups the fragments with the same ends, of those near some place; any that rounding shrank to a point are left out.
+    ///
+    /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
+    fn find_alike(&mut self, near: &mut Near) {
+        let Mending { fragments, alike, classes, .. } = self;
+        alike.clear();
+        alike.extend((0..index(fragments.len())).filter(|&i| {
+            let segment = fragments[i as usize].segment;
+            segment[0] != segment[1] && near.meets(segment)
+        }));
+        let compare = |i: u32, j: u32| {
+            let (s, t) = (rightward(fragments[i as usize].segment), rightward(fragments[j as usize].segment));
+            lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]))
+        };
+        alike.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
+        classes.clear();
+        let mut start = 0;
+        for class in alike.chunk_by(|&i, &j| compare(i, j) == Ordering::Equal) {
+            let end = start + class.len();
+            let moved = class.iter().any(|&i| fragments[i as usize].moved);
+            classes.push(Class { members: start..end, moved });
+            start = end;
+        }
+    }
+
+    fn members(&self, class: u32) -> impl Iterator<Item = &Fragment> + Clone {
+        self.alike[self.classes[class as usize].members.clone()].iter().map(|&i| &self.fragments[i as usize])
+    }
+
+    /// The first of a class.
+    fn one_of(&self, class: usize) -> &Fragment {
+        &self.fragments[self.alike[self.classes[class].members.start] as usize]
+    }
+
+    /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
+    fn find_conflicts(&mut self, slabs: &mut Slabs) {
+        let mut conflicts = std::mem::take(&mut self.conflicts);
+        conflicts.clear();
+        if self.classes.iter().any(|class| class.moved) {
+            let points = (0..self.classes.len()).flat_map(|class| self.one_of(class).segment);
+            let classes = 0..index(self.classes.len());
+            slabs.build(points, classes.map(|class| (class, [2 * class, 2 * class + 1])));
+            slabs.pairs(|i, j| {
+                let moved = self.classes[i as usize].moved || self.classes[j as usize].moved;
+                let segments = || [i, j].map(|class| self.one_of(class as usize).segment);
+                if moved && in_conflict(segments()) {
+                    conflicts.push([i, j]);
+                }
+            });
+        }
+        self.conflicts = conflicts;
+    }
+}
+
+impl Rounded<'_> {
+    /// Cuts the parts of conflicting fragments at the ends of one of those that they conflict with; returns the parts
+    /// that were cut, sorted, and notes whether there are any that cannot be cut so.
+    fn add_cuts(&self, mending: &mut Mending, overlap: &mut bool) -> Vec<u32> {
+        let mut added: Vec<CutAt> = Vec::new();
+        for &[i, j] in &mending.conflicts {
+            let before = added.len();
+            for (class, other) in [(i, j), (j, i)] {
+                let ends = mending.one_of(other as usize).ends;
+                for fragment in mending.members(class) {
+                    let inside = ends.into_iter().filter(|&end| self.is_strictly_between(fragment.ends, end));
+                    added.extend(inside.map(|end| (fragment.part, end)));
+                }
+            }
+            *overlap |= added.len() == before;
+        }
+        mending.cuts.extend_from_slice(&added);
+        mending.cuts.sort_unstable();
+        mending.cuts.dedup();
+        let mut parts: Vec<u32> = added.iter().map(|cut| cut.0).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        parts
+    }
+}
+
+/// All fragments, those that rounding left vertical cut at the points that lie on them.
+fn cut_verticals(fragments: &[Fragment]) -> Vec<Segment> {
+    let mut points: Vec<DVec2> = fragments.iter().flat_map(|f| f.segment).collect();
+    points.sort_unstable_by(|&a, &b| lexicographic(a, b));
+    points.dedup();
+    let mut segments = Vec::with_capacity(fragments.len());
+    for fragment in fragments {
+        let segment = fragment.segment;
+        if segment[0].x != segment[1].x {
+            segments.push(segment);
+            continue;
+        }
+        let [low, high] = rightward(segment);
+        let first = points.partition_point(|&p| lexicographic(p, low) == Ordering::Less);
+        let last = points.partition_point(|&p| lexicographic(p, high) == Ordering::Less);
+        for pair in points[first..=last].windows(2) {
+            segments.push(if segment[0] == low { [pair[0], pair[1]] } else { [pair[1], pair[0]] });
+        }
+    }
+    segments
+}

@@ -1,0 +1,92 @@
+//! Whether rounding broke anything.
+
+use super::{Fragment, Mending, Rounded, in_conflict};
+use crate::slabs::Slabs;
+use crate::suspects::Suspects;
+use crate::truth::index;
+
+/// Whether rounding left every piece where it was, as seen from the others: of the suspected pairs of edges, which are
+/// the only ones that can, no two fragments meet but in a vertex of both.
+pub(crate) fn is_sound(
+    rounded: Rounded<'_>,
+    suspects: &Suspects,
+    slabs: &mut Slabs,
+    mending: &mut Mending,
+) -> bool {
+    if suspects.all() {
+        return rounded.is_sound_throughout(slabs, mending);
+    }
+    if suspects.pairs().is_empty() {
+        debug_assert!(rounded.is_sound_throughout(slabs, mending));
+        return true;
+    }
+    let sound = are_all_sound(rounded, suspects, mending)
+        .unwrap_or_else(|| rounded.is_sound_throughout(slabs, mending));
+    debug_assert!(!sound || rounded.is_sound_throughout(slabs, mending));
+    sound
+}
+
+/// So many pairs of fragments for each suspected pair of edges are quickly compared.
+const PAIRS: usize = 64;
+
+/// Whether all suspected pairs of edges are sound; none where their fragments are too many to compare each with each.
+fn are_all_sound(rounded: Rounded<'_>, suspects: &Suspects, mending: &mut Mending) -> Option<bool> {
+    mending.edges.clear();
+    mending.edges.extend(suspects.pairs().iter().flatten());
+    mending.edges.sort_unstable();
+    mending.edges.dedup();
+    rounded.list_parts(Some(&mending.edges), &mut mending.parts);
+    mending.parts.sort_unstable_by_key(|part| part.edge);
+    rounded.cut_up(&mending.parts, &[], &mut mending.fragments);
+    let fragments = &mending.fragments;
+    let of_edge = |edge: u32| {
+        let start = fragments.partition_point(|f| f.edge < edge);
+        let count = fragments[start..].partition_point(|f| f.edge == edge);
+        &fragments[start..start + count]
+    };
+    let count = |&[e, f]: &[u32; 2]| of_edge(e).len() * of_edge(f).len();
+    if suspects.pairs().iter().map(count).sum::<usize>() > PAIRS * suspects.pairs().len() {
+        return None;
+    }
+    let collapsed = fragments.iter().any(|f| f.segment[0] == f.segment[1]);
+    let sound = |&[e, f]: &[u32; 2]| {
+        of_edge(e).iter().all(|f0| of_edge(f).iter().all(|f1| !(f0.moved || f1.moved) || are_sound(f0, f1)))
+    };
+    Some(!collapsed && suspects.pairs().iter().all(sound))
+}
+
+/// Whether two fragments of different edges meet in common vertices only.
+fn are_sound(f: &Fragment, g: &Fragment) -> bool {
+    let same_point = |i: usize, j: usize| f.segment[i] == g.segment[j];
+    let same_vertex = |i: usize, j: usize| f.ends[i] == g.ends[j];
+    let ends_agree =
+        [(0, 0), (0, 1), (1, 0), (1, 1)].iter().all(|&(i, j)| same_point(i, j) == same_vertex(i, j));
+    let common_ends = g.segment.iter().filter(|p| f.segment.contains(p)).count();
+    ends_agree && common_ends < 2 && !in_conflict([f.segment, g.segment])
+}
+
+impl Rounded<'_> {
+    /// Whether no two fragments at all meet but in common vertices: the law behind [`is_sound`].
+    fn is_sound_throughout(&self, slabs: &mut Slabs, mending: &mut Mending) -> bool {
+        let Mending { parts, fragments, .. } = mending;
+        self.list_parts(None, parts);
+        self.cut_up(parts, &[], fragments);
+        if fragments.iter().any(|f| f.segment[0] == f.segment[1]) {
+            return false;
+        }
+        slabs.build(
+            fragments.iter().flat_map(|f| f.segment),
+            (0..index(fragments.len())).map(|i| (i, [2 * i, 2 * i + 1])),
+        );
+        let vertex = |end: u32| fragments[end as usize / 2].ends[end as usize % 2];
+        let one_vertex = slabs.places().all(|mut place| {
+            let first = place.next().map(vertex);
+            place.all(|end| Some(vertex(end)) == first)
+        });
+        let mut sound = one_vertex && slabs.copies().next().is_none();
+        if sound {
+            slabs.pairs(|i, j| sound = sound && are_sound(&fragments[i as usize], &fragments[j as usize]));
+        }
+        sound
+    }
+}
