@@ -28,6 +28,9 @@ use std::cmp::Ordering;
 /// No edge, no node.
 const NONE: u32 = u32::MAX;
 
+/// So many contacts are quickly sorted at once.
+const FEW: usize = 24;
+
 /// All contacts, sorted by edge and along it, and the nodes.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
@@ -130,7 +133,14 @@ impl Contacts {
     }
 
     /// Moves the contacts near their edges' places (a counting sort by some leading bits of the edge).
+    ///
+    /// A few are one bucket.
     fn bucket(&mut self, edge_count: usize) {
+        if self.found.len() <= FEW {
+            self.starts.clear();
+            self.starts.extend([0, index(self.found.len())]);
+            return self.sorted.clone_from(&self.found);
+        }
         let shift = (edge_count / (self.found.len() + 1)).max(1).ilog2();
         self.starts.clear();
         self.starts.resize((edge_count >> shift) + 3, 0);

@@ -12,28 +12,21 @@
 //! scale and quarter turns do not matter. A vertex that is left by no edge is gone: it is not put into an edge that it
 //! touches.
 
+mod table;
+
 use crate::copies::mixed;
 use crate::edges::{Edges, Ring};
 use crate::predicates::lexicographic;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
+use table::Table;
 
 /// Fewer edges are not worth a look.
 const FEW: usize = 256;
 
 /// Edges at one point in so many are looked at, at most.
 const SAMPLE: usize = 128;
-
-/// No edge.
-const NONE: u32 = u32::MAX;
-
-/// Edges with the same ends and counter: one of them, and a list of those that have not cancelled, all in one direction.
-#[derive(Clone, Copy, Debug)]
-struct Kind {
-    one: u32,
-    left: u32,
-}
 
 /// Consecutive edges of a ring that are left, `count` from `first` on, going round.
 #[derive(Clone, Copy, Debug)]
@@ -48,12 +41,8 @@ struct Run {
 pub(crate) struct Cancel {
     /// Edges by their keys.
     sample: Vec<(u64, u32)>,
-    /// Whether all rings change one counter.
-    alike: bool,
-    /// A hash table with open addressing.
-    kinds: Vec<Kind>,
-    /// Per edge the next in its kind's list, and whether it has cancelled.
-    next: Vec<u32>,
+    table: Table,
+    /// Per edge whether it has cancelled.
     gone: Vec<bool>,
     /// The runs of rings of which edges are gone, ring by ring, and their order by counter and first point.
     runs: Vec<Run>,
@@ -68,7 +57,7 @@ impl Cancel {
     /// Lets opposite edges cancel, if a good part of all edges has an opposite one.
     pub(crate) fn cancel(&mut self, edges: &mut Edges) {
         if edges.len() >= FEW && self.pays(edges) {
-            self.find(edges);
+            self.table.find(edges, &mut self.gone);
             self.find_runs(edges);
             self.sort_runs(edges);
             self.link(edges);
@@ -93,52 +82,6 @@ impl Cancel {
         };
         let kinds = self.sample.chunk_by(|a, b| a.0 == b.0);
         !self.sample.is_empty() && 8 * kinds.map(cancels).sum::<usize>() >= self.sample.len()
-    }
-
-    /// Finds the edges that cancel.
-    fn find(&mut self, edges: &Edges) {
-        let size = (2 * edges.len()).next_power_of_two();
-        self.kinds.clear();
-        self.kinds.resize(size, Kind { one: NONE, left: NONE });
-        self.next.clear();
-        self.next.resize(edges.len(), NONE);
-        self.gone.clear();
-        self.gone.resize(edges.len(), false);
-        self.alike = edges.rings().windows(2).all(|pair| pair[0].counter() == pair[1].counter());
-        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
-            let mut key = mixed(edges.point(ring.start));
-            for edge in ring.start..ring.end {
-                let next_key = mixed(edges.point(edge + 1));
-                self.add(edges, edge, key.wrapping_add(next_key));
-                key = next_key;
-            }
-        }
-    }
-
-    /// Cancels an edge against one of its kind, or puts it into the kind's list.
-    fn add(&mut self, edges: &Edges, edge: u32, key: u64) {
-        let mask = self.kinds.len() - 1;
-        let mut place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
-        while self.kinds[place].one != NONE && !self.is_kind(edges, self.kinds[place].one, edge) {
-            place = (place + 1) & mask;
-        }
-        let kind = &mut self.kinds[place];
-        if kind.left != NONE && edges.point(kind.left) != edges.point(edge) {
-            self.gone[edge as usize] = true;
-            self.gone[kind.left as usize] = true;
-            kind.left = self.next[kind.left as usize];
-        } else {
-            self.next[edge as usize] = kind.left;
-            *kind = Kind { one: edge, left: edge };
-        }
-    }
-
-    /// Whether two edges have the same ends and change the same counter.
-    #[inline]
-    fn is_kind(&self, edges: &Edges, e: u32, f: u32) -> bool {
-        let ([a, b], [c, d]) = (edges.segment(e), edges.segment(f));
-        ((a == d && b == c) || (a == c && b == d))
-            && (self.alike || edges.ring(e).counter() == edges.ring(f).counter())
     }
 
     fn find_runs(&mut self, edges: &Edges) {

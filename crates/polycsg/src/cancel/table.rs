@@ -1,0 +1,133 @@
+//! A hash table of edges by their ends, a part of it for each cell of the plane: what lies close in the plane is looked
+//! up close in memory.
+
+use crate::copies::mixed;
+use crate::edges::Edges;
+use crate::truth::index;
+use glam::DVec2;
+
+/// No edge.
+const NONE: u32 = u32::MAX;
+
+/// So many edges are in a cell on the average.
+const EDGES_PER_CELL: usize = 64;
+
+/// Edges with the same ends and counter: one of them, and a list of those that have not cancelled, all in one direction.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    one: u32,
+    left: u32,
+}
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(super) struct Table {
+    /// Whether all rings change one counter.
+    alike: bool,
+    cells: Cells,
+    /// Per edge its cell; per cell where its part of the table starts.
+    cell: Vec<u32>,
+    starts: Vec<u32>,
+    /// In each part with open addressing, half of the places empty.
+    kinds: Vec<Kind>,
+    /// Per edge the next in its kind's list.
+    next: Vec<u32>,
+}
+
+/// A grid over the box of all points.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cells {
+    half_low: DVec2,
+    factor: DVec2,
+    columns: u32,
+}
+
+impl Cells {
+    fn over(points: &[DVec2]) -> Cells {
+        let low = points.iter().fold(DVec2::MAX, |low, &p| low.min(p));
+        let high = points.iter().fold(DVec2::MIN, |high, &p| high.max(p));
+        let columns = index((points.len() / EDGES_PER_CELL).isqrt() + 1);
+        // Halves, so that the width of any finite interval is finite; of no width at all, one cell.
+        let factor = f64::from(columns) / (high * 0.5 - low * 0.5);
+        let factor = DVec2::select(factor.is_finite_mask(), factor, DVec2::ZERO);
+        Cells { half_low: low * 0.5, factor, columns }
+    }
+
+    /// The same for both directions of an edge.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
+    fn of(self, [a, b]: [DVec2; 2]) -> u32 {
+        let place = (a * 0.25 + b * 0.25 - self.half_low) * self.factor;
+        let [column, row] = [place.x as u32, place.y as u32].map(|i| i.min(self.columns - 1));
+        row * self.columns + column
+    }
+}
+
+impl Table {
+    /// Finds the edges that cancel.
+    pub(super) fn find(&mut self, edges: &Edges, gone: &mut Vec<bool>) {
+        gone.clear();
+        gone.resize(edges.len(), false);
+        self.next.clear();
+        self.next.resize(edges.len(), NONE);
+        self.alike = edges.rings().windows(2).all(|pair| pair[0].counter() == pair[1].counter());
+        self.lay_out(edges);
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            let mut key = mixed(edges.point(ring.start));
+            for edge in ring.start..ring.end {
+                let next_key = mixed(edges.point(edge + 1));
+                self.add(edges, edge, key.wrapping_add(next_key), gone);
+                key = next_key;
+            }
+        }
+    }
+
+    /// Gives each cell two places for each of its edges.
+    fn lay_out(&mut self, edges: &Edges) {
+        self.cells = Cells::over(edges.points());
+        self.cell.clear();
+        self.cell.resize(edges.len(), 0);
+        self.starts.clear();
+        self.starts.resize(self.cells.columns.pow(2) as usize + 1, 0);
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            for edge in ring.start..ring.end {
+                let cell = self.cells.of(edges.segment(edge));
+                self.cell[edge as usize] = cell;
+                self.starts[cell as usize + 1] += 2;
+            }
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        self.kinds.clear();
+        self.kinds.resize(2 * edges.len(), Kind { one: NONE, left: NONE });
+    }
+
+    /// Cancels an edge against one of its kind, or puts it into the kind's list.
+    fn add(&mut self, edges: &Edges, edge: u32, key: u64, gone: &mut [bool]) {
+        let cell = self.cell[edge as usize] as usize;
+        let [start, end] = [self.starts[cell], self.starts[cell + 1]].map(|place| place as usize);
+        let fraction = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
+        let mut place = start + ((fraction * (end - start) as u64) >> 32) as usize;
+        while self.kinds[place].one != NONE && !self.is_kind(edges, self.kinds[place].one, edge) {
+            place = if place + 1 == end { start } else { place + 1 };
+        }
+        let kind = &mut self.kinds[place];
+        if kind.left != NONE && edges.point(kind.left) != edges.point(edge) {
+            gone[edge as usize] = true;
+            gone[kind.left as usize] = true;
+            kind.left = self.next[kind.left as usize];
+        } else {
+            self.next[edge as usize] = kind.left;
+            *kind = Kind { one: edge, left: edge };
+        }
+    }
+
+    /// Whether two edges have the same ends and change the same counter.
+    #[inline]
+    fn is_kind(&self, edges: &Edges, e: u32, f: u32) -> bool {
+        let ([a, b], [c, d]) = (edges.segment(e), edges.segment(f));
+        ((a == d && b == c) || (a == c && b == d))
+            && (self.alike || edges.ring(e).counter() == edges.ring(f).counter())
+    }
+}

@@ -1,0 +1,131 @@
+//! Reads the operands' rings, near ones one after the other.
+
+use super::{END, Edges, Origin, Ring};
+use crate::csg::{Csg, Token};
+use crate::rings::Rings;
+use crate::truth::{Truth, index};
+use crate::window::Window;
+use glam::DVec2;
+
+/// Up to so many rings keep their order; more are sorted so that what lies close in the plane lies close in memory.
+const FEW_RINGS: usize = 64;
+
+/// A ring by its first point.
+struct Place {
+    point: DVec2,
+    operand: u32,
+    ring: u32,
+}
+
+impl Place {
+    fn of_all(rings: &Rings, operand: usize) -> impl Iterator<Item = Place> + '_ {
+        let place = move |(i, ring): (usize, &[DVec2])| Place {
+            point: ring[0],
+            operand: index(operand),
+            ring: index(i),
+        };
+        rings.iter().enumerate().map(place)
+    }
+}
+
+/// Whether each ring lies about as near to the one before it as it would when sorted by columns.
+fn are_near(places: &[Place]) -> bool {
+    let (mut low, mut high, mut way) = (DVec2::MAX, DVec2::MIN, DVec2::ZERO);
+    for (a, b) in places.iter().zip(&places[1..]) {
+        low = low.min(b.point);
+        high = high.max(b.point);
+        way += (b.point - a.point).abs();
+    }
+    let columns = DVec2::splat(places.len() as f64).powf(0.5);
+    way.cmple(4.0 * columns * (high - low)).all()
+}
+
+/// Sorts by columns of about as many rings as there are columns, up and down in turn.
+fn sort_by_place(places: &mut [Place]) {
+    places.sort_unstable_by(|a, b| {
+        a.point.x.total_cmp(&b.point.x).then((a.operand, a.ring).cmp(&(b.operand, b.ring)))
+    });
+    let column = places.len().isqrt().max(1);
+    for (i, places) in places.chunks_mut(column).enumerate() {
+        places.sort_unstable_by(|a, b| {
+            let upward = a.point.y.total_cmp(&b.point.y).then((a.operand, a.ring).cmp(&(b.operand, b.ring)));
+            if i % 2 == 0 { upward } else { upward.reverse() }
+        });
+    }
+}
+
+impl Edges {
+    /// Reads the operands, without the rings that miss the window. Repeated points are dropped, and rings that have
+    /// fewer than three others left.
+    pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth, window: &Window) {
+        self.clear();
+        let leaves = csg.postfix().iter().filter(|token| !matches!(token, Token::Operator(..)));
+        let rings = leaves.clone().map(|leaf| leaf.rings().map_or(0, Rings::len)).sum::<usize>();
+        if rings > FEW_RINGS {
+            let leaves: Vec<&Token<'_>> = leaves.collect();
+            let mut places: Vec<Place> = Vec::with_capacity(rings);
+            for (operand, leaf) in leaves.iter().enumerate() {
+                places.extend(leaf.rings().into_iter().flat_map(|rings| Place::of_all(rings, operand)));
+            }
+            if !are_near(&places) {
+                sort_by_place(&mut places);
+            }
+            for place in places {
+                let leaf = leaves[place.operand as usize];
+                self.add_ring(leaf, place.operand, place.ring as usize, truth, window);
+            }
+        } else {
+            for (operand, leaf) in leaves.enumerate() {
+                for ring in 0..leaf.rings().map_or(0, Rings::len) {
+                    self.add_ring(leaf, index(operand), ring, truth, window);
+                }
+            }
+        }
+    }
+
+    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth, window: &Window) {
+        let Some(rings) = leaf.rings() else { return };
+        let (start, points) = (index(self.points.len()), rings.closed(ring));
+        if !window.meets(points) {
+            return;
+        }
+        let origin = Origin { operand, edge: index(rings.start(ring)) };
+        let counter = truth.counter(operand as usize);
+        let fewest = if counter.is_none() { 2 } else { 3 };
+        if points.windows(2).any(|pair| pair[0] == pair[1]) {
+            self.add_distinct(points, origin);
+        } else {
+            self.points.extend_from_slice(points);
+        }
+        if self.points.len() < start as usize + fewest + 1 {
+            self.points.truncate(start as usize);
+            self.origins.truncate(start as usize);
+            return;
+        }
+        let slots = start..index(self.points.len());
+        if !self.origins.is_empty() && self.origins.len() < self.points.len() {
+            self.origins
+                .extend(slots.clone().map(|slot| Origin { operand, edge: origin.edge + slot - start }));
+        }
+        self.ring.resize(self.points.len(), index(self.rings.len()));
+        self.rings.push(Ring { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
+    }
+
+    /// The points of a ring that differ from the next one, and the first of them again.
+    fn add_distinct(&mut self, points: &[DVec2], origin: Origin) {
+        let start = self.points.len();
+        if self.origins.is_empty() {
+            self.origins = (0..index(start)).map(|slot| self.origin(slot)).collect();
+        }
+        for (pair, edge) in points.windows(2).zip(origin.edge..) {
+            if pair[0] != pair[1] {
+                self.points.push(pair[0]);
+                self.origins.push(Origin { operand: origin.operand, edge });
+            }
+        }
+        if self.points.len() > start {
+            self.points.push(self.points[start]);
+            self.origins.push(origin);
+        }
+    }
+}
