@@ -1,11 +1,12 @@
 //! Lattice rings, some of them scaled by a fraction or moved by single ulps: every operation against the exact oracle,
-//! and found by boxes as by slabs.
+//! found by boxes as by slabs, and the same beside far rings that lead every stage another way.
 #![no_main]
 use arbitrary::Arbitrary;
 use glam::DVec2;
 use libfuzzer_sys::fuzz_target;
-use polycsg::Scratch;
-use tests::against::{check, check_boundary, csg, leaf};
+use polycsg::{Csg, FillRule, Scratch};
+use tests::against::{check, check_boundary, csg, leaf, shapes};
+use tests::company::{Company, without_company};
 use tests::generators::Pair;
 use tests::oracle::{Arrangement, Operand, Operation, Rule};
 
@@ -14,6 +15,7 @@ struct Input {
     size: u8,
     step: Step,
     rules: [u8; 2],
+    company: u8,
     operands: [Vec<Vec<Corner>>; 2],
 }
 
@@ -47,6 +49,10 @@ fuzz_target!(|input: Input| {
         let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
         let by_slabs = expression.evaluate_in(&mut polycsg::fuzzing::hasty());
         assert_eq!(by_slabs, expression.evaluate(), "{operation:?} by slabs\n{:?}\n{:?}", pair.a, pair.b);
+        let is_asked = operation == Operation::ALL[usize::from(input.company % 4)];
+        if let (true, Some(&company)) = (is_asked, Company::ALL.get(usize::from(input.company / 4 % 16))) {
+            assert_alike(&expression, company, &pair);
+        }
         if matches!(input.step, Step::One) {
             let boundary = expression.boundary(&mut scratch);
             if let Err(e) = check_boundary(boundary.edges(), &arrangement.operation(operation)) {
@@ -55,6 +61,16 @@ fuzz_target!(|input: Input| {
         }
     }
 });
+
+/// A region is the same beside far rings.
+fn assert_alike(expression: &Csg<'_>, company: Company, pair: &Pair) {
+    let points = pair.a.rings.iter().chain(&pair.b.rings).flatten();
+    let size = points.map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let rings = company.rings(size).expect("there is room");
+    let others = Csg::rings(&rings, FillRule::NonZero).expect("finite");
+    let together = without_company(&(expression.clone() | others).evaluate(), size);
+    assert_eq!(together, shapes(&expression.evaluate()), "beside {company:?}\n{:?}\n{:?}", pair.a, pair.b);
+}
 
 fn operand(input: &Input, index: usize) -> Operand {
     let mut left = MOST_CORNERS;

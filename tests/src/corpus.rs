@@ -12,8 +12,9 @@
 //!
 //! Areas are the doubles nearest to the exact ones; rules are `even-odd`, `non-zero` and `positive`.
 use crate::Ring;
+use crate::exact::nearest;
 use crate::generators::Pair;
-use crate::oracle::{Operand, Operation, Rule};
+use crate::oracle::{Arrangement, Operand, Operation, Rule};
 use glam::DVec2;
 use serde_json::Value;
 use std::fs;
@@ -41,15 +42,58 @@ pub fn read() -> Result<Vec<Case>, String> {
 }
 
 fn read_case(path: &Path) -> Result<Case, String> {
-    let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
-    let value: Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
-    let text_of = |key: &str| value[key].as_str().map(str::to_owned).ok_or(format!("no text \"{key}\""));
-    let pair = Pair { name: text_of("name")?, a: operand(&value["a"])?, b: operand(&value["b"])? };
+    let value = value(path)?;
     let mut areas = [0.0; 4];
     for (area, operation) in areas.iter_mut().zip(Operation::ALL) {
         *area = number(&value["areas"][column(operation)])?;
     }
-    Ok(Case { pair, source: text_of("source")?, areas })
+    Ok(Case { pair: pair(&value)?, source: text_of(&value, "source")?, areas })
+}
+
+/// The operands of one file; what else it says, and whether, does not matter.
+pub fn read_pair(path: &Path) -> Result<Pair, String> {
+    value(path).and_then(|value| pair(&value)).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+fn value(path: &Path) -> Result<Value, String> {
+    let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
+    serde_json::from_str(&text).map_err(|e| e.to_string())
+}
+
+fn pair(value: &Value) -> Result<Pair, String> {
+    Ok(Pair { name: text_of(value, "name")?, a: operand(&value["a"])?, b: operand(&value["b"])? })
+}
+
+fn text_of(value: &Value, key: &str) -> Result<String, String> {
+    value[key].as_str().map(str::to_owned).ok_or(format!("no text \"{key}\""))
+}
+
+/// A pair as a file, its areas by the oracle.
+pub fn written(pair: &Pair, source: &str) -> String {
+    let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
+    let area = |operation: Operation| {
+        format!("\"{}\": {:?}", column(operation), nearest(&arrangement.operation(operation).area()))
+    };
+    format!(
+        "{{\n  \"name\": {},\n  \"source\": {},\n  \"a\": {},\n  \"b\": {},\n  \"areas\": {{{}}}\n}}\n",
+        Value::from(pair.name.as_str()),
+        Value::from(source),
+        written_operand(&pair.a),
+        written_operand(&pair.b),
+        Operation::ALL.map(area).join(", ")
+    )
+}
+
+fn written_operand(operand: &Operand) -> String {
+    let rule = match operand.rule {
+        Rule::EvenOdd => "even-odd",
+        Rule::NonZero => "non-zero",
+        Rule::Positive => "positive",
+    };
+    let point = |p: &DVec2| format!("[{:?}, {:?}]", p.x, p.y);
+    let ring = |ring: &Ring| format!("\n      [{}]", ring.iter().map(point).collect::<Vec<_>>().join(", "));
+    let rings = operand.rings.iter().map(ring).collect::<Vec<_>>().join(",");
+    format!("{{ \"rule\": \"{rule}\", \"rings\": [{rings}\n    ] }}")
 }
 
 /// The name of an operation's area in a file.

@@ -1,6 +1,8 @@
-//! Every named case, under every order of its operands, turned, mirrored and scaled.
+//! Every named case, by every path, under every order of its operands, turned, mirrored and scaled.
 use glam::DVec2;
-use tests::against::{self, Verdict};
+use polycsg::{Csg, FillRule, Region};
+use tests::against::{self, Verdict, csg, leaf, shapes};
+use tests::company::{Company, without_company};
 use tests::corpus::{Case, read};
 use tests::exact::{nearest, power_of_two};
 use tests::generators::Pair;
@@ -67,8 +69,49 @@ fn replay(case: &Case, (name, map, reverses, power): Symmetry, is_swapped: bool)
             Ok(Verdict::Exact | Verdict::Repaired) => {}
             Err(e) => failures.push(format!("{} {operation:?} (swapped: {is_swapped}): {e}", pair.name)),
         }
+        for company in Company::ALL {
+            if !is_alike_in(company, &pair, operation) {
+                failures.push(format!("{} {operation:?}: another region beside {company:?}", pair.name));
+            }
+        }
     }
     failures
+}
+
+/// Whether a result is the same, bit for bit, where far rings make every stage take its other path; a case that leaves no
+/// room for them is as it is.
+fn is_alike_in(company: Company, pair: &Pair, operation: Operation) -> bool {
+    let size = size(pair);
+    let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
+    let Some(rings) = company.rings(size) else { return true };
+    let others = Csg::rings(&rings, FillRule::NonZero).expect("finite");
+    let together: Region = (expression.clone() | others).evaluate();
+    let alone = expression.evaluate();
+    together.polygons().count() == alone.polygons().count() + rings.len()
+        && without_company(&together, size) == shapes(&alone)
+}
+
+fn size(pair: &Pair) -> f64 {
+    let points = pair.a.rings.iter().chain(&pair.b.rings).flatten();
+    points.map(|p| p.abs().max_element()).fold(0.0, f64::max)
+}
+
+/// On many threads as on one.
+#[test]
+fn all_cases_at_once() {
+    let cases = cases();
+    let all = || cases.iter().flat_map(|case| Operation::ALL.map(|operation| (case, operation)));
+    let expressions: Vec<Csg> =
+        all().map(|(case, operation)| csg(operation, leaf(&case.pair.a), leaf(&case.pair.b))).collect();
+    let one_by_one: Vec<Region> = expressions.iter().map(Csg::evaluate).collect();
+    assert_eq!(Csg::evaluate_all(&expressions), one_by_one);
+}
+
+#[test]
+fn most_cases_leave_room_for_company() {
+    let cases = cases();
+    let crowded = cases.iter().filter(|case| Company::ALL[0].rings(size(&case.pair)).is_none()).count();
+    assert!(10 * crowded <= cases.len(), "{crowded} of {}", cases.len());
 }
 
 /// The operand mapped; where the map reverses directions, rings are reversed, so that every rule reads them alike.

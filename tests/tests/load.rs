@@ -9,8 +9,10 @@
 //! | `a_million_copies` | 0.8 s | 615 MB |
 //! | `a_million_rings` | 1.5 s | 1.1 GB |
 //! | `one_ring_of_two_million_edges` | 1.4 s | 1.1 GB |
+//! | `one_ring_of_ten_million_edges` | 14 s | 5.5 GB |
 //! | `four_million_crossings`, twice | 11 s | 2.5 GB |
-//! | `expressions_a_hundred_thousand_deep` (its time grows with the square of the depth) | 45 s | 95 MB |
+//! | `more_crossings_than_memory`, refused | 0.5 s | 470 MB |
+//! | `expressions_a_hundred_thousand_deep`, to the left and to the right | 0.7 s | 140 MB |
 use glam::DVec2;
 use polycsg::{Csg, Error, FillRule, Region, Scratch};
 use tests::Ring;
@@ -197,6 +199,12 @@ fn a_million_rings() {
 #[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
 fn one_ring_of_two_million_edges() {
     saw(1_000_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn one_ring_of_ten_million_edges() {
+    saw(5_000_000);
 }
 
 #[test]

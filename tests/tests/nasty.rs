@@ -1,11 +1,13 @@
 //! The kinds of input on which polygon libraries fail: no panic, a valid region, the right area, for every operation.
+use glam::DVec2;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use polycsg::Region;
+use polycsg::{FillRule, Region};
 use tests::against::{self, Verdict, check_classify, check_locate, leaf};
 use tests::exact::{nearest, ratio};
 use tests::generators::{KINDS, Pair, nasty};
 use tests::oracle::{Arrangement, Operation};
+use tests::random::Random;
 use tests::survey::survey;
 
 /// Inputs of each kind: 24 kinds of 30 are 720 inputs.
@@ -90,6 +92,29 @@ fn areas_in_doubles_are_the_rings_areas() {
         let area = result.area();
         assert!(low <= area && area <= high, "{}: {area} is not in {low} ..= {high}", pair.name);
     }
+}
+
+/// Where the terms of the sum cancel but for less than a double holds of them, the area still is right to two ulps: needles
+/// whose third vertex is the rounded middle of the others', moved by at most an ulp.
+#[test]
+fn areas_of_needles_are_right_to_two_ulps() {
+    let mut random = Random::new(7);
+    let mut seen = 0;
+    for _ in 0..2_000 {
+        let mut number = || random.range(-1.0, 1.0) * 2.0_f64.powi(random.between(-60, 2));
+        let (a, b) = (DVec2::new(number(), number()), DVec2::new(number(), number()));
+        let middle = a.midpoint(b);
+        for c in
+            [middle, DVec2::new(middle.x.next_up(), middle.y), DVec2::new(middle.x, middle.y.next_down())]
+        {
+            let needle = Region::from_rings([[a, b, c]], FillRule::EvenOdd).expect("finite points");
+            let exact = nearest(&(against::twice_area(&needle) / BigInt::from(2)));
+            let area = needle.area();
+            assert!((area - exact).abs() <= 2.0 * f64::EPSILON * exact, "{a} {b} {c}: {area}, not {exact}");
+            seen += usize::from(area > 0.0 && area < 1e-16 * ((b - a).x * (b - a).y).abs());
+        }
+    }
+    assert!(seen > 1_000, "only {seen} were needles");
 }
 
 /// Four roundings for each vertex, each of a number no larger than the box around the region; and one of the sum.

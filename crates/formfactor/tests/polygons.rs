@@ -1,5 +1,6 @@
 //! What a polygon accepts, refuses, and says of itself.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+use formfactor::glam::DQuat;
 use formfactor::{DVec3, DifferentialArea, Error, PlanarPolygon, form_factor, unoccluded, visible_part};
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
@@ -179,4 +180,78 @@ fn nothing_covers_what_is_hardly_above_the_horizon() {
     let (free, found) = (unoccluded(&from, &to), form_factor(&from, &to, &[aside]));
     assert!(free.value > 0.0);
     assert!((found.value - free.value).abs() <= found.error_bound + free.error_bound, "{found:?}, {free:?}");
+}
+
+/// A square of side 2 about the origin, and one of side 1 on it, in a plane whose numbers are no doubles.
+fn on_a_sloping_plane() -> [PlanarPolygon; 2] {
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+    [1.0, 0.5].map(|half: f64| {
+        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+        PlanarPolygon::new([corners.map(|[x, y]| turn * DVec3::new(x, y, 0.0) + DVec3::splat(0.1))]).unwrap()
+    })
+}
+
+/// Coplanar but for rounding is coplanar: it hides nothing, and the bound counts what it would hide.
+#[test]
+fn what_is_coplanar_but_for_rounding_hides_nothing_and_is_in_the_bound() {
+    let [whole, middle] = on_a_sloping_plane();
+    for position in [[0.3, 0.2, 3.0], [1.0, 2.0, 2.0], [-2.0, 0.1, 4.0]].map(DVec3::from) {
+        let from = DifferentialArea::new(position, -position).unwrap();
+        let (all, found) =
+            (unoccluded(&from, &whole), form_factor(&from, &whole, std::slice::from_ref(&middle)));
+        let hidden = unoccluded(&from, &middle);
+        assert!((all.value - found.value).abs() <= all.error_bound + found.error_bound);
+        let may_hide = found.error_bound >= hidden.value;
+        assert!(may_hide || found.value >= all.value - 1e-12, "{found:?} of {all:?}");
+    }
+}
+
+/// A point on a plane whose numbers are no doubles may be on either side of it: beside the polygon it sees next to nothing,
+/// and in it the bound says that anything is possible.
+#[test]
+fn on_a_plane_of_rounded_numbers_the_bound_knows_both_sides() {
+    let [whole, middle] = on_a_sloping_plane();
+    let corners: Vec<DVec3> = middle.loops().next().unwrap().to_vec();
+    let outer: Vec<DVec3> = whole.loops().next().unwrap().to_vec();
+    let mut doubtful = 0;
+    for (inside, corner) in corners.iter().zip(&outer) {
+        let looking = |at: DVec3| DifferentialArea::new(at, whole.normal().cross(corner - inside)).unwrap();
+        for toward in [1.0, -1.0] {
+            let found = unoccluded(&looking(inside + toward * 1e-3 * (corner - inside)), &whole);
+            assert!(found.value <= 0.5 + found.error_bound);
+            doubtful += usize::from(found.error_bound >= 0.5);
+            let beside = unoccluded(&looking(corner + toward.abs() * 3.0 * (corner - inside)), &whole);
+            assert!(beside.value <= 1e-12 && beside.error_bound <= 1e-12, "{beside:?}");
+        }
+    }
+    assert!(doubtful > 0, "no point was in doubt");
+}
+
+#[test]
+fn messages_say_where_and_what_to_do() {
+    let messages = [
+        (
+            Error::BadPoint,
+            "the point has a coordinate that is NaN, infinite or beyond 2^200; give finite numbers",
+        ),
+        (Error::BadNormal, "the normal has no direction; give a finite vector that is not zero"),
+        (Error::BadTolerance, "the tolerance is not positive; give a number like 1e-6"),
+        (Error::NoLoops, "the polygon has no loops; give at least its outer loop"),
+        (
+            Error::TooFewVertices { loop_index: 1, count: 2 },
+            "loop 1 has 2 vertices; a loop needs at least three",
+        ),
+        (
+            Error::BadVertex { loop_index: 1, vertex: 3 },
+            "loop 1, vertex 3: a coordinate is NaN, infinite or beyond 2^200; give finite numbers",
+        ),
+        (Error::ZeroArea, "the first loop encloses no area, so that the polygon has no front; drop it"),
+        (
+            Error::NotPlanar { loop_index: 0, vertex: 3, distance: 0.25, allowed: 1e-15 },
+            "loop 0, vertex 3: 2.5e-1 off the polygon's plane where 1e-15 is allowed; split the polygon into triangles",
+        ),
+    ];
+    for (error, message) in messages {
+        assert_eq!(error.to_string(), message);
+    }
 }

@@ -21,7 +21,7 @@
 //!   where that would make edges meet, they are mended (by moves of the size of that rounding).
 //! - *Results do not depend on* the order of operands and rings, on the ring's direction under the even-odd rule, or on where a
 //!   ring starts.
-//! - NaN and infinity are the only errors.
+//! - NaN and infinity are the only errors, but for a limit that the caller sets.
 //!
 //! ```
 //! use polycsg::{FillRule, Region};
@@ -44,6 +44,7 @@
 //! | two regions | [`Region::union`], [`intersection`](Region::intersection), [`difference`](Region::difference), [`symmetric_difference`](Region::symmetric_difference) |
 //! | many operands, nested expressions, raw rings as operands | [`Csg`], then [`evaluate`](Csg::evaluate) |
 //! | many small jobs | [`Csg::evaluate_in`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
+//! | operands from strangers, who may send more crossings than fit in memory | [`Csg::evaluate_within`] |
 //! | the area alone, or whether anything is left; which operand an edge comes from | [`Csg::boundary`] |
 //! | where a point lies, how a segment lies | [`Region::locate`], [`classify`] |
 //! | moved, turned, scaled, mirrored | [`Region::map_affine`] |

@@ -20,6 +20,9 @@ use crate::window::Window;
 
 /// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
 ///
+/// They grow with the operands and with how often their edges meet: [`Csg::evaluate_within`](crate::Csg::evaluate_within)
+/// sets a limit to that.
+///
 /// ```
 /// use polycsg::{Csg, FillRule, Region, Scratch};
 /// let a = Region::from_rings([[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]], FillRule::NonZero)?;

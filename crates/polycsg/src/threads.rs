@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 /// Fewer edges are quicker on one thread.
 #[cfg(feature = "rayon")]
-const FEW: usize = if cfg!(test) { 64 } else { 20_000 };
+const FEW: usize = if cfg!(any(test, fuzzing)) { 64 } else { 20_000 };
 
 /// Whether to use more than one thread.
 #[derive(Clone, Copy, Debug)]

@@ -95,6 +95,16 @@ pub enum Error {
         /// What the form factors say.
         source: formfactor::Error,
     },
+    /// A form factor could not be found, which is a defect of this program.
+    #[error(
+        "patch {patch}: a form factor to it was not found: {reason}; this is a defect, please report it with the scene"
+    )]
+    Defect {
+        /// The patch's name.
+        patch: String,
+        /// What the panic said.
+        reason: String,
+    },
     /// A patch of this name does not exist.
     #[error("no patch is named {name}; the scene has {known}")]
     NoSuchPatch {

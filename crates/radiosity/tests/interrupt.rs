@@ -85,3 +85,26 @@ fn killed_at_any_moment_it_leaves_whole_files() {
     }
     assert_eq!(read, 6);
 }
+
+/// The system refuses to write on in the middle of a file, as a full disk does: the exit code says so, what stood there
+/// before still stands, and nothing is left behind.
+#[test]
+fn a_write_that_fails_half_way_leaves_what_was_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("light.json");
+    std::fs::write(&path, "what was there").expect("a file");
+    // No file beyond 16 blocks; a signal that nobody ignores would end the program instead.
+    let script = "trap '' XFSZ; ulimit -f 16; exec \"$@\"";
+    let output = Command::new("sh")
+        .args(["-c", script, "sh", env!("CARGO_BIN_EXE_radiosity")])
+        .args(["solve", "scenes/cornell-box.dae", "--quality", "draft", "--max-shots", "1", "-o"])
+        .arg(&path)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the program starts");
+    let message = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("light.json: cannot be written"), "{message}");
+    assert_eq!(std::fs::read_to_string(&path).expect("a file"), "what was there");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1);
+}

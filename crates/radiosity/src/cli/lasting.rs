@@ -111,6 +111,9 @@ impl<'d> Follower<'d> {
             Some(path) if self.state_written => eprintln!("go on with --resume {}", path.display()),
             _ => {}
         }
+        if let Some(fault) = &solution.fault {
+            return Failure::internal(fault).report();
+        }
         if self.interrupted.load(Ordering::SeqCst) {
             return ExitCode::from(INTERRUPTED);
         }

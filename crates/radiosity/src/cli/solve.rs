@@ -120,9 +120,11 @@ pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let mut follower = Follower::new(&desk)?;
     let solution =
         radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
-    follower.end(&state, solution.as_ref().ok())?;
+    let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
+    // What was found is not lost for a state that cannot be written.
     let figures = desk.write(&solution)?;
+    ended?;
     if arguments.json {
         output::print(&figures)?;
     }

@@ -22,7 +22,15 @@ pub(super) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, Str
     }
     let path = local(address).ok_or("it is not a file of this machine; save it beside the scene")?;
     let folder = folder.ok_or("the scene is in no folder")?;
-    std::fs::read(folder.join(&path)).map_err(|error| format!("{}: {error}", path.display()))
+    regular(&folder.join(&path)).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The bytes of a regular file: what else a scene may name, a device or a pipe, need not end.
+fn regular(path: &Path) -> std::io::Result<Vec<u8>> {
+    if !path.metadata()?.is_file() {
+        return Err(std::io::Error::other("not a regular file"));
+    }
+    std::fs::read(path)
 }
 
 /// A path from an address: `file://` or none, `%20` and its like resolved.
@@ -82,5 +90,15 @@ mod tests {
         }
         assert!(fetch("https://example.org/a.png", None).is_err());
         assert!(fetch("data:image/png;base64,%%%", None).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_never_ends_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        for address in ["/dev/zero", "file:///dev/zero", "%2Fdev/zero", "."] {
+            let refusal = bytes(address, Some(folder.path())).unwrap_err();
+            assert!(refusal.contains("not a regular file"), "{refusal}");
+        }
     }
 }

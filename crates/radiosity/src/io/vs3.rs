@@ -215,7 +215,7 @@ impl Fields<'_> {
 
 /// A surface without the parts that are cut out of it.
 fn shape(surface: &Row, parts: &[&Row], vertices: &[DVec3]) -> Result<Vec<PlanarPolygon>, formfactor::Error> {
-    let points = |row: &Row| row.corners.iter().map(|corner| vertices[corner - 1]).collect::<Vec<_>>();
+    let points = |row: &Row| without_repeats(row.corners.iter().map(|corner| vertices[corner - 1]).collect());
     let whole = PlanarPolygon::new([points(surface)])?;
     if parts.is_empty() {
         return Ok(vec![whole]);
@@ -228,4 +228,13 @@ fn shape(surface: &Row, parts: &[&Row], vertices: &[DVec3]) -> Result<Vec<Planar
     let holes: Vec<Region> = parts.iter().map(|part| region(part)).collect();
     let rest = (Csg::from(&region(surface)) - Csg::union(&holes)).evaluate();
     Ok(plane.lift(&rest, &[&whole]))
+}
+
+/// The points without those that stand twice in a row, the last before the first included.
+fn without_repeats(mut points: Vec<DVec3>) -> Vec<DVec3> {
+    points.dedup();
+    while points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    points
 }

@@ -4,7 +4,6 @@ use crate::interpolate::Direct;
 use crate::{Error, Mesh, Scene};
 use formfactor::DifferentialArea;
 use glam::DVec3;
-use rayon::prelude::*;
 use std::{collections::BTreeSet, f64::consts::PI};
 
 /// How far towards the elements around it a vertex is moved: F is discontinuous at the feet of walls, and there the
@@ -25,8 +24,7 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Direct, Error> 
         for (element, factor) in run.factors.column(lamp)?.iter() {
             shine(&mut elements, element, factor);
         }
-        let factors: Vec<f64> =
-            receivers.par_iter().with_min_len(8).map(|from| run.factors.seen_from(from, lamp)).collect();
+        let factors = run.factors.seen_from(&receivers, lamp)?;
         factors.into_iter().enumerate().for_each(|(vertex, factor)| shine(&mut vertices, vertex, factor));
     }
     Ok(Direct { elements, vertices })

@@ -3,9 +3,9 @@ use super::fingerprint;
 use super::hemicube::Hemicubes;
 use super::state::{Column, State};
 use super::surfaces::Surfaces;
+use super::workers;
 use crate::{Error, Scene, mesh::Subdivision};
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
@@ -86,17 +86,26 @@ impl<'s> Factors<'s> {
         from.owned_by(self.surface_of[patch])
     }
 
-    /// The form factor from any point to a whole patch.
-    pub(super) fn seen_from(&self, from: &DifferentialArea, patch: usize) -> f64 {
-        self.to_part(from, patch, &self.scene.patches[patch].polygon)
+    /// The form factors from any points to a whole patch.
+    pub(super) fn seen_from(&self, points: &[DifferentialArea], patch: usize) -> Result<Vec<f64>, Error> {
+        self.to_part(points, patch, &self.scene.patches[patch].polygon)
     }
 
-    /// The form factor to a part of a patch.
-    fn to_part(&self, from: &DifferentialArea, patch: usize, part: &PlanarPolygon) -> f64 {
-        self.enclosure.form_factor_to_part(from, self.surface_of[patch], part).value
+    /// The form factors from any points to a part of a patch.
+    fn to_part(
+        &self,
+        points: &[DifferentialArea],
+        patch: usize,
+        part: &PlanarPolygon,
+    ) -> Result<Vec<f64>, Error> {
+        workers::from_all(points, &self.scene.patches[patch].name, |from| {
+            #[cfg(test)]
+            assert_ne!(self.state.trap, Some(patch), "injected");
+            self.enclosure.form_factor_to_part(from, self.surface_of[patch], part).value
+        })
     }
 
-    /// Finds the form factors from all elements to one piece: each by itself, so threads change nothing.
+    /// Finds the form factors from all elements to one piece.
     fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
         let Subdivision { mesh, nodes, flat, .. } = self.subdivision;
         if let Some(hemicubes) = &self.hemicubes {
@@ -104,14 +113,12 @@ impl<'s> Factors<'s> {
         }
         let patch = nodes[node].patch;
         if node == patch {
-            let whole = |from| self.seen_from(from, patch);
-            return Ok(self.receivers.par_iter().with_min_len(8).map(whole).collect());
+            return self.seen_from(&self.receivers, patch);
         }
         let piece = flat
             .outline(mesh, &mesh.elements[nodes[node].elements.clone()])
             .map_err(|source| Error::Shape { patch: self.scene.patches[patch].name.clone(), source })?;
-        let part = |from| self.to_part(from, patch, &piece);
-        Ok(self.receivers.par_iter().with_min_len(8).map(part).collect())
+        self.to_part(&self.receivers, patch, &piece)
     }
 
     /// The sums of form factors from every element over pieces.

@@ -51,6 +51,7 @@ mod shoot;
 mod shooters;
 mod state;
 mod surfaces;
+mod workers;
 
 pub use estimate::Norm;
 pub use ledger::Ledger;
@@ -163,6 +164,7 @@ impl Progress<'_> {
             shots: self.shots,
             products: self.products,
             converged: false,
+            fault: None,
             mesh: self.factors.subdivision.mesh.clone(),
             seconds: self.seconds,
         }
@@ -203,6 +205,8 @@ pub struct Solution {
     pub products: usize,
     /// Whether the tolerance was reached.
     pub converged: bool,
+    /// [`Error::Defect`] where that ended the run early: all else is as far as it had come.
+    pub fault: Option<Error>,
     /// How long it took.
     pub seconds: f64,
     /// Reflectance of every element, elements × bands.
@@ -265,7 +269,7 @@ impl Solution {
 ///
 /// # Errors
 /// A reflectance outside [0, 1], one of 1 in a closed lit room, negative emission, a polygon that cannot be cut into
-/// triangles: see [`Error`].
+/// triangles: see [`Error`]. A defect of this program ends the run early instead, and stands in the solution.
 pub fn solve(
     scene: &Scene,
     options: &Options,
@@ -301,14 +305,9 @@ pub fn solve_from(
         if passes_left == options.passes {
             run.recognise()?;
         }
-        let choice = if run.sample(scene)? { run.choose(scene)? } else { None };
-        let converged = match choice {
-            None => false,
-            Some(Method::Auto | Method::Shoot) => shoot::shoot(&mut run)?,
-            Some(method) => relax::relax(&mut run, method)?,
-        };
+        let converged = run.advance(scene)?;
         let solution = run.finish(scene, converged, passes_left == 0)?;
-        if !converged || passes_left == 0 {
+        if !solution.converged || passes_left == 0 {
             return Ok(solution);
         }
         passes_left -= 1;

@@ -4,7 +4,8 @@ use super::factors::Factors;
 use super::hemicube::Hemicubes;
 use super::rooms::Rooms;
 use super::{
-    Ledger, Method, Options, Progress, Solution, State, direct, ledger, light::Light, shooters::Shooters,
+    Ledger, Method, Options, Progress, Solution, State, direct, ledger, light::Light, relax, shoot,
+    shooters::Shooters,
 };
 use crate::{Error, Scene, interpolate, mesh::Subdivision};
 use std::{ops::ControlFlow, time::Instant};
@@ -33,6 +34,8 @@ pub(super) struct Run<'r> {
     /// As of the last step.
     pub(super) bound: Vec<f64>,
     pub(super) ledger: Ledger,
+    /// The defect that ended the run.
+    fault: Option<Error>,
     /// Σ|AΔB| over the emitted power, per band.
     pub(super) unshot: Vec<f64>,
     gaps: Vec<f64>,
@@ -63,6 +66,7 @@ impl<'r> Run<'r> {
             bound: live(&light, f64::INFINITY),
             unshot: live(&light, 1.0),
             ledger: Ledger::dark(&light),
+            fault: None,
             light,
             rooms: None,
             products: 0,
@@ -77,8 +81,34 @@ impl<'r> Run<'r> {
         if foreign { Err(Error::Foreign) } else { Ok(()) }
     }
 
+    /// Goes on until the tolerance is reached (true), or the watcher, a limit or a defect ends it (false).
+    pub(super) fn advance(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let converged = self.solve(scene);
+        Ok(self.survive(converged)?.unwrap_or(false))
+    }
+
+    fn solve(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let choice = if self.sample(scene)? { self.choose(scene)? } else { None };
+        match choice {
+            None => Ok(false),
+            Some(Method::Auto | Method::Shoot) => shoot::shoot(self),
+            Some(method) => relax::relax(self, method),
+        }
+    }
+
+    /// Notes a defect, so that what was found before it is not lost.
+    fn survive<T>(&mut self, found: Result<T, Error>) -> Result<Option<T>, Error> {
+        match found {
+            Err(defect @ Error::Defect { .. }) => {
+                self.fault = Some(defect);
+                Ok(None)
+            }
+            other => other.map(Some),
+        }
+    }
+
     /// Draws hemicubes where they are asked for; false when the watcher wants to stop.
-    pub(super) fn sample(&mut self, scene: &Scene) -> Result<bool, Error> {
+    fn sample(&mut self, scene: &Scene) -> Result<bool, Error> {
         let Some(resolution) = self.options.hemicube else { return Ok(true) };
         let subdivision = self.factors.subdivision;
         let drawn = Hemicubes::draw(scene, subdivision, resolution, || self.report().is_break())?;
@@ -89,7 +119,7 @@ impl<'r> Run<'r> {
 
     /// Chooses how to solve; follows the light through the rooms where that decides, and refuses what has no solution.
     /// Nothing when the watcher wants to stop.
-    pub(super) fn choose(&mut self, scene: &Scene) -> Result<Option<Method>, Error> {
+    fn choose(&mut self, scene: &Scene) -> Result<Option<Method>, Error> {
         let asked = self.options.method;
         let largest = (0..self.light.areas.len()).map(|element| self.light.largest_reflectance(element));
         let largest = largest.fold(0.0, f64::max);
@@ -165,12 +195,15 @@ impl<'r> Run<'r> {
 
     /// The solution; direct light is gathered for the last mesh only.
     pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
-        let closure = if converged { self.closure(scene.patches.len())? } else { None };
-        let direct = if converged && last && self.options.gather {
-            Some(direct::gather(scene, &mut self)?)
-        } else {
-            None
-        };
+        let (mut closure, mut direct) = (None, None);
+        if converged {
+            let found = self.closure(scene.patches.len());
+            closure = self.survive(found)?.flatten();
+        }
+        if converged && last && self.options.gather {
+            let gathered = direct::gather(scene, &mut self);
+            direct = self.survive(gathered)?;
+        }
         Ok(Solution {
             bands: self.light.bands,
             ledger: Ledger::new(&self.light, &self.shooters),
@@ -185,7 +218,8 @@ impl<'r> Run<'r> {
             scaling: self.scaling,
             shots: self.shooters.shots,
             products: self.products,
-            converged,
+            converged: converged && self.fault.is_none(),
+            fault: self.fault,
             seconds: self.start.elapsed().as_secs_f64(),
         })
     }

@@ -19,6 +19,10 @@ pub struct State {
     meshes: BTreeMap<u64, BTreeMap<usize, Arc<Column>>>,
     /// How many factors there are.
     count: usize,
+    /// A patch whose factors cannot be found.
+    #[cfg(test)]
+    #[serde(skip)]
+    pub(super) trap: Option<usize>,
 }
 
 /// Form factors from elements to one piece; those that are 0 are left out.
@@ -166,7 +170,7 @@ mod tests {
     fn forged_states_are_refused() {
         let forged = |elements: Vec<u32>, factors: Vec<f64>, count: usize| {
             let columns = BTreeMap::from([(3, Arc::new(Column { elements, factors }))]);
-            State::from_bytes(&State { meshes: BTreeMap::from([(7, columns)]), count }.to_bytes())
+            State::from_bytes(&State { meshes: BTreeMap::from([(7, columns)]), count, trap: None }.to_bytes())
         };
         assert!(forged(vec![0, 5], vec![0.5, 0.25], 2).is_ok_and(|state| state.column(7, 3, 5).is_none()));
         for (elements, factors, count) in [

@@ -1,5 +1,5 @@
 //! Laws of the solver.
-use super::{Options, Solution, solve};
+use super::{Method, Options, Solution, State, solve, solve_from};
 use crate::{Error, Patch, Scene};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
@@ -133,4 +133,36 @@ fn what_has_no_solution_is_refused_by_name() {
     let mut scene = room(0.5, 1.0);
     scene.patches[1].emission.push(0.0);
     assert!(matches!(check(&scene), Error::Bands { found: 2, expected: 1, .. }));
+}
+
+/// A worker panics while it finds the factors to one patch: the light so far, and all factors so far, are kept, and a run
+/// that goes on from them ends with the bits of one that nothing happened to.
+#[test]
+fn a_panic_of_a_worker_loses_nothing() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    for method in [Method::Shoot, Method::Cg, Method::Gmres, Method::Matrix] {
+        let options = Options { method, ..options(200, 1e-4) };
+        let whole = quick(&scene, options);
+        let mut state = State::default();
+        state.trap = Some(3);
+        let mut shots = 0;
+        let broken = solve_from(&scene, &options, &mut state, |progress| {
+            shots = progress.shots;
+            ControlFlow::Continue(())
+        });
+        let broken = broken.unwrap();
+        let fault = broken.fault.as_ref().map(ToString::to_string).unwrap();
+        assert!(fault.contains(&scene.patches[3].name) && fault.contains("injected"), "{fault}");
+        assert!(!broken.converged && !state.is_empty(), "{method:?}");
+        assert_eq!(broken.shots, shots);
+        if method == Method::Shoot {
+            let received: f64 = broken.irradiance.iter().sum();
+            assert!(broken.shots > 0 && received > 0.0 && broken.ledger.defect[0].abs() < 1e-12);
+        }
+        let mut state = State::from_bytes(&state.to_bytes()).unwrap();
+        let again = solve_from(&scene, &options, &mut state, |_| ControlFlow::Continue(())).unwrap();
+        assert!(again.converged && again.fault.is_none());
+        assert_eq!(again.radiosity, whole.radiosity, "{method:?}");
+    }
 }

@@ -1,5 +1,6 @@
 //! glTF files in: what they mean as patches, and what is refused.
 use radiosity::glam::DVec3;
+use radiosity::io::collada::Collada;
 use radiosity::io::gltf::Gltf;
 use radiosity::{Scene, scenes};
 use serde_json::{Value, json};
@@ -209,4 +210,39 @@ fn a_written_file_has_the_same_areas() {
     // Millimetres there, metres here, single precision in between.
     assert!((area(&after) * 1e6 / area(&before) - 1.0).abs() < 1e-6);
     assert!(after.cameras[0].position.distance(before.cameras[0].position * 1e-3) < 1e-6);
+}
+
+/// A name of any characters is written into COLLADA and comes back; where XML has no character, another one stands.
+#[test]
+fn names_of_any_unicode_survive() {
+    for (name, expected) in [
+        ("déjà vu 漢字 🦀 \u{202e}ylf\u{200b}", "déjà vu 漢字 🦀 \u{202e}ylf\u{200b}"),
+        ("a\tb\nc\rd", "a\tb\nc\rd"),
+        ("<node name=\"n\">&amp;]]>", "<node name=\"n\">&amp;]]>"),
+        ("bell\u{7} and \u{ffff}", "bell\u{fffd} and \u{fffd}"),
+        (" \n", "node-0"),
+        ("../../etc/passwd", "../../etc/passwd"),
+    ] {
+        let mut document = square();
+        document["nodes"][0]["name"] = name.into();
+        let before = read(&document);
+        let after = Collada::of(&before).scene().unwrap();
+        assert_eq!(after.patches[0].name, expected);
+        assert_eq!(after.patches[0].reflectance, before.patches[0].reflectance);
+    }
+}
+
+/// Zeros that no buffer holds: as many as the file has bytes.
+#[test]
+fn rows_without_data_are_bounded_by_the_file() {
+    let mut document = square();
+    document["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+    let indices = json!({"bufferView": 1, "componentType": 5123});
+    document["accessors"][0]["sparse"] = json!({"count": 1, "indices": indices, "values": {"bufferView": 0}});
+    assert_eq!(read(&document).patches.len(), 0, "all corners lie in one point");
+    for count in [1 << 24, u32::MAX] {
+        document["accessors"][0]["count"] = count.into();
+        let message = refusal(&document);
+        assert!(message.contains("accessor 0") && message.contains("60 rows without data"), "{message}");
+    }
 }

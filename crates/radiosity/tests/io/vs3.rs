@@ -88,3 +88,12 @@ fn a_vertex_21_decades_away_leaves_no_area() {
     let refused = Vs3::from_text("test.vs3", format!("{far}S 1 1 2 3 4 0 0 .5 spike\n")).scene().unwrap_err();
     assert!(refused.to_string().starts_with("test.vs3:5: polygon 0: "), "{refused}");
 }
+
+#[test]
+fn a_corner_given_twice_is_one() {
+    for corners in ["1 1 2 3", "1 2 2 3", "1 2 3 3", "1 2 3 1"] {
+        let scene = read(&SQUARES.replace("S 2  7 6 5 8", &format!("S 2  {corners}")));
+        let loops: Vec<usize> = scene.patches[1].polygon.loops().map(<[DVec3]>::len).collect();
+        assert_eq!((loops, scene.patches[1].polygon.area()), (vec![3], 0.5), "{corners}");
+    }
+}

@@ -1,0 +1,27 @@
+//! Form factors from many points at once, by all threads.
+use crate::Error;
+use formfactor::DifferentialArea;
+use rayon::prelude::*;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// A factor for each point: each by itself, so threads change nothing.
+///
+/// # Errors
+/// [`Error::Defect`] when one of them panics: what a run has found until then must not be lost for it.
+pub(super) fn from_all(
+    points: &[DifferentialArea],
+    patch: &str,
+    factor: impl Fn(&DifferentialArea) -> f64 + Sync,
+) -> Result<Vec<f64>, Error> {
+    let all = || points.par_iter().with_min_len(8).map(&factor).collect();
+    // Factors are pure functions of what they borrow: a panic leaves nothing half done.
+    catch_unwind(AssertUnwindSafe(all))
+        .map_err(|panic| Error::Defect { patch: patch.into(), reason: reason(panic.as_ref()) })
+}
+
+/// What a panic said.
+fn reason(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".into())
+}
