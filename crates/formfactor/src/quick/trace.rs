@@ -17,7 +17,8 @@ pub(super) struct Buffers {
     extents: Vec<Extent>,
 }
 
-/// A bound on the error that is taken as it is, by the angle that the target's boundary spans: 2^-40.
+/// A bound on the error that is taken as it is, by the angle that the target's boundary spans where that is less than 1:
+/// 2^-40, below 1e-12.
 const FINE: f64 = 8192.0 * ROUNDING;
 
 /// Lambert's sum over the visible boundary of the target behind the cones; `None` where doubles leave it open.
@@ -56,7 +57,7 @@ pub(super) fn sum(
     stats.partial += 1;
     stats.traced += 1;
     let perimeter: f64 = target.edges.iter().map(Edge::least_angle).sum();
-    sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter)
+    sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter.min(1.0))
 }
 
 /// Whose edge is traced.
