@@ -41,11 +41,11 @@ pub(super) fn sum(
     frame.measure(target.edges, extents);
     neighbours.find(cones);
     for (edge, extent) in target.edges.iter().zip(&*extents) {
-        let near = neighbours.shown().filter(|other| cones.extent(*other).meets(extent));
+        let near = (0..cones.len()).filter(|other| cones.extent(*other).meets(extent));
         trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
     }
     let whole = extents.iter().copied().reduce(Extent::join)?;
-    for cone in neighbours.shown() {
+    for cone in 0..cones.len() {
         let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
         for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
             let Some(Held::Part(inside)) = held(edge, target.edges)? else { continue };
@@ -53,7 +53,6 @@ pub(super) fn sum(
             trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
         }
     }
-    stats.hidden += neighbours.hidden();
     stats.partial += 1;
     stats.traced += 1;
     let perimeter: f64 = target.edges.iter().map(Edge::least_angle).sum();
