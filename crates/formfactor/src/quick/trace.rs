@@ -6,6 +6,7 @@ use super::near::Neighbours;
 use super::sieve::Target;
 use super::span::{Span, for_each_gap};
 use crate::FormFactor;
+use crate::exact::unhidden;
 use crate::polygon::ROUNDING;
 use crate::stats::Stats;
 
@@ -21,19 +22,21 @@ pub(super) struct Buffers {
 /// 2^-40, below 1e-12.
 const FINE: f64 = 8192.0 * ROUNDING;
 
-/// Lambert's sum over the visible boundary of the target behind the cones; `None` where doubles leave it open.
+/// Lambert's sum over the visible boundary of the target behind the cones, `open` being left open by what was culled and
+/// cut; `None` where doubles leave more open.
 pub(super) fn sum(
     target: &Target,
     cones: &mut Cones,
-    error: f64,
+    open: f64,
     Buffers { neighbours, spans, extents }: &mut Buffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
     let mut sum = Sum::new(target.from.normal());
+    let error = target.error + open;
     if cones.len() == 0 {
         stats.none += 1;
         target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
-        return sum.fine(error);
+        return sum.fine(error).or_else(|| unhidden(target.from, target.to, open));
     }
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
     cones.measure(&frame);
