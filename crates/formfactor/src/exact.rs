@@ -84,6 +84,12 @@ where
     }
 }
 
+/// The form factor of a convex target of which it is known that nothing hides it but what `doubt` leaves open.
+pub(crate) fn unhidden(from: &DifferentialArea, to: &PlanarPolygon, doubt: f64) -> Option<FormFactor> {
+    let view = View::new(from, to)?;
+    Some(whole(&view, view.doubt + doubt))
+}
+
 /// The form factor of a convex target that nothing hides: by whichever of two ways knows it better when the edges cancel.
 fn whole(view: &View, doubt: f64) -> FormFactor {
     const FINE: f64 = 1e-13;

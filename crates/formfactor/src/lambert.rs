@@ -16,6 +16,9 @@ use crate::twofold::{Twofold, accurate_cross, accurate_dot};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
+/// What compensation leaves of a product's terms.
+const COMPENSATED: f64 = ROUNDING * ROUNDING * 64.0;
+
 /// The direction to a vertex of a contour, and a bound on its angle to the true one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sight {
@@ -45,6 +48,17 @@ impl ContourSum {
             self.sum = self.sum - Twofold::from(arc.angle() * cosine / TAU);
             self.error += arc.angle() / TAU * (24.0 * ROUNDING + arc.cancelled());
         }
+    }
+
+    /// Adds an edge on the horizon, the region above it.
+    ///
+    /// Its plane is the horizon's and its cosine 1, so that it counts its angle, which errs by the blur of its ends. The
+    /// chains of edges before and after it end on their own: the arc by which blur moves such an end is not shared with a
+    /// neighbour, and its term is at most its angle over 2 pi.
+    pub(crate) fn add_horizon(&mut self, a: Sight, b: Sight) {
+        let arc = Arc::between(a, b);
+        self.sum = self.sum + Twofold::from(arc.angle() / TAU);
+        self.error += (24.0 * ROUNDING * arc.angle() + COMPENSATED + 2.0 * (a.blur + b.blur)) / TAU;
     }
 
     /// The whole of a closed loop.
@@ -96,7 +110,6 @@ impl Arc {
 
     /// The relative error of `cross` where its terms cancel beyond the compensation.
     fn cancelled(&self) -> f64 {
-        const COMPENSATED: f64 = ROUNDING * ROUNDING * 64.0;
         COMPENSATED * self.lengths / self.sine
     }
 

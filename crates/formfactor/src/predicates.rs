@@ -130,6 +130,10 @@ pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
     if value.abs() > QUICK * terms + QUICK_UNDERFLOW {
         return value.total_cmp(&0.0);
     }
+    // Of points on a line along an axis, as the corners of grids are, no digits are needed.
+    if (0..3).filter(|&axis| a[axis] == b[axis] && b[axis] == d[axis]).count() > 1 {
+        return Ordering::Equal;
+    }
     let (normal, terms) = Offset::between(origin, a).cross(Offset::between(origin, b));
     let offset = Offset::between(origin, d);
     let terms = terms.dot(offset.sizes());
@@ -266,6 +270,17 @@ mod tests {
             if let Some(plane) = Plane::through(corners) {
                 prop_assert_eq!(plane.side(corners[i]).sign, Ordering::Equal);
             }
+        }
+
+        #[test]
+        fn points_along_an_axis_turn_nowhere(from in point(), at in point(), along in prop::array::uniform3(numbers()), axis in 0usize..3) {
+            let [a, b, d] = along.map(|x| {
+                let mut point = at;
+                point[axis] = x;
+                point
+            });
+            prop_assert_eq!(turn(from, a, b, d), Ordering::Equal);
+            prop_assert_eq!(exact_height(&[from, a, b], from, d), Ordering::Equal);
         }
 
         #[test]

@@ -18,8 +18,6 @@ pub struct Stats {
     pub culled: u64,
     /// Those that were cut where they pass through the target's plane.
     pub clipped: u64,
-    /// Those whose shadow lies in another one's.
-    pub hidden: u64,
     /// Targets that are hidden in part for which plain doubles decided everything: no CSG was evaluated.
     pub traced: u64,
     /// Edges that went into a CSG.
@@ -34,7 +32,6 @@ impl AddAssign for Stats {
         self.looked_at += other.looked_at;
         self.culled += other.culled;
         self.clipped += other.clipped;
-        self.hidden += other.hidden;
         self.traced += other.traced;
         self.csg_edges += other.csg_edges;
     }

@@ -3,6 +3,7 @@ use crate::cull::Pyramid;
 use crate::horizon::{Loops, Vertex, above, sight};
 use crate::lambert::{self, Arc, ContourSum, Sight};
 use crate::polygon::ROUNDING;
+use crate::predicates::place;
 use crate::twofold::{Offset, Twofold};
 use crate::{DifferentialArea, PlanarPolygon, doubt};
 use glam::DVec2;
@@ -46,13 +47,29 @@ impl<'a> View<'a> {
     }
 
     /// Lambert's sum over the target as it stands: right for a convex one.
+    ///
+    /// Edges on the horizon are added as such. Where dA is near the target's plane one passes it almost through, and what
+    /// rounding of its ends might sweep were it any edge is far more than what that can change.
     pub(crate) fn contour(&self) -> ContourSum {
         let mut sum = ContourSum::new(self.from.normal());
         for vertices in &self.loops {
-            let sights: Vec<Sight> = vertices.iter().map(sight).collect();
-            sum.add_loop(&sights);
+            let Some(last) = vertices.last() else { continue };
+            for (a, b) in std::iter::once(last).chain(vertices).zip(vertices) {
+                if self.is_on_horizon(a) && self.is_on_horizon(b) {
+                    sum.add_horizon(sight(a), sight(b));
+                } else {
+                    sum.add(sight(a), sight(b));
+                }
+            }
         }
         sum
+    }
+
+    /// Whether a vertex lies on the horizon, exactly: it was clipped there, or given so. Not where vertices stand for
+    /// others, which need not lie there.
+    fn is_on_horizon(&self, vertex: &Vertex) -> bool {
+        let place = |i: usize| place(self.from.given_normal(), self.from.position(), self.to.points()[i]);
+        self.to.deviation() == 0.0 && vertex.given.is_none_or(|i| place(i) == Ordering::Equal)
     }
 
     /// The direction to a point of the target's plane: exact for the target's own vertices, else as near as doubles are,

@@ -9,7 +9,7 @@ const TINY: f64 = 1.0 / 1_048_576.0;
 /// What it is, dA's position and normal, the target, and its form factor: Lambert's sum with 80 digits.
 type Row = (&'static str, [f64; 3], [f64; 3], &'static [[f64; 3]], f64);
 
-const ROWS: [Row; 9] = [
+const ROWS: [Row; 10] = [
     (
         "a square 1e3 aside",
         [0.0; 3],
@@ -72,6 +72,13 @@ const ROWS: [Row; 9] = [
         [0.0, 0.0, 1.0],
         &[[1.0, -1e-9, 0.5], [2.0, -1e-9, 0.5], [2.0, 1e-9, 0.5], [1.0, 1e-9, 0.5]],
         3.435_395_321_499_685e-11,
+    ),
+    (
+        "a plate 2^-30 before the point, through the horizon",
+        [0.25, 0.5, -TINY / 1024.0],
+        [1.0, 2.0, 1.0],
+        &[[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, -1.0, 0.0]],
+        0.704_124_144_358_819_6,
     ),
 ];
 

@@ -46,12 +46,6 @@ fn convex_occluders_need_no_csg() {
 }
 
 #[test]
-fn what_lies_behind_another_is_hidden() {
-    let stats = stats(vec![square(0.2, 1.0), square(0.2, 1.2), square(0.1, 1.5), square(0.1, 0.9)]);
-    assert_eq!((stats.partial, stats.hidden), (1, 3));
-}
-
-#[test]
 fn a_frame_needs_csg() {
     let corners =
         |half: f64| [[-half, half, 1.0], [half, half, 1.0], [half, -half, 1.0], [-half, -half, 1.0]];

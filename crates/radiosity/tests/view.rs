@@ -1,13 +1,10 @@
 //! The page in a browser: it draws, and each of its controls changes the picture.
-//!
-//! Needs `chromium` (Debian: `apt-get install chromium`) or the program that CHROMIUM names; without one the test says so
-//! and checks nothing.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+mod browser;
+
+use browser::{browser, reported};
 use radiosity::{Options, Record, scenes, solve, viewer};
-use serde_json::Value;
 use std::ops::ControlFlow;
-use std::path::Path;
-use std::process::Command;
 
 /// Uses the controls as a person would, one after the other, and notes a hash of the picture after each.
 const SCRIPT: &str = r#"<script>
@@ -82,44 +79,18 @@ window.onload = () => {
 </script>
 </html>"#;
 
-fn browser() -> Option<String> {
-    let asked = std::env::var("CHROMIUM").ok();
-    let names = asked.into_iter().chain(["chromium", "chromium-browser", "google-chrome"].map(Into::into));
-    names.into_iter().find(|name| Command::new(name).arg("--version").output().is_ok())
-}
-
-fn driven(browser: &str, page: &Path, profile: &Path) -> Value {
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader"])
-        .args(["--enable-unsafe-swiftshader", "--window-size=600,500", "--virtual-time-budget=20000"])
-        .arg(format!("--user-data-dir={}", profile.display()))
-        .arg("--dump-dom")
-        .arg(format!("file://{}", page.display()))
-        .output()
-        .unwrap();
-    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
-    let report = dom.split("<pre>REPORT:").nth(1).and_then(|rest| rest.split("</pre>").next());
-    let report = report.unwrap_or_else(|| {
-        panic!("the page did not come to its end: {}", String::from_utf8_lossy(&output.stderr))
-    });
-    serde_json::from_str(report).unwrap()
-}
-
 #[test]
 fn the_page_draws_and_its_controls_change_the_picture() {
-    let Some(browser) = browser() else {
-        eprintln!("no chromium: the page was not looked at");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let scene = scenes::scene("chessboard").unwrap();
     let options = Options { elements: 600, max_shots: 100, ..Options::default() };
     let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).unwrap();
     let record = Record::new("chessboard", &scene, &solution);
     let folder = tempfile::tempdir().unwrap();
-    let page = folder.path().join("page.html");
     let text = viewer::page(&record, record.exposure()).replace("</html>", SCRIPT);
-    std::fs::write(&page, text).unwrap();
-    let report = driven(&browser, &page, folder.path());
+    std::fs::write(folder.path().join("page.html"), text).unwrap();
+    let flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=600,500"];
+    let report = reported(&browser, folder.path(), &[&flags[..], &["--virtual-time-budget=20000"]].concat());
 
     let hash = |step: &str| report[step]["hash"].as_u64().unwrap_or_else(|| panic!("no step {step}"));
     let lit = |step: &str| report[step]["lit"].as_f64().unwrap_or_else(|| panic!("{step}: {report}"));

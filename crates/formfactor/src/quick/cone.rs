@@ -146,10 +146,6 @@ impl Extent {
             && self.low.y <= other.high.y
             && other.low.y <= self.high.y
     }
-
-    pub(super) fn holds(&self, other: &Self) -> bool {
-        self.low.cmple(other.low).all() && self.high.cmpge(other.high).all()
-    }
 }
 
 impl Frame {

@@ -49,18 +49,18 @@ where
 {
     let Buffers { corners, edges, sides, cones, trace } = buffers;
     let target = Target::new(from, to, corners, edges, sides)?;
-    let mut error = target.error;
+    let mut open = 0.0;
     cones.clear();
     for occluder in occluders(&target) {
         stats.looked_at += 1;
         match sieve::sieve(&target, occluder, corners, cones)? {
             Sieved::Misses(doubt) => {
                 stats.culled += 1;
-                error += doubt;
+                open += doubt;
             }
             Sieved::Blocks { doubt, is_clipped } => {
                 stats.clipped += u64::from(is_clipped);
-                error += doubt;
+                open += doubt;
             }
             Sieved::Covers => {
                 stats.total += 1;
@@ -68,5 +68,5 @@ where
             }
         }
     }
-    trace::sum(&target, cones, error, trace, stats)
+    trace::sum(&target, cones, open, trace, stats)
 }

@@ -6,6 +6,7 @@ use super::near::Neighbours;
 use super::sieve::Target;
 use super::span::{Span, for_each_gap};
 use crate::FormFactor;
+use crate::exact::unhidden;
 use crate::polygon::ROUNDING;
 use crate::stats::Stats;
 
@@ -17,22 +18,25 @@ pub(super) struct Buffers {
     extents: Vec<Extent>,
 }
 
-/// A bound on the error that is taken as it is, by the angle that the target's boundary spans: 2^-40.
+/// A bound on the error that is taken as it is, by the angle that the target's boundary spans where that is less than 1:
+/// 2^-40, below 1e-12.
 const FINE: f64 = 8192.0 * ROUNDING;
 
-/// Lambert's sum over the visible boundary of the target behind the cones; `None` where doubles leave it open.
+/// Lambert's sum over the visible boundary of the target behind the cones, `open` being left open by what was culled and
+/// cut; `None` where doubles leave more open.
 pub(super) fn sum(
     target: &Target,
     cones: &mut Cones,
-    error: f64,
+    open: f64,
     Buffers { neighbours, spans, extents }: &mut Buffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
     let mut sum = Sum::new(target.from.normal());
+    let error = target.error + open;
     if cones.len() == 0 {
         stats.none += 1;
         target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
-        return sum.fine(error);
+        return sum.fine(error).or_else(|| unhidden(target.from, target.to, open));
     }
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
     cones.measure(&frame);
@@ -40,11 +44,11 @@ pub(super) fn sum(
     frame.measure(target.edges, extents);
     neighbours.find(cones);
     for (edge, extent) in target.edges.iter().zip(&*extents) {
-        let near = neighbours.shown().filter(|other| cones.extent(*other).meets(extent));
+        let near = (0..cones.len()).filter(|other| cones.extent(*other).meets(extent));
         trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
     }
     let whole = extents.iter().copied().reduce(Extent::join)?;
-    for cone in neighbours.shown() {
+    for cone in 0..cones.len() {
         let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
         for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
             let Some(Held::Part(inside)) = held(edge, target.edges)? else { continue };
@@ -52,11 +56,10 @@ pub(super) fn sum(
             trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
         }
     }
-    stats.hidden += neighbours.hidden();
     stats.partial += 1;
     stats.traced += 1;
     let perimeter: f64 = target.edges.iter().map(Edge::least_angle).sum();
-    sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter)
+    sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter.min(1.0))
 }
 
 /// Whose edge is traced.

@@ -78,5 +78,9 @@ fn peers(path: &Path) -> Result<Peers, Failure> {
     let name = path.display();
     let text = std::fs::read_to_string(path)
         .map_err(|error| Failure::internal(format!("{name}: cannot be read: {error}; check its name")))?;
-    Peers::read(&text).map_err(|error| Failure::scene(format!("{name}: not lines about peers: {error}")))
+    Peers::read(&text).map_err(|error| {
+        Failure::scene(format!(
+            "{name}: not lines about peers: {error}; give the peers.jsonl that tests/peers writes"
+        ))
+    })
 }

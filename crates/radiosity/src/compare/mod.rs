@@ -172,16 +172,29 @@ fn reflected(record: &Record) -> Vec<f64> {
     elements.flat_map(|(e, light)| light.iter().enumerate().map(|(k, b)| b - own(e[0], k))).collect()
 }
 
+/// The light on each piece in halves, whose difference cannot overflow, and in shares of the largest, whose squares cannot.
 fn norms(pieces: &[Piece], light: &[Vec<f64>; 2], [bands, band]: [usize; 2]) -> Difference {
-    let (mut off, mut size) = ([0.0f64; 3], [0.0f64; 3]);
-    for piece in pieces {
-        let [a, b] = [0, 1].map(|side| light[side][piece.elements[side] * bands + band]);
-        for (sums, value) in [(&mut off, (a - b).abs()), (&mut size, b.abs())] {
-            *sums = [sums[0] + piece.area * value, sums[1] + piece.area * value * value, sums[2].max(value)];
-        }
+    let halves = |piece: &Piece| [0, 1].map(|side| light[side][piece.elements[side] * bands + band] / 2.0);
+    let (mut off, mut size) = (Vec::new(), Vec::new());
+    for [a, b] in pieces.iter().map(halves) {
+        off.push((a - b).abs());
+        size.push(b.abs());
     }
-    let share = |k: usize| if off[k] == 0.0 { 0.0 } else { off[k] / size[k] };
-    Difference { l1: share(0), l2: share(1).sqrt(), max: share(2) }
+    let [off, size] = [off, size].map(|values| {
+        let largest = values.iter().copied().fold(0.0, f64::max);
+        let shares = pieces.iter().zip(values).filter(|(_, value)| *value > 0.0);
+        let add = |[one, two]: [f64; 2], (piece, value): (&Piece, f64)| {
+            let share = value / largest;
+            [one + piece.area * share, two + piece.area * share * share]
+        };
+        (largest, shares.fold([0.0; 2], add))
+    });
+    if off.0 == 0.0 {
+        return Difference { l1: 0.0, l2: 0.0, max: 0.0 };
+    }
+    let max = off.0 / size.0;
+    let by = |k: usize| if size.0 > 0.0 { off.1[k] / size.1[k] } else { 1.0 };
+    Difference { l1: max * by(0), l2: max * by(1).sqrt(), max }
 }
 
 fn worst(a: &Record, b: &Record, pieces: &[Piece], light: &[Vec<f64>; 2]) -> Option<Worst> {

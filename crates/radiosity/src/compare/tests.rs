@@ -35,6 +35,27 @@ fn light_that_is_a_tenth_brighter_is_a_tenth_off_in_every_norm() {
 }
 
 #[test]
+fn light_of_any_scale_is_compared_in_shares() {
+    let one = record("colour-bleeding", 100);
+    let at_scale = |record: &Record, scale: f64| {
+        let mut other = record.clone();
+        other.radiosity.iter_mut().for_each(|b| *b *= scale);
+        other.patches.iter_mut().flat_map(|patch| &mut patch.emission).for_each(|light| *light *= scale);
+        other
+    };
+    for scale in [1e-300, 1e-160, 1e160, 1e305] {
+        let bands = compare(&at_scale(&scaled(&one, 1.1), scale), &at_scale(&one, scale)).unwrap().bands;
+        for norm in bands.iter().flat_map(|band| [band.l1, band.l2, band.max]) {
+            assert!((norm - 0.1).abs() < 1e-9, "{scale}: {norm}");
+        }
+    }
+    let off = compare(&at_scale(&one, -1e305), &at_scale(&one, 1e305)).unwrap();
+    assert!((off.largest() - 2.0).abs() < 1e-9, "{off:?}");
+    let dark = compare(&one, &at_scale(&one, 0.0)).unwrap();
+    assert_eq!(dark.largest(), f64::INFINITY);
+}
+
+#[test]
 fn the_worst_element_is_the_one_that_was_changed() {
     let one = record("colour-bleeding", 100);
     let mut other = one.clone();

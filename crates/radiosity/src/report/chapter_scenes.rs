@@ -12,7 +12,7 @@ use std::fmt::Write;
 pub(super) fn html(report: &Report) -> String {
     let mut page = String::from(
         "<h2 id=\"scenes\">Scenes</h2>\n<p>Asked is the form factor from points of a scene, the centroids of its elements, \
-         to all of its lamps together: the direct light. The time is that for one point. Every method sees the same \
+         to all of its lamps together: the direct light; half of the points, where there are any, see the lamps in part. The time is that for one point. Every method sees the same \
          polygons. The error is absolute; that of the exact method is its own certified bound, so the true one is smaller. \
          A dotted line marks a floor: more work does not lower the error. Errors of less than 1e-17 are drawn at 1e-17.</p>\n",
     );
@@ -28,6 +28,9 @@ fn section(report: &Report, name: &str, rows: &[&Measured]) -> String {
     let mut text = format!("<h3 id=\"{0}\">{0}</h3>\n", escape(name));
     if let Some(verdict) = verdict(&lines) {
         let _ = writeln!(text, "<p>{}</p>", escape(&sentence(&verdict)));
+    }
+    if rows.iter().all(|row| row.in_part == Some(0)) {
+        text += "<p>None of the points sees the lamps in part: there are no edges of shadows to miss.</p>\n";
     }
     text += "<div class=\"pictures\">\n";
     for picture in report.portraits.iter().filter(|picture| picture.scene == name) {

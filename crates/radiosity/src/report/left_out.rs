@@ -62,7 +62,7 @@ impl<'s> Pairs<'s> {
         let [done, listed, traced, by_csg] = self.times(rounds);
         let candidates = count * others;
         let unseen = candidates - total.looked_at as f64;
-        // Without the tree every polygon is looked at; beyond that the work is the same.
+        // Without the tree of boxes and the bodies every polygon is looked at; beyond that the work is the same.
         let look = (listed - done).max(0.0) / unseen.max(1.0);
         let hard = self.hidden_in_part().count().max(1) as f64;
         let csg = (by_csg - traced).max(0.0) / hard;
@@ -80,16 +80,10 @@ impl<'s> Pairs<'s> {
             saved: left * unit / done,
         };
         vec![
-            row("occluders never looked at, by the tree", unseen, candidates, look),
+            row("occluders never looked at: outside of boxes, far sides of bodies", unseen, candidates, look),
             row(
                 "occluders culled before any CSG",
                 total.culled as f64,
-                total.looked_at as f64,
-                corners * edge,
-            ),
-            row(
-                "occluders in the shadow of another",
-                total.hidden as f64,
                 total.looked_at as f64,
                 corners * edge,
             ),

@@ -26,13 +26,19 @@ impl Peers {
     /// Reads the lines.
     ///
     /// # Errors
-    /// The number of the first line that is none, and why.
+    /// The number of the first line that is none, and why; or that there is no line.
     pub fn read(text: &str) -> Result<Peers, String> {
         let line = |(number, line): (usize, &str)| {
-            serde_json::from_str(line).map_err(|error| format!("line {}: {error}", number + 1))
+            serde_json::from_str(line).map_err(|error| {
+                // The reader counts from the line that it was given.
+                let (why, column) = (error.to_string(), error.column());
+                let why = why.split(" at line ").next().unwrap_or_default();
+                format!("line {}, column {column}: {why}", number + 1)
+            })
         };
         let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        Ok(Peers { lines: lines.map(line).collect::<Result<_, String>>()? })
+        let lines = lines.map(line).collect::<Result<Vec<Line>, String>>()?;
+        if lines.is_empty() { Err("there is none".to_owned()) } else { Ok(Peers { lines }) }
     }
 
     /// Their chapter.
@@ -82,6 +88,9 @@ mod tests {
     #[test]
     fn a_line_that_is_none_is_named() {
         let error = Peers::read("{\"workload\":1}").unwrap_err();
-        assert!(error.starts_with("line 1: "), "{error}");
+        assert!(error.starts_with("line 1, column 13: invalid type"), "{error}");
+        let error = Peers::read("\n{}").unwrap_err();
+        assert_eq!(error, "line 2, column 2: missing field `workload`");
+        assert_eq!(Peers::read("\n").unwrap_err(), "there is none");
     }
 }

@@ -154,6 +154,8 @@ fn gomes(
     printed: &'static str,
 ) -> Result<[Published; 2], Error> {
     let cells = if plan.quick { 64 } else { 512 };
+    // What comes in that many patches is not cut.
+    let elements = if scene.patches.len() < elements { elements } else { 1 };
     let exact = Options { method: Solver::Shoot, elements, ..Options::default() };
     let all = [exact, Options { hemicube: Some(cells), ..exact }];
     let job = |options: Options| -> Job<'_, Result<_, Error>> {

@@ -2,7 +2,7 @@
 use super::clock::{self, Job};
 use super::jobs::Step;
 use super::row::{Chapter, Error, Measured};
-use formfactor::{DifferentialArea, Enclosure};
+use formfactor::{DifferentialArea, Enclosure, unoccluded};
 
 /// A point that looks at some polygons of an enclosure.
 #[derive(Clone, Debug)]
@@ -45,6 +45,7 @@ impl Question {
         let job = |step| -> Job<'_, Vec<f64>> { Box::new(move || self.answers(step)) };
         let jobs: Vec<Job<'_, Vec<f64>>> = steps.iter().map(job).collect();
         let found = clock::interleaved(&jobs, rounds);
+        let in_part = self.asks.iter().filter(|ask| self.sees_a_part(ask)).count();
         let row = |(step, (answers, time)): (&Step, (Vec<f64>, super::row::Time))| {
             let bound = (step.series == super::jobs::EXACT).then(|| self.bound());
             let certified = bound.filter(|_| !self.independent);
@@ -56,6 +57,7 @@ impl Question {
                 amount: step.amount,
                 error: certified.unwrap_or_else(|| self.deviations(&answers)),
                 bound: bound.map(|bound| bound.max),
+                in_part: Some(in_part),
                 valid: None,
                 time: time.over(self.asks.len()),
             }
@@ -72,6 +74,19 @@ impl Question {
     /// The bounds of the exact method, as an error.
     fn bound(&self) -> Error {
         Error::of(&self.asks.iter().map(|ask| ask.bound / self.unit(ask)).collect::<Vec<_>>())
+    }
+
+    /// The form factor to all targets if nothing hid them, and a bound on its error.
+    pub(super) fn free(&self, ask: &Ask) -> [f64; 2] {
+        let polygons = self.enclosures[ask.enclosure].polygons();
+        let factors = ask.targets.iter().map(|target| unoccluded(&ask.from, &polygons[*target]));
+        factors.fold([0.0; 2], |[value, bound], f| [value + f.value, bound + f.error_bound])
+    }
+
+    /// Whether something hides the targets from a point, but not all of them.
+    pub(super) fn sees_a_part(&self, ask: &Ask) -> bool {
+        let [free, bound] = self.free(ask);
+        ask.exact > ask.bound && ask.exact + ask.bound < free - bound
     }
 
     fn unit(&self, ask: &Ask) -> f64 {

@@ -3,8 +3,9 @@ use super::question::{Ask, Question, exact};
 use super::row::Chapter;
 use crate::mesh::{Plan as Cut, Subdivision};
 use crate::{Error, Mesh, Scene};
-use formfactor::{DifferentialArea, Enclosure, unoccluded};
+use formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// From so many polygons on fewer points are asked.
 const MANY: usize = 50;
@@ -37,31 +38,40 @@ impl<'s> Stage<'s> {
         Ok(Stage { name, scene, mesh, enclosure, lamps, points, light })
     }
 
-    /// About so many of the points, evenly picked from those that some lamp would light if nothing hid it; fewer where
-    /// there are many polygons, as methods that sample look at all of them for every ray.
+    /// About so many of the points, from those that some lamp would light if nothing hid it: half of them evenly picked
+    /// from those that see the lamps in part, if there are any, where errors are; the others from all. Fewer where there
+    /// are many polygons, as methods that sample look at all of them for every ray.
     pub(super) fn question(&self, count: usize) -> Question {
-        let shone_on = |&point: &usize| {
-            let free =
-                |&lamp: &usize| unoccluded(&self.points[point], &self.enclosure.polygons()[lamp]).value;
-            self.lamps.iter().any(|lamp| free(lamp) > 0.0)
-        };
-        let lit: Vec<usize> = (0..self.points.len()).filter(shone_on).collect();
-        let count = (count * MANY / self.scene.patches.len().max(MANY)).max(FEWEST);
-        let stride = lit.len().div_ceil(count).max(1);
-        let ask = |&point: &usize| {
-            let [exact, bound] = self.light[point];
-            let (from, targets) = (self.points[point], self.lamps.clone());
-            Ask { enclosure: 0, from, targets, exact, bound }
-        };
-        Question {
+        let all = Question {
             chapter: Chapter::Scenes,
             subject: self.name.to_owned(),
             enclosures: vec![self.enclosure.clone()],
-            asks: lit.iter().step_by(stride).map(ask).collect(),
+            asks: (0..self.points.len()).map(|point| self.ask(point)).collect(),
             relative: false,
             independent: false,
-        }
+        };
+        let lit = |ask: &Ask| all.free(ask)[0] > 0.0;
+        let lit: Vec<usize> = (0..all.asks.len()).filter(|&point| lit(&all.asks[point])).collect();
+        let part: Vec<usize> =
+            lit.iter().copied().filter(|&point| all.sees_a_part(&all.asks[point])).collect();
+        let count = (count * MANY / self.scene.patches.len().max(MANY)).max(FEWEST);
+        let of_part = evenly(&part, count / 2);
+        let rest = evenly(&lit, count - of_part.len());
+        let picked: BTreeSet<usize> = of_part.into_iter().chain(rest).collect();
+        Question { asks: picked.into_iter().map(|point| self.ask(point)).collect(), ..all }
     }
+
+    /// What is asked from a point.
+    fn ask(&self, point: usize) -> Ask {
+        let [exact, bound] = self.light[point];
+        Ask { enclosure: 0, from: self.points[point], targets: self.lamps.clone(), exact, bound }
+    }
+}
+
+/// So many of some, evenly picked, or all there are.
+fn evenly(from: &[usize], count: usize) -> Vec<usize> {
+    let count = count.min(from.len());
+    (0..count).map(|i| from[i * from.len() / count]).collect()
 }
 
 /// The centroids, each on its patch.

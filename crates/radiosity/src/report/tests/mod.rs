@@ -1,8 +1,11 @@
+#[path = "../../../tests/browser/mod.rs"]
 mod browser;
+mod labels;
 
 use super::*;
 use crate::scenes;
 use analysis::{lines, subjects};
+use formfactor::{DVec3, DifferentialArea};
 use published::Published;
 use row::Time;
 use table::Table;
@@ -99,6 +102,21 @@ fn the_readme_has_the_tables_that_its_command_writes() {
 }
 
 #[test]
+fn half_of_the_points_see_the_lamps_in_part_or_all_that_do() {
+    for (name, scene) in &plan(&["chessboard", "small-occluders", "furnace"]).scenes {
+        let stage = Stage::new(name, scene, 400).unwrap();
+        let in_part = |count: usize| {
+            let question = stage.question(count);
+            let seeing = question.asks.iter().filter(|ask| question.sees_a_part(ask)).count();
+            (seeing, question.asks.len())
+        };
+        let ((seeing, asked), (all, _)) = (in_part(60), in_part(100_000));
+        assert!(seeing >= all.min(asked / 2), "{name}: {seeing} of {asked}, {all} in all");
+        assert_eq!(all == 0, name == "furnace", "an empty room hides nothing");
+    }
+}
+
+#[test]
 fn on_scenes_with_occlusion_the_exact_bound_is_below_1e_12_and_no_sampling_is_as_exact() {
     let report = glance(&["obstruction", "beams", "perforated"]);
     for (name, rows) in subjects(report.measured(Chapter::Scenes)) {
@@ -106,6 +124,32 @@ fn on_scenes_with_occlusion_the_exact_bound_is_below_1e_12_and_no_sampling_is_as
             let best = line.best()[0];
             assert_eq!(line.name == jobs::EXACT, best < 1e-12, "{name}, {}: {best}", line.name);
         }
+    }
+}
+
+/// Spread over the unit cube: the fractions of multiples of powers of the root of x^6 = x + 1 (after Roberts 2018).
+fn spread(index: u32) -> [f64; 5] {
+    const ROOT: f64 = 1.134_724_138_401_519_5;
+    [1, 2, 3, 4, 5].map(|power| (f64::from(index) * ROOT.powi(-power)).fract())
+}
+
+#[test]
+fn anywhere_in_a_scene_the_exact_bound_is_below_1e_12() {
+    for name in scenes::names() {
+        let scene = scenes::scene(name).unwrap();
+        let stage = Stage::new(name, &scene, 120).unwrap();
+        let [low, high] = scene.extent();
+        for index in 1..60 {
+            let [x, y, z, turn, rise] = spread(index);
+            let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+            let up = 2.0 * rise - 1.0;
+            let normal = DVec3::new(cos, sin, 0.0) * (1.0 - up * up).sqrt() + DVec3::Z * up;
+            let place = low + (high - low) * DVec3::new(x, y, z);
+            let from = DifferentialArea::new(place, normal).unwrap();
+            let [value, bound] = question::exact(&stage.enclosure, &from, &stage.lamps);
+            assert!(bound < 1e-12, "{name}, {place} {normal}: {value} to {bound}");
+        }
+        assert!(stage.light.iter().all(|[_, bound]| *bound < 1e-12), "{name}");
     }
 }
 

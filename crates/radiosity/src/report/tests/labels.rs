@@ -1,12 +1,9 @@
 //! The page in a browser: no label lies on another one or outside of its plot, in the light and in the dark.
-//!
-//! Needs `chromium` (Debian: `apt-get install chromium`) or the program that CHROMIUM names; without one the test says so
-//! and checks nothing.
+use super::browser::{browser, reported};
 use super::glance;
 use crate::report::{Report, Row, booleans, jobs, stress};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 /// Measures the boxes of all labels.
 const SCRIPT: &str = r#"<script>
@@ -31,29 +28,10 @@ window.onload = () => {
 };
 </script></body>"#;
 
-fn browser() -> Option<String> {
-    let asked = std::env::var("CHROMIUM").ok();
-    let names = asked.into_iter().chain(["chromium", "chromium-browser", "google-chrome"].map(Into::into));
-    names.into_iter().find(|name| Command::new(name).arg("--version").output().is_ok())
-}
-
 /// What the script finds on a page of so many pixels across.
 fn looked_at(browser: &str, folder: &Path, width: u32, dark: bool) -> Value {
-    let scheme = if dark { 0 } else { 1 };
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--dump-dom"])
-        .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
-        .arg(format!("--window-size={width},900"))
-        .arg(format!("--user-data-dir={}", folder.display()))
-        .arg(format!("file://{}", folder.join("page.html").display()))
-        .output()
-        .unwrap();
-    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
-    let report = dom.split("<pre>REPORT:").nth(1).and_then(|rest| rest.split("</pre>").next());
-    let report = report.unwrap_or_else(|| {
-        panic!("the page did not come to its end: {}", String::from_utf8_lossy(&output.stderr))
-    });
-    serde_json::from_str(report).unwrap()
+    let scheme = format!("--blink-settings=preferredColorScheme={}", if dark { 0 } else { 1 });
+    reported(browser, folder, &[&scheme, &format!("--window-size={width},900")])
 }
 
 /// A page with plots of three chapters.
@@ -70,10 +48,7 @@ fn page() -> String {
 
 #[test]
 fn no_label_lies_on_another_one_in_the_light_and_in_the_dark() {
-    let Some(browser) = browser() else {
-        eprintln!("no chromium: the page was not looked at");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("page.html"), page()).unwrap();
     let [light, dark, narrow] = [(1500, false), (1500, true), (500, false)]
