@@ -212,18 +212,29 @@ impl Strips {
         true
     }
 
-    /// Calls `visit` for each pair of every `step`-th box and one behind it in its strip.
-    pub(crate) fn sample(&self, step: usize, mut visit: impl FnMut(u32, u32)) {
-        for strip in 0..self.len() {
-            let entries = self.entries(strip);
-            for i in entries.clone().step_by(step) {
-                self.above(i, entries.end, |j| {
-                    if self.is_first(strip, i, j) {
-                        visit(self.ids[i], self.ids[j]);
-                    }
-                });
+    /// Calls `visit` for each pair of every `step`-th box and one behind it in its strip, until it returns false or more
+    /// than so many blocks of boxes were looked at. Returns of how many boxes one was looked at, and the blocks.
+    pub(crate) fn sample(
+        &self,
+        step: usize,
+        most_blocks: usize,
+        mut visit: impl FnMut(u32, u32) -> bool,
+    ) -> (usize, usize) {
+        let (mut boxes, mut blocks, mut go_on) = (0, 0, true);
+        let all =
+            (0..self.len()).flat_map(|strip| self.entries(strip).step_by(step).map(move |i| (strip, i)));
+        for (strip, i) in all {
+            if !go_on || blocks > most_blocks {
+                break;
             }
+            boxes += 1;
+            blocks += self.above(i, self.entries(strip).end, |j| {
+                if go_on && self.is_first(strip, i, j) {
+                    go_on = visit(self.ids[i], self.ids[j]);
+                }
+            });
         }
+        (self.ids.len().div_ceil(boxes.max(1)), blocks)
     }
 
     /// Whether of all strips in which two boxes meet one is the first.

@@ -20,6 +20,9 @@ const FEW: usize = 256;
 /// Of so many boxes one is compared with all others.
 const STEP: usize = 16;
 
+/// So many pairs and blocks of the sample for each edge are enough.
+const PAIRS: usize = 8;
+
 /// One more box costs as much as so many pairs of chains do.
 const PAIRS_PER_BOX: usize = 4;
 
@@ -40,23 +43,31 @@ pub(crate) struct Survey {
     chain_pairs: usize,
     pairs: usize,
     crossings: usize,
+    /// The blocks of boxes to be looked at.
+    blocks: usize,
 }
 
 impl Survey {
+    /// O(n): the sample ends as soon as it tells that boxes are not quick.
     pub(crate) fn of(Boxes { edges, chains, strips }: Boxes<'_>) -> Survey {
         let mut survey = Survey { chains: chains.len(), edges: edges.len(), ..Survey::default() };
         if chains.len() < FEW {
             return survey;
         }
         let margins = Margins::for_size(chains.size());
-        strips.sample(STEP, |a, b| {
-            survey.chain_pairs += STEP;
+        let most = PAIRS * edges.len();
+        let (times, blocks) = strips.sample(STEP, most, |a, b| {
+            survey.chain_pairs += 1;
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
-                survey.pairs += STEP;
-                let pair = [e.min(f), e.max(f)];
-                survey.crossings += if cross_clearly(edges, pair, margins) { STEP } else { 0 };
+                survey.pairs += 1;
+                survey.crossings += usize::from(cross_clearly(edges, [e.min(f), e.max(f)], margins));
             });
+            survey.chain_pairs + survey.pairs < most
         });
+        survey.blocks = blocks;
+        for count in [&mut survey.chain_pairs, &mut survey.pairs, &mut survey.crossings, &mut survey.blocks] {
+            *count *= times;
+        }
         survey
     }
 
@@ -67,6 +78,7 @@ impl Survey {
 
     /// Whether boxes are quicker than slabs.
     pub(crate) fn asks_for_boxes(&self, patience: Patience) -> bool {
-        patience.lasts(self.edges, self.pairs, self.crossings, 0)
+        self.blocks <= patience.blocks(self.edges)
+            && patience.lasts(self.edges, self.pairs, self.crossings, 0)
     }
 }

@@ -47,8 +47,8 @@ impl Default for Patience {
 
 impl Patience {
     /// How many blocks of boxes may be looked at.
-    fn blocks(self, edges: &Edges) -> usize {
-        self.pairs + self.blocks_per_edge * edges.len()
+    pub(crate) fn blocks(self, edges: usize) -> usize {
+        self.pairs + self.blocks_per_edge * edges
     }
 
     /// Twice as much, for those who were told that it would last.
@@ -115,7 +115,7 @@ impl Contacts {
             return self.find_on_threads(boxes, suspects, patience);
         }
         let mut met = 0;
-        strips.pairs_within(0..strips.len(), patience.blocks(edges), |a, b| {
+        strips.pairs_within(0..strips.len(), patience.blocks(edges.len()), |a, b| {
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                 met += 1;
                 self.meet(edges, e.min(f), e.max(f), suspects);
@@ -130,7 +130,7 @@ impl Contacts {
         let margins = suspects.margins();
         let compared = |strips_at: Range<usize>| {
             let mut met = Met::default();
-            met.in_time = strips.pairs_within(strips_at, patience.blocks(edges), |a, b| {
+            met.in_time = strips.pairs_within(strips_at, patience.blocks(edges.len()), |a, b| {
                 chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                     met.add(edges, [e.min(f), e.max(f)], margins);
                 });

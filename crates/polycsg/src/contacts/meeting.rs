@@ -29,9 +29,9 @@ impl Contacts {
     pub(super) fn cross(&mut self, edges: &Edges, Crossing { edges: [e, f], at, from_left }: Crossing) {
         let node = self.classes.push();
         self.nodes.push([e, f]);
-        self.found.push(Contact { at: at[0], edge: e, node, partner: Partner::crossing(f, from_left) });
+        self.found.push(Contact::new(at[0], e, node, Partner::crossing(f, from_left)));
         // Seen along f, e comes from the other side.
-        self.found.push(Contact { at: at[1], edge: f, node, partner: Partner::crossing(e, !from_left) });
+        self.found.push(Contact::new(at[1], f, node, Partner::crossing(e, !from_left)));
         self.rings.join(edges.ring_of(e), edges.ring_of(f));
     }
 
@@ -116,7 +116,7 @@ impl Contacts {
         } else if is_inside(segment, point) {
             let node = self.make_node(edges, vertex);
             let at = Parameter::of_point(segment, point);
-            self.found.push(Contact { at, edge, node, partner: Partner::vertex(vertex) });
+            self.found.push(Contact::new(at, edge, node, Partner::vertex(vertex)));
             self.rings.join(edges.ring_of(edge), edges.ring_of(vertex));
         }
     }
@@ -137,7 +137,7 @@ impl Contacts {
             let node = self.classes.push();
             self.node_of_vertex[vertex as usize] = node;
             self.nodes.push([vertex, NONE]);
-            self.found.push(Contact { at: Parameter::START, edge: vertex, node, partner: Partner::START });
+            self.found.push(Contact::new(Parameter::START, vertex, node, Partner::START));
         }
         self.node_of_vertex[vertex as usize]
     }

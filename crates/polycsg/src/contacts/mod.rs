@@ -35,9 +35,11 @@ const FEW: usize = 24;
 /// All contacts, sorted by edge and along it, and the nodes.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
+    /// In the end sorted by edge and along it.
     found: Vec<Contact>,
-    sorted: Vec<Contact>,
+    /// Where each bucket starts, and its first place that is free.
     starts: Vec<u32>,
+    free: Vec<u32>,
     /// Per node the two edges that cross there, or a vertex and `NONE`.
     nodes: Vec<[u32; 2]>,
     classes: UnionFind,
@@ -94,7 +96,7 @@ impl Contacts {
 
     /// The contacts by edge and in order along it, each node once on each edge.
     pub(crate) fn sorted(&self) -> &[Contact] {
-        &self.sorted
+        &self.found
     }
 
     pub(crate) fn node_count(&self) -> usize {
@@ -134,37 +136,37 @@ impl Contacts {
         self.rings.find(ring)
     }
 
-    /// Moves the contacts near their edges' places (a counting sort by some leading bits of the edge).
+    /// Moves the contacts to their edges' places, or near them: a counting sort by some leading bits of the edge, in place.
     ///
     /// A few are one bucket.
     fn bucket(&mut self, edge_count: usize) {
+        self.starts.clear();
         if self.found.len() <= FEW {
-            self.starts.clear();
-            self.starts.extend([0, index(self.found.len())]);
-            return self.sorted.clone_from(&self.found);
+            return self.starts.extend([0, index(self.found.len())]);
         }
         let shift = (edge_count / (self.found.len() + 1)).max(1).ilog2();
-        self.starts.clear();
-        self.starts.resize((edge_count >> shift) + 3, 0);
+        let bucket_of = |contact: &Contact| (contact.edge >> shift) as usize;
+        self.starts.resize((edge_count >> shift) + 2, 0);
         for contact in &self.found {
-            self.starts[(contact.edge >> shift) as usize + 2] += 1;
+            self.starts[bucket_of(contact) + 1] += 1;
         }
-        for bucket in 2..self.starts.len() {
+        for bucket in 1..self.starts.len() {
             self.starts[bucket] += self.starts[bucket - 1];
         }
-        self.sorted.clear();
-        self.sorted.resize(self.found.len(), Contact::NOWHERE);
-        for &contact in &self.found {
-            let at = &mut self.starts[(contact.edge >> shift) as usize + 1];
-            self.sorted[*at as usize] = contact;
-            *at += 1;
+        self.free.clone_from(&self.starts);
+        for bucket in 0..self.starts.len() - 1 {
+            while self.free[bucket] < self.starts[bucket + 1] {
+                let at = self.free[bucket] as usize;
+                let other = bucket_of(&self.found[at]);
+                self.found.swap(at, self.free[other] as usize);
+                self.free[other] += 1;
+            }
         }
-        self.starts.pop();
     }
 
     /// Sorts the contacts of each bucket by edge and along it.
     fn sort(&mut self, edges: &Edges) {
-        let mut rest = &mut self.sorted[..];
+        let mut rest = &mut self.found[..];
         let buckets = self.starts.windows(2).map(move |ends| {
             let (bucket, others) = std::mem::take(&mut rest).split_at_mut((ends[1] - ends[0]) as usize);
             rest = others;
@@ -177,19 +179,19 @@ impl Contacts {
     /// Unifies what lies in one place of an edge.
     fn unify(&mut self, edges: &Edges, suspects: &mut Suspects) {
         let mut kept = 0;
-        for i in 0..self.sorted.len() {
-            let contact = self.sorted[i];
-            let same = kept > 0 && order(edges, &self.sorted[kept - 1], &contact) == Ordering::Equal;
+        for i in 0..self.found.len() {
+            let contact = self.found[i];
+            let same = kept > 0 && order(edges, &self.found[kept - 1], &contact) == Ordering::Equal;
             if same {
                 self.degenerate = true;
-                self.classes.join(self.sorted[kept - 1].node, contact.node);
+                self.classes.join(self.found[kept - 1].node, contact.node);
             } else {
-                self.sorted[kept] = contact;
+                self.found[kept] = contact;
                 kept += 1;
             }
         }
-        self.sorted.truncate(kept);
-        for on_edge in self.sorted.chunk_by(|a, b| a.edge == b.edge) {
+        self.found.truncate(kept);
+        for on_edge in self.found.chunk_by(|a, b| a.edge == b.edge) {
             suspects.look_along(edges, on_edge);
         }
     }

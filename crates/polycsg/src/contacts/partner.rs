@@ -50,19 +50,25 @@ impl Partner {
 /// A node on an edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
-    pub(super) at: Parameter,
+    // A parameter taken apart, as the whole has padding.
+    value: f64,
+    error: f32,
     pub(crate) edge: u32,
     pub(crate) node: u32,
     pub(crate) partner: Partner,
 }
 
 impl Contact {
-    pub(super) const NOWHERE: Contact =
-        Contact { at: Parameter::START, edge: u32::MAX, node: u32::MAX, partner: Partner::START };
+    #[inline]
+    pub(super) fn new(at: Parameter, edge: u32, node: u32, partner: Partner) -> Contact {
+        let Parameter { value, error } = at;
+        Contact { value, error, edge, node, partner }
+    }
 
+    /// Where along the edge it is.
     #[inline]
     pub(crate) fn at(&self) -> Parameter {
-        self.at
+        Parameter { value: self.value, error: self.error }
     }
 }
 
@@ -72,7 +78,7 @@ pub(super) fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
     if a.edge != b.edge {
         return a.edge.cmp(&b.edge);
     }
-    a.at.certain_order(b.at).unwrap_or_else(|| order_exactly(edges, a, b))
+    a.at().certain_order(b.at()).unwrap_or_else(|| order_exactly(edges, a, b))
 }
 
 #[cold]

@@ -8,8 +8,8 @@ use std::cmp::Ordering;
 /// Where along an edge a point lies, from 0 to 1, and a bound on the error of that.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Parameter {
-    value: f64,
-    error: f32,
+    pub(crate) value: f64,
+    pub(crate) error: f32,
 }
 
 impl Parameter {
