@@ -22,6 +22,9 @@ const BOXES_PER_STRIP: usize = 192;
 /// So many boxes are quicker compared than sorted.
 const FEW: usize = 16;
 
+/// Entries are passed over so many at a time where none reaches high enough.
+const ROW: usize = 16;
+
 /// So many boxes are compared at a time, without branches, so that the compiler can use vectors.
 const LANES: usize = 8;
 
@@ -70,6 +73,8 @@ pub(crate) struct Strips {
     y1: Vec<i32>,
     /// The largest `y1` of the strip's entries up to this one.
     highest: Vec<i32>,
+    /// The largest `y1` of so many entries in a row.
+    tops: Vec<i32>,
     boxes: Vec<Extent>,
     keys: Vec<u64>,
 }
@@ -169,6 +174,8 @@ impl Strips {
                 self.highest.push(highest);
             }
         }
+        self.tops.clear();
+        self.tops.extend(self.y1.chunks(ROW).map(|row| row.iter().copied().fold(0, i32::max)));
     }
 
     fn entries(&self, strip: usize) -> Range<usize> {
@@ -291,14 +298,17 @@ impl Strips {
         let (xm, ym) = (self.x.map(x), self.y.map(y));
         let entries = self.entries(Strips::strip(xm, count));
         let end = entries.start + self.y0[entries.clone()].partition_point(|&y0| y0 <= ym);
-        let mut best = None;
-        for i in (entries.start..end).rev() {
-            if best.is_some_and(|height| self.highest[i] < self.y.map(height)) || *left == 0 {
-                return;
-            }
+        let mut lowest = 0;
+        let mut i = end;
+        while i > entries.start && self.highest[i - 1] >= lowest && *left > 0 {
             *left -= 1;
-            if self.x0[i] <= xm && xm <= self.x1[i] {
-                best = visit(self.ids[i]);
+            if i % ROW == 0 && i >= entries.start + ROW && self.tops[i / ROW - 1] < lowest {
+                i -= ROW;
+                continue;
+            }
+            i -= 1;
+            if self.x0[i] <= xm && xm <= self.x1[i] && self.y1[i] >= lowest {
+                lowest = visit(self.ids[i]).map_or(0, |height| self.y.map(height));
             }
         }
     }
