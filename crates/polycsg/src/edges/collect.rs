@@ -1,7 +1,7 @@
 //! Reads the operands' rings, near ones one after the other.
 
 use super::{END, Edges, Origin, Ring};
-use crate::csg::{Csg, Token};
+use crate::csg::Csg;
 use crate::rings::Rings;
 use crate::truth::{Truth, index};
 use crate::window::Window;
@@ -11,21 +11,23 @@ use glam::DVec2;
 const FEW_RINGS: usize = 64;
 
 /// A ring by its first point.
-struct Place {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
     point: DVec2,
+    /// The operand, and where it stands in the expression.
     operand: u32,
+    token: u32,
     ring: u32,
 }
 
-impl Place {
-    fn of_all(rings: &Rings, operand: usize) -> impl Iterator<Item = Place> + '_ {
-        let place = move |(i, ring): (usize, &[DVec2])| Place {
-            point: ring[0],
-            operand: index(operand),
-            ring: index(i),
-        };
-        rings.iter().enumerate().map(place)
-    }
+/// The rings of all operands.
+fn places<'a>(csg: &'a Csg<'_>) -> impl Iterator<Item = Place> + 'a {
+    let leaves =
+        (0..).zip(csg.postfix()).filter_map(|(token, leaf)| leaf.rings().map(|rings| (token, rings)));
+    leaves.zip(0..).flat_map(|((token, rings), operand)| {
+        let place = move |(ring, points): (u32, &[DVec2])| Place { point: points[0], operand, token, ring };
+        (0..).zip(rings.iter()).map(place)
+    })
 }
 
 /// Whether each ring lies about as near to the one before it as it would when sorted by columns.
@@ -59,32 +61,22 @@ impl Edges {
     /// fewer than three others left.
     pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth, window: &Window) {
         self.clear();
-        let leaves = csg.postfix().iter().filter(|token| !matches!(token, Token::Operator(..)));
-        let rings = leaves.clone().map(|leaf| leaf.rings().map_or(0, Rings::len)).sum::<usize>();
-        if rings > FEW_RINGS {
-            let leaves: Vec<&Token<'_>> = leaves.collect();
-            let mut places: Vec<Place> = Vec::with_capacity(rings);
-            for (operand, leaf) in leaves.iter().enumerate() {
-                places.extend(leaf.rings().into_iter().flat_map(|rings| Place::of_all(rings, operand)));
-            }
-            if !are_near(&places) {
-                sort_by_place(&mut places);
-            }
-            for place in places {
-                let leaf = leaves[place.operand as usize];
-                self.add_ring(leaf, place.operand, place.ring as usize, truth, window);
-            }
-        } else {
-            for (operand, leaf) in leaves.enumerate() {
-                for ring in 0..leaf.rings().map_or(0, Rings::len) {
-                    self.add_ring(leaf, index(operand), ring, truth, window);
-                }
+        let mut all = std::mem::take(&mut self.places);
+        all.clear();
+        all.extend(places(csg));
+        if all.len() > FEW_RINGS && !are_near(&all) {
+            sort_by_place(&mut all);
+        }
+        for &place in &all {
+            if let Some(rings) = csg.postfix()[place.token as usize].rings() {
+                self.add_ring(rings, place, truth, window);
             }
         }
+        self.places = all;
     }
 
-    fn add_ring(&mut self, leaf: &Token<'_>, operand: u32, ring: usize, truth: &Truth, window: &Window) {
-        let Some(rings) = leaf.rings() else { return };
+    fn add_ring(&mut self, rings: &Rings, place: Place, truth: &Truth, window: &Window) {
+        let (operand, ring) = (place.operand, place.ring as usize);
         let (start, points) = (index(self.points.len()), rings.closed(ring));
         if !window.meets(points) {
             return;

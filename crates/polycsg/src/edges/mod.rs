@@ -21,6 +21,7 @@ pub(crate) struct Edges {
     /// Per slot where the edge comes from; empty while all of each ring's points are there.
     origins: Vec<Origin>,
     also: Vec<Also>,
+    places: Vec<collect::Place>,
 }
 
 /// A ring: its edges are `start..end`, in slot `end` its first point stands again.
