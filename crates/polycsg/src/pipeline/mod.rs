@@ -108,7 +108,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Err
     if repair::is_sound(rounded, suspects, slabs, mending) {
         outline.take(edges, contacts, selection);
     } else {
-        repair::mend(rounded, slabs, mending, outline);
+        repair::mend(rounded, suspects, slabs, mending, outline);
     }
     cycles.link(outline);
     match nest::nest(outline, cycles, chains, strips, slabs, nesting) {

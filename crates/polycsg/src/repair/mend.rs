@@ -5,20 +5,28 @@ use super::{Class, CutAt, Fragment, Mending, Rounded, in_conflict};
 use crate::outline::Outline;
 use crate::predicates::{Segment, lexicographic, rightward};
 use crate::slabs::Slabs;
+use crate::suspects::Suspects;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
 
 /// Puts the pieces into an outline: no two of its edges meet but in their ends.
 ///
-/// After the first round only what is near the last cuts is looked at. Fragments that rounding made vertical and that
-/// overlap are not cut at abscissae; they are cut in the end.
-pub(crate) fn mend(rounded: Rounded<'_>, slabs: &mut Slabs, mending: &mut Mending, outline: &mut Outline) {
+/// At first only what is near the suspected edges is looked at, as nothing else can be in a conflict; then only what is
+/// near the last cuts. Fragments that rounding made vertical and that overlap are not cut at abscissae; they are cut in
+/// the end.
+pub(crate) fn mend(
+    rounded: Rounded<'_>,
+    suspects: &Suspects,
+    slabs: &mut Slabs,
+    mending: &mut Mending,
+    outline: &mut Outline,
+) {
     mending.cuts.clear();
     rounded.list_parts(None, &mut mending.parts);
     rounded.cut_up(&mending.parts, &[], &mut mending.fragments);
     let (mut may_coincide, mut overlap) = (false, false);
-    let mut near = Near::EVERYTHING;
+    let mut near = mending.near_suspects(suspects);
     loop {
         mending.find_alike(&mut near);
         mending.find_conflicts(slabs);
@@ -31,6 +39,7 @@ pub(crate) fn mend(rounded: Rounded<'_>, slabs: &mut Slabs, mending: &mut Mendin
         let is_new = |fragment: &&Fragment| cut.binary_search(&fragment.part).is_ok();
         near = Near::to(mending.fragments.iter().filter(is_new).map(|fragment| fragment.segment));
     }
+    debug_assert!(overlap || mending.is_mended(slabs));
     mending.mended = mending.cuts.len();
     if overlap {
         let segments = cut_verticals(&mending.fragments);
@@ -43,6 +52,16 @@ pub(crate) fn mend(rounded: Rounded<'_>, slabs: &mut Slabs, mending: &mut Mendin
 }
 
 impl Mending {
+    /// What is near the fragments of suspected edges.
+    fn near_suspects(&self, suspects: &Suspects) -> Near {
+        if suspects.all() {
+            return Near::everything();
+        }
+        let Mending { edges, fragments, .. } = self;
+        let is_suspected = |fragment: &&Fragment| edges.binary_search(&fragment.edge).is_ok();
+        Near::to(fragments.iter().filter(is_suspected).map(|fragment| fragment.segment))
+    }
+
     /// Groups the fragments with the same ends, of those near some place; any that rounding shrank to a point are left out.
     ///
     /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
@@ -66,6 +85,13 @@ impl Mending {
             classes.push(Class { members: start..end, moved });
             start = end;
         }
+    }
+
+    /// Whether no fragments at all are in conflict.
+    fn is_mended(&mut self, slabs: &mut Slabs) -> bool {
+        self.find_alike(&mut Near::everything());
+        self.find_conflicts(slabs);
+        self.conflicts.is_empty()
     }
 
     fn members(&self, class: u32) -> impl Iterator<Item = &Fragment> + Clone {

@@ -18,7 +18,9 @@ pub(super) struct Near {
 }
 
 impl Near {
-    pub(super) const EVERYTHING: Near = Near { boxes: None, furthest: Vec::new(), looked_at: 0, asked: 0 };
+    pub(super) fn everything() -> Near {
+        Near { boxes: None, furthest: Vec::new(), looked_at: 0, asked: 0 }
+    }
 
     pub(super) fn to(segments: impl Iterator<Item = Segment>) -> Near {
         let mut boxes: Vec<[DVec2; 2]> = segments.map(|[a, b]| [a.min(b), a.max(b)]).collect();
