@@ -47,14 +47,4 @@ impl Double {
         let p = Double::product(self.hi, other.hi);
         Double::sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
     }
-
-    #[inline]
-    pub(crate) fn over(self, other: Double) -> Double {
-        let q = self.hi / other.hi;
-        let r = self.minus(other.times(Double { hi: q, lo: 0.0 }));
-        let q2 = r.hi / other.hi;
-        let r2 = r.minus(other.times(Double { hi: q2, lo: 0.0 }));
-        let q12 = Double::sum(q, q2);
-        q12.plus(Double { hi: r2.hi / other.hi, lo: 0.0 })
-    }
 }

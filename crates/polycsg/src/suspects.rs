@@ -8,6 +8,8 @@ use crate::chains::LONGEST;
 use crate::contacts::{Contact, Met, Partner};
 use crate::edges::{Edges, Ring};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
+use crate::slabs::Slabs;
+use glam::DVec2;
 
 /// See the module's page.
 #[derive(Debug, Default)]
@@ -33,11 +35,6 @@ impl Suspects {
         self.margins = Margins::for_size(size);
     }
 
-    /// Suspects all edges, where not all pairs whose boxes meet are looked at.
-    pub(crate) fn give_up(&mut self) {
-        self.all = true;
-    }
-
     /// Whether all edges are suspected, not the listed pairs alone.
     pub(crate) fn all(&self) -> bool {
         self.all
@@ -55,6 +52,51 @@ impl Suspects {
         if !self.all {
             self.pairs.push([e, f]);
         }
+    }
+
+    /// Notes what comes near an edge where [`Slabs`] take the place of boxes, and lets them report the rest; suspects all
+    /// edges where these are too many.
+    pub(crate) fn look_beside(&mut self, edges: &Edges, slabs: &mut Slabs) {
+        let margins = self.margins;
+        self.all = self.all
+            || slabs.copies().next().is_some()
+            || !slabs.widen(margins.close)
+            || !slabs.ends_beside_ends(margins.close, |p, q| {
+                edges.at(p).into_iter().for_each(|e| edges.at(q).into_iter().for_each(|f| self.add(e, f)));
+            })
+            || !slabs.ends_beside_steep_edges(margins, |e, p| {
+                edges.at(p).into_iter().for_each(|f| self.add(e, f));
+            })
+            || !slabs.places().all(|place| self.look_at_place(edges, place));
+    }
+
+    /// Notes edges of several rings that leave one point in nearly the same direction; false when they are too many for
+    /// that. Those of one ring are looked at by [`look_along`](Suspects::look_along).
+    fn look_at_place(&mut self, edges: &Edges, mut place: impl Iterator<Item = u32>) -> bool {
+        const MOST: usize = 32;
+        let Some(first) = place.next() else { return true };
+        let [a, b] = edges.at(first);
+        let mut leaving = [a; MOST];
+        leaving[1] = b;
+        for (count, edge) in (2..).zip(place.flat_map(|point| edges.at(point))) {
+            if count == MOST {
+                return false;
+            }
+            leaving[count] = edge;
+            for &other in leaving[..count].iter().filter(|&&other| other != edge) {
+                if self.are_flat(edges, edges.point(first), [edge, other]) {
+                    self.add(edge, other);
+                }
+            }
+        }
+        true
+    }
+
+    /// Whether two edges leave a common end in nearly the same direction.
+    fn are_flat(&self, edges: &Edges, corner: DVec2, pair: [u32; 2]) -> bool {
+        let [s, t] = pair.map(|edge| edges.segment(edge));
+        let [p, q] = [s, t].map(|[a, b]| if a == corner { b } else { a });
+        (p - corner).dot(q - corner) > 0.0 && !self.margins.are_steep([s, t], doubled_area(corner, p, q))
     }
 
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
@@ -105,10 +147,7 @@ impl Suspects {
         for (step, corner) in steps.into_iter().zip([s[1], s[0]]) {
             let mut other = step(ring, edge);
             let t = edges.segment(other);
-            let end = if t[0] == corner { t[1] } else { t[0] };
-            let start = if s[0] == corner { s[1] } else { s[0] };
-            let turns_back = (end - corner).dot(start - corner) > 0.0;
-            if turns_back && !self.margins.are_steep([s, t], doubled_area(corner, start, end)) {
+            if self.are_flat(edges, corner, [edge, other]) {
                 self.add(edge, other);
             }
             let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);

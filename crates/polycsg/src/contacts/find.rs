@@ -164,6 +164,7 @@ impl Contacts {
             vertices.for_each(|vertex| first.into_iter().for_each(|first| self.join(edges, first, vertex)));
         }
         slabs.copies().for_each(|[e, f]| self.meet(edges, e, f, suspects));
+        suspects.look_beside(edges, slabs);
         let are_few = slabs.pairs_within(most, |e, f| {
             if self.found.len() <= most {
                 self.meet(edges, e.min(f), e.max(f), suspects);

@@ -71,7 +71,6 @@ impl Contacts {
             survey.asks_for_boxes(patience) && self.find_by_boxes(boxes, suspects, patience.doubled());
         if !is_done && self.found.len() <= most {
             self.start(edges, chains, suspects);
-            suspects.give_up();
             self.find_by_slabs(edges, chains, slabs, suspects, most)?;
         }
         if self.found.len() > most {

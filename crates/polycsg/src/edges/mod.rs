@@ -138,6 +138,13 @@ impl Edges {
         [self.points[edge as usize], self.points[edge as usize + 1]]
     }
 
+    /// The two edges that end or start in the point of a slot.
+    pub(crate) fn at(&self, slot: u32) -> [u32; 2] {
+        let ring = self.ring(slot);
+        let vertex = if slot == ring.end { ring.start } else { slot };
+        [ring.previous(vertex), vertex]
+    }
+
     #[inline]
     pub(crate) fn ring_of(&self, edge: u32) -> u32 {
         self.ring[edge as usize]

@@ -49,6 +49,15 @@ proptest! {
         check(&rings, FillRule::EvenOdd);
     }
 
+    /// Lattice points an ulp or two beside one another: ends beside ends, and beside edges of all slopes.
+    #[test]
+    fn agree_beside_a_lattice(rings in rings(((0..5_u32, 0..4_u64), (0..5_u32, 0..4_u64)).prop_map(|(x, y)| {
+        let near = |(i, ulps)| f64::from_bits((0.1 + 0.37 * f64::from(i)).to_bits() + ulps);
+        DVec2::new(near(x), near(y))
+    }))) {
+        check(&rings, FillRule::EvenOdd);
+    }
+
     #[test]
     fn agree_over_the_whole_range(rings in rings([prop::num::f64::NORMAL, prop::num::f64::NORMAL].prop_map(DVec2::from))) {
         check(&rings, FillRule::NonZero);

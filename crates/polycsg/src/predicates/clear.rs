@@ -53,6 +53,12 @@ impl Margins {
             || ends.iter().all(|area| area.value + area.error < -margin)
     }
 
+    /// Whether a point lies clear of the line through an edge, by its area.
+    #[inline]
+    pub(crate) fn is_apart(&self, edge: Segment, area: Area) -> bool {
+        area.value.abs() - area.error > self.close * length_bound(edge)
+    }
+
     /// How two edges lie, by the areas of each one's ends against the other; the second one's ends are known not to be apart from the first.
     #[inline]
     pub(crate) fn relation(&self, [e, f]: [Segment; 2], ends_of_f: [Area; 2], ends_of_e: [Area; 2]) -> Clear {

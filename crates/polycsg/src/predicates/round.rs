@@ -1,16 +1,15 @@
 //! The crossing of two edges, each coordinate rounded once to the nearest double.
 
+use super::Segment;
 use super::exact::{Ratio, scaled_integers};
-use super::{Segment, order::lexicographic};
 use crate::double::Double;
 use glam::DVec2;
-use std::cmp::Ordering;
 
 /// The crossing of two edges that cross properly, both coordinates correctly rounded (ties to even).
 ///
 /// Depends on the two edges as point sets only, not on their order or direction.
 pub(crate) fn crossing_point(e: Segment, f: Segment) -> DVec2 {
-    crossing_in_double_double(e, f).unwrap_or_else(|| {
+    crossing_by_residuals(e, f).unwrap_or_else(|| {
         let [x, y] = crossing_ratio(e, f);
         DVec2::new(x.to_f64(), y.to_f64())
     })
@@ -30,45 +29,71 @@ pub(crate) fn crossing_ratio(e: Segment, f: Segment) -> [Ratio; 2] {
     ]
 }
 
-/// 2^-98: more than the relative error of any of the few operations in a row below.
+/// 2^-98: more than the relative error of any of the few operations in a row in [`area`].
 const RELATIVE: f64 = f64::from_bits((1023 - 98) << 52);
 
+/// 2^-46: more than the relative errors of the few operations in doubles below, together.
+const COARSE: f64 = f64::from_bits((1023 - 46) << 52);
+
 /// Where no operation below overflows and no low part is lost: coordinates are 0 or in 2^-200 … 2^200.
-fn in_window(x: f64) -> bool {
+#[inline]
+fn in_window(p: DVec2) -> bool {
     const LOW: f64 = f64::from_bits((1023 - 200) << 52);
     const HIGH: f64 = f64::from_bits((1023 + 200) << 52);
-    x == 0.0 || (LOW..=HIGH).contains(&x.abs())
+    let fits = |x: f64| x == 0.0 || (LOW..=HIGH).contains(&x.abs());
+    fits(p.x) && fits(p.y)
 }
 
-/// The doubled area of (f, p), and the sum of the two products' sizes.
-fn area(f: Segment, p: DVec2) -> (Double, f64) {
+/// The doubled area of (f, p), and the sum of the two products' sizes: wrong by that times [`RELATIVE`] at most, and by two
+/// ulps of its own.
+#[inline]
+fn area(f: Segment, p: DVec2) -> (f64, f64) {
     let (ux, uy) = (Double::sum(f[0].x, -p.x), Double::sum(f[0].y, -p.y));
     let (vx, vy) = (Double::sum(f[1].x, -p.x), Double::sum(f[1].y, -p.y));
-    let (l, r) = (ux.times(vy), uy.times(vx));
-    (l.minus(r), l.hi.abs() + r.hi.abs())
+    let (l, r) = (Double::product(ux.hi, vy.hi), Double::product(uy.hi, vx.hi));
+    let tails = (ux.hi * vy.lo + ux.lo * vy.hi) - (uy.hi * vx.lo + uy.lo * vx.hi);
+    ((l.hi - r.hi) + ((l.lo - r.lo) + tails), l.hi.abs() + r.hi.abs())
 }
 
-/// The rounded crossing, when double-double arithmetic proves both roundings.
-pub(super) fn crossing_in_double_double(e: Segment, f: Segment) -> Option<DVec2> {
-    // One direction of e, so that the answer has one history; the answer itself is the same from any.
-    let e = if lexicographic(e[0], e[1]) == Ordering::Greater { [e[1], e[0]] } else { e };
-    if ![e[0], e[1], f[0], f[1]].iter().all(|p| in_window(p.x) && in_window(p.y)) {
-        return None;
-    }
-    let ((n, size_n), (m, size_m)) = (area(f, e[0]), area(f, e[1]));
-    let w = n.minus(m);
-    let t = n.over(w);
-    // n and m have opposite signs: |w| = |n| + |m|, and an error d in either moves t by at most 2 d / |w|.
-    let t_error = RELATIVE * (2.0 * (size_n + size_m) / w.hi.abs() + 1.0);
-    let coordinate = |a: f64, b: f64| {
-        let run = Double::sum(b, -a);
-        let at = Double { hi: a, lo: 0.0 }.plus(run.times(t));
-        let error = t_error * run.hi.abs() + RELATIVE * (a.abs() + b.abs());
-        let stays = |lo: f64| at.hi + lo == at.hi;
-        (stays(at.lo + 2.0 * error) && stays(at.lo - 2.0 * error)).then_some(at.hi)
-    };
+/// The rounded crossing, when doubles prove both roundings.
+///
+/// A point p near the crossing misses it by δ = (A_f u - A_e v) / (u × v), where u and v are the edges' vectors and A_e, A_f the
+/// doubled areas of the edges and p: exactly, as the edges are straight. The areas are small and their few bits are right,
+/// so p + δ is known to far more bits than a double has, and where it is not, the next p is nearer.
+pub(super) fn crossing_by_residuals(e: Segment, f: Segment) -> Option<DVec2> {
+    const STEPS: usize = 3;
+    let (u, v) = (e[1] - e[0], f[1] - f[0]);
+    let det = u.perp_dot(v);
+    let loss = ((u.x * v.y).abs() + (u.y * v.x).abs()) / det.abs();
+    let is_moderate = [e, f].iter().all(|s| in_window(s[0]) && in_window(s[1])) && loss * COARSE < 0.25;
+    let mut p = e[0] + u * ((f[0] - e[0]).perp_dot(v) / det);
     // On an axis-parallel edge one coordinate needs no arithmetic.
-    let x = if f[0].x == f[1].x { f[0].x } else { coordinate(e[0].x, e[1].x)? };
-    let y = if f[0].y == f[1].y { f[0].y } else { coordinate(e[0].y, e[1].y)? };
-    Some(DVec2::new(x, y))
+    let known = |axis: usize| {
+        let on = |s: Segment| (s[0][axis] == s[1][axis]).then_some(s[0][axis]);
+        on(e).or(on(f))
+    };
+    let (known_x, known_y) = (known(0), known(1));
+    for _ in 0..if is_moderate { STEPS } else { 0 } {
+        p = DVec2::new(known_x.unwrap_or(p.x), known_y.unwrap_or(p.y));
+        if !in_window(p) {
+            return None;
+        }
+        let ((of_e, size_e), (of_f, size_f)) = (area(e, p), area(f, p));
+        let coordinate = |at: f64, u: f64, v: f64, known: Option<f64>| {
+            let (forth, back) = (of_f * u, of_e * v);
+            let error =
+                RELATIVE * (size_f * u.abs() + size_e * v.abs()) + COARSE * loss * (forth.abs() + back.abs());
+            let at = Double::sum(at, (forth - back) / det);
+            let error = 2.0 * (error / det.abs());
+            let is_proven = at.hi + (at.lo + error) == at.hi && at.hi + (at.lo - error) == at.hi;
+            known.map_or((at.hi, is_proven), |known| (known, true))
+        };
+        let ((x, knows_x), (y, knows_y)) =
+            (coordinate(p.x, u.x, v.x, known_x), coordinate(p.y, u.y, v.y, known_y));
+        p = DVec2::new(x, y);
+        if knows_x && knows_y {
+            return Some(p);
+        }
+    }
+    None
 }

@@ -56,7 +56,7 @@ fn unfiltered(questions: u32, mut points: impl FnMut() -> Configuration) -> [u32
         if does_cross([c, d]) && does_cross([g, h]) {
             let order = filtered([a, b], [c, d]).certain_order(filtered([a, b], [g, h]));
             left[1] += u32::from(order.is_none());
-            left[2] += u32::from(round::crossing_in_double_double([a, b], [c, d]).is_none());
+            left[2] += u32::from(round::crossing_by_residuals([a, b], [c, d]).is_none());
             asked += 1;
         }
     }

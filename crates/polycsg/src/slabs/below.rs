@@ -1,7 +1,7 @@
 //! What is right below a point, asked for many points at once.
 
 use super::rungs::Span;
-use super::{Bar, FEW, NONE, Slab, Slabs, halves};
+use super::{Bar, FEW, NONE, Slab, Slabs, parts};
 use crate::predicates::{Side, height_order, side};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -47,7 +47,7 @@ impl Slabs {
                 }
             }
         } else {
-            for half in halves(slab) {
+            for half in parts(slab) {
                 self.open_again(half, start..end);
                 self.look_down(half, end, queries.clone());
             }

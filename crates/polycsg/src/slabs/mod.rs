@@ -1,12 +1,12 @@
 //! An index over edges for inputs where boxes tell nothing: long edges beside one another.
 //!
-//! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), halved again
+//! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), cut in three again
 //! and again. In the widest slabs that it crosses from side to side, an edge *spans*:
 //!
 //! ```text
 //!    slab            a, b, d, c span and do not meet: they are the slab's rungs, in one order at both sides.
 //!   |      d_|__     e spans and crosses: it is compared with the rungs that it has between its two heights,
-//!   |_c__----|-      and handed on to the halves of the slab for what else it may meet.
+//!   |_c__----|-      and handed on to the parts of the slab for what else it may meet.
 //!  _|--  _f /|       f ends here: it is compared with the rungs between its heights where it enters and where it
 //!   |b__/__/_|__     ends, and handed on likewise.
 //!  _|__a__/__|__
@@ -21,6 +21,7 @@
 //! common end are reported only if they may meet elsewhere too, so that a fan of edges costs no more than other edges.
 
 mod below;
+mod beside;
 mod found;
 mod heights;
 mod rungs;
@@ -38,6 +39,9 @@ use std::ops::Range;
 
 /// So many edges are compared with one another, each with each.
 const FEW: usize = 8;
+
+/// Into so many slabs one is cut.
+const PARTS: u32 = 3;
 
 /// No span.
 const NONE: u32 = u32::MAX;
@@ -65,6 +69,8 @@ pub(crate) struct Slabs {
     bars: Vec<Bar>,
     /// Two heights that differ by more differ.
     slack: f64,
+    /// How far boxes are widened.
+    reach: f64,
     /// Whether all coordinates lie where slopes neither overflow nor lose bits.
     has_slopes: bool,
     /// The edges of the slab at hand, of its half at hand, and so on, with their places in `bars` for ids.
@@ -78,6 +84,8 @@ pub(crate) struct Slabs {
     tops: Vec<u32>,
     before: Vec<u32>,
     found: Found,
+    /// Ranks of neighbouring abscissae.
+    by_height: Vec<u32>,
     /// Points by rank, and of each one the bar found below it.
     queries: Vec<(u32, u32)>,
     nearest: Vec<u32>,
@@ -102,6 +110,7 @@ impl Slabs {
         self.bars.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
         self.slack = highest * SLACK + f64::MIN_POSITIVE;
+        self.reach = 0.0;
         let is_moderate = |x: f64| x == 0.0 || (LEAST..=1.0 / LEAST).contains(&x.abs());
         self.has_slopes = self.ends.iter().all(|p| is_moderate(p.x) && is_moderate(p.y));
     }
@@ -200,7 +209,7 @@ impl Slabs {
         if end - start <= FEW {
             self.compare_all(slab, start..end);
         } else if !self.found.is_over() {
-            for half in halves(slab) {
+            for half in parts(slab) {
                 self.open_again(half, start..end);
                 self.look_into(half, end);
             }
@@ -253,8 +262,10 @@ impl Slabs {
     }
 }
 
-/// A slab cut at its middle end.
-fn halves([left, right]: Slab) -> [Slab; 2] {
-    let middle = left.midpoint(right);
-    [[left, middle], [middle, right]]
+/// A slab cut at some of its ends, as evenly as may be.
+fn parts([left, right]: Slab) -> impl Iterator<Item = Slab> {
+    let length = right - left;
+    let parts = PARTS.min(length);
+    let cut = move |i: u32| left + length / parts * i + length % parts * i / parts;
+    (0..parts).map(move |i| [cut(i), cut(i + 1)])
 }

@@ -127,7 +127,8 @@ impl Slabs {
             let followers = all[first..].iter().take_while(|&&(place, _)| place < rungs.end);
             let near =
                 self.rungs[rungs.clone()].iter().map(|rung| rung.bar).chain(followers.map(|&(_, bar)| bar));
-            let meets = |other: &Bar| boxes_meet(ends, other.ranks.map(|rank| self.ends[rank as usize]));
+            let meets =
+                |other: &Bar| boxes_meet(ends, other.ranks.map(|rank| self.ends[rank as usize]), self.reach);
             self.found.add(near.filter(meets).map(|other| [bar.id, other.id]));
         }
     }
@@ -173,9 +174,10 @@ fn is_below(a: &Span, b: &Span, side: usize, slack: f64) -> bool {
     a.heights[side] + slack < b.heights[side] || (a.is_end[side] && b.is_end[side])
 }
 
-/// Whether the boxes of two edges meet: where all is within the heights' error, boxes still tell short edges apart.
+/// Whether the boxes of two edges, widened, meet: where all is within the heights' error, boxes still tell short edges
+/// apart.
 #[inline]
-fn boxes_meet([a, b]: Segment, [c, d]: Segment) -> bool {
-    let (low, high) = (a.min(b), a.max(b));
+fn boxes_meet([a, b]: Segment, [c, d]: Segment, reach: f64) -> bool {
+    let (low, high) = (a.min(b) - reach, a.max(b) + reach);
     low.cmple(c.max(d)).all() && high.cmpge(c.min(d)).all()
 }
