@@ -62,9 +62,12 @@ impl Chain {
         Some((self.edge(i), [self.point(points, i), self.point(points, right)]))
     }
 
-    /// Calls `visit` for each edge of this chain and each of another whose boxes meet.
+    /// Calls `visit` for each edge of this chain and each of another whose boxes meet; those of the chains do.
     #[inline]
     pub(crate) fn meet(&self, other: &Chain, points: &[DVec2], mut visit: impl FnMut(u32, u32)) {
+        if self.len() == 1 && other.len() == 1 {
+            return visit(self.first, other.first);
+        }
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         let mut first = 0;
         for i in 0..self.len() {
