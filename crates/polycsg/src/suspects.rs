@@ -151,8 +151,9 @@ impl Suspects {
                 self.add(edge, other);
             }
             let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
-            if !leads_on(t) {
-                continue; // another chain: its boxes were looked at
+            let is_wide = (t[1].x - t[0].x).abs() > self.margins.close;
+            if is_wide || !leads_on(t) {
+                continue; // far from all that follows, or another chain, whose boxes were looked at
             }
             for _ in 0..LONGEST {
                 other = step(ring, other);

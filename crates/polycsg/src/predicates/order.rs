@@ -53,7 +53,9 @@ pub(crate) fn height_order(e: Segment, f: Segment, x: f64) -> Ordering {
         let at = Ratio::from_f64(x);
         at.ordinate_on(e).compare(&at.ordinate_on(f))
     };
-    fixed::height_order(e, f, x).unwrap_or_else(exactly).then_with(|| match turn(f, e) {
+    let both_start = (e[0].x == x && f[0].x == x).then(|| lexicographic(e[0], f[0]));
+    let at_x = both_start.unwrap_or_else(|| fixed::height_order(e, f, x).unwrap_or_else(exactly));
+    at_x.then_with(|| match turn(f, e) {
         Side::Right => Ordering::Less,
         Side::On => Ordering::Equal,
         Side::Left => Ordering::Greater,
