@@ -1,4 +1,4 @@
-//! Closed convex bodies among polygons, of which only the near side needs to be looked at.
+//! Closed convex bodies among polygons, of which only the near side needs to be looked at, and nothing of the target's own.
 //!
 //! A ray that leaves a body through its far side has entered it through its near side: with dA outside, the far side hides
 //! nothing more. Where two faces of the near side meet, their common edge is no part of the visible boundary, so that what
@@ -34,6 +34,11 @@ impl Bodies {
             }
         }
         bodies
+    }
+
+    /// Whether two polygons belong to one body: then neither hides any of the other's front, before which the body is not.
+    pub(crate) fn is_one(&self, id: usize, other: usize) -> bool {
+        self.of[id].is_some() && self.of[id] == self.of[other]
     }
 
     /// Whether polygon `id` turns its back to dA and belongs to a body around which dA is outside, and not on it. `last`

@@ -164,9 +164,11 @@ impl Enclosure {
         found: impl IntoIterator<Item = usize>,
     ) -> impl Iterator<Item = &PlanarPolygon> {
         let mut last = None;
-        // Not what is edge-on, nor the far side of a body, which hides nothing that its near side does not.
+        // Not what is edge-on, nor a face of the target's own body, which lies behind the target, nor the far side of another
+        // one, which hides nothing that its near side does not.
         let can_hide = move |i: &usize| {
             *i != id
+                && !self.bodies.is_one(id, *i)
                 && !self.is_edge_on(from, *i)
                 && !self.bodies.is_far_side(&self.polygons, from, *i, &mut last)
         };

@@ -50,8 +50,8 @@
 //!
 //! **What is not needed is not done.** Before all that a route in plain doubles (`quick`) takes a convex target and convex
 //! occluders as cones from dA and clips edges against cones; every sign comes with a bound on its error, and where one is
-//! open the stages above decide. The far side of closed convex bodies is dropped. An [`Enclosure`] finds occluders in a
-//! tree of boxes; [`Stats`] tells what was left out.
+//! open the stages above decide. The far side of closed convex bodies is dropped, and all of the target's own. An
+//! [`Enclosure`] finds occluders in a tree of boxes; [`Stats`] tells what was left out.
 //!
 //! **Cancelling.** The contour's terms cancel for small, far and sliver targets, down to nothing: an unoccluded target whose
 //! sum is known to less than 1e-13 of itself is integrated instead (`cubature`), all terms positive, with a bound on the rule.

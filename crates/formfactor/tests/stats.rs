@@ -98,6 +98,28 @@ fn of_a_closed_body_only_the_near_side_is_looked_at() {
 }
 
 #[test]
+fn a_face_of_a_closed_body_is_not_looked_for_behind_the_others() {
+    let solid = cuboid(DVec3::new(0.3, -0.2, 0.8), DVec3::new(0.6, 0.1, 1.2));
+    let from = DifferentialArea::new(DVec3::new(0.05, 0.02, 0.0), DVec3::Z).unwrap();
+    let board = moved(0.05, DVec3::new(0.2, 0.0, 0.5));
+    let room = |solid: &[PlanarPolygon]| Enclosure::new([solid, std::slice::from_ref(&board)].concat());
+    for face in 0..solid.len() {
+        let (closed, stats) = room(&solid).form_factor_with_stats(&from, face);
+        // With a hole in it, it is no body, and every other face is looked at.
+        let mut open = solid.clone();
+        open.swap_remove(if face == 5 { 4 } else { 5 });
+        let (alone, all) = room(&open).form_factor_with_stats(&from, face.min(4));
+        assert_eq!(closed, alone);
+        let is_seen = all.looked_at > 0;
+        assert_eq!(stats.looked_at, u64::from(is_seen), "the board alone");
+        assert_eq!(all.looked_at, if is_seen { 5 } else { 0 });
+    }
+    // It sees the underside and one side.
+    let seen = (0..6).filter(|face| room(&solid).form_factor(&from, *face).value > 0.0).count();
+    assert_eq!(seen, 2);
+}
+
+#[test]
 fn from_inside_a_body_its_walls_hide() {
     let solid = cuboid(DVec3::new(-0.3, -0.2, -0.5), DVec3::new(0.3, 0.3, 1.2));
     let from = DifferentialArea::new(DVec3::new(0.05, 0.02, 0.0), DVec3::Z).unwrap();

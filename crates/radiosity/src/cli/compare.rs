@@ -1,5 +1,5 @@
 //! `radiosity compare`
-use super::{Failure, input, json, output, positive};
+use super::{Failure, input, json, output};
 use clap::Args;
 use radiosity::compare::{Comparison, compare};
 use std::fmt::Write;
@@ -15,12 +15,22 @@ pub(super) struct Compare {
     a: PathBuf,
     /// Another one of the same scene, of any mesh: the reference
     b: PathBuf,
-    /// End with exit code 5 when any norm in any band is above this
-    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    /// End with exit code 5 when any norm in any band is above this; 0 asks for the same light
+    #[arg(long, value_name = "SHARE", value_parser = share)]
     fail_above: Option<f64>,
     /// Print JSON instead of text; a norm that is infinite is null
     #[arg(long)]
     json: bool,
+}
+
+/// A finite number, 0 too.
+fn share(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if number >= 0.0 && number.is_finite() {
+        Ok(number)
+    } else {
+        Err("give 0 or a finite number above".to_owned())
+    }
 }
 
 /// Prints how far two solutions are from each other.

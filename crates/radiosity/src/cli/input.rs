@@ -31,7 +31,7 @@ pub(super) fn solution(path: &Path) -> Result<Record, Failure> {
     let text = std::fs::read(path)
         .map_err(|error| Failure::internal(format!("{name}: cannot be read: {error}; check its name")))?;
     let written: Written = serde_json::from_slice(&text).map_err(|error| {
-        Failure::scene(format!("{name}: not a solution: {error}; write one: solve -o {name}"))
+        Failure::scene(format!("{name}: not a solution: {error}; write one: solve SCENE -o FILE.json"))
     })?;
     written.light.check().map_err(|reason| Failure::scene(format!("{name}: {reason}; solve again")))?;
     Ok(written.light)

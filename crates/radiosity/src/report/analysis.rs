@@ -131,6 +131,7 @@ mod tests {
             amount: 1.0,
             error: Error { max: error, mean: error, beyond: 0.0 },
             bound: None,
+            points: None,
             in_part: None,
             valid: None,
             time: Time { cpu: spread, wall: spread, rounds: 1 },

@@ -51,6 +51,7 @@ fn axis(plan: &Plan, name: &str, cases: impl Iterator<Item = Case>) -> Vec<Measu
         amount: case.at,
         error: Error::of(&[(case.off)(&result)]),
         bound: None,
+        points: None,
         in_part: None,
         valid: Some(result.validate().is_ok()),
         time,

@@ -87,10 +87,10 @@ pub(super) fn against_time(
 /// What the verdict says.
 fn sentence(verdict: &Verdict<'_>) -> String {
     let [bound, time] = verdict.exact;
-    let beaten = if verdict.beaten_by.is_empty() {
-        "no other method reaches 1e-6 in that time".to_owned()
-    } else {
-        format!("{} reach 1e-6 in that time too", verdict.beaten_by.join(", "))
+    let beaten = match verdict.beaten_by.as_slice() {
+        [] => "no other method reaches 1e-6 in that time".to_owned(),
+        [one] => format!("{one} reaches 1e-6 in that time too"),
+        some => format!("{} reach 1e-6 in that time too", some.join(" and ")),
     };
     let quicker: Vec<String> = verdict
         .quicker

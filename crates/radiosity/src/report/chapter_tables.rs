@@ -72,7 +72,8 @@ pub(super) fn published(report: &Report) -> String {
     format!(
         "<h2 id=\"published\">The sources' tables</h2>\n<p>Barreto (2008), tables 4.1 to 4.5, on an Intel Core Duo of 2.5 GHz; \
          his table 4.5 repeats the row of 4.4. Gomes (2010), tables 5.1 and 5.2, on a Core 2 of 2.4 GHz with a GTX 260. Here \
-         the methods that are compared solve the same elements. Errors are of reflected light against the exact solution \
+         the methods that are compared solve the same elements; of cornell-3842 these are its patches, cut where a block stands \
+         on them. Errors are of reflected light against the exact solution \
          on these elements: the largest in shares of the largest, the mean in shares of the mean.{}</p>\n{}",
         if report.quick {
             " The quick report has one element in sixteen, and leaves out cornell-3842, whose patches are that many."

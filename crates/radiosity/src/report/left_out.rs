@@ -80,7 +80,12 @@ impl<'s> Pairs<'s> {
             saved: left * unit / done,
         };
         vec![
-            row("occluders never looked at: outside of boxes, far sides of bodies", unseen, candidates, look),
+            row(
+                "occluders never looked at: outside of boxes, far sides of bodies, faces of the lamp's own",
+                unseen,
+                candidates,
+                look,
+            ),
             row(
                 "occluders culled before any CSG",
                 total.culled as f64,

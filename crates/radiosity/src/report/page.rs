@@ -68,8 +68,9 @@ pub(super) fn summary(report: &Report) -> Table {
             let claimed = if bound < CLAIMED { "yes" } else { "no" };
             let beaten = verdict.beaten_by.join(", ");
             let beaten = if beaten.is_empty() { "none".to_owned() } else { beaten };
-            let in_part = rows.iter().find_map(|row| row.in_part).unwrap_or(0);
-            let in_part = format!("{in_part} points");
+            let [in_part, points] =
+                rows.iter().find_map(|row| Some([row.in_part?, row.points?])).unwrap_or_default();
+            let in_part = format!("{in_part} of {points} points");
             table.push([name.to_owned(), in_part, error(bound), seconds(time), claimed.to_owned(), beaten]);
         }
     }

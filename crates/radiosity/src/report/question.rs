@@ -57,6 +57,7 @@ impl Question {
                 amount: step.amount,
                 error: certified.unwrap_or_else(|| self.deviations(&answers)),
                 bound: bound.map(|bound| bound.max),
+                points: Some(self.asks.len()),
                 in_part: Some(in_part),
                 valid: None,
                 time: time.over(self.asks.len()),

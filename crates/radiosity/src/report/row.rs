@@ -46,7 +46,9 @@ pub(super) struct Measured {
     pub(super) error: Error,
     /// A bound that the method itself gives with its result: on the largest error.
     pub(super) bound: Option<f64>,
-    /// From how many of the points something hides the targets, but not all of them; none where no points are asked.
+    /// From how many points it was asked; none where no points are asked.
+    pub(super) points: Option<usize>,
+    /// From how many of them something hides the targets, but not all of them.
     pub(super) in_part: Option<usize>,
     /// Whether the result passes an exact check, where there is one.
     pub(super) valid: Option<bool>,

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// From so many polygons on fewer points are asked.
 const MANY: usize = 50;
 /// The fewest points.
-const FEWEST: usize = 4;
+const FEWEST: usize = 16;
 
 /// A scene, cut in elements, with all that hides and all that shines.
 #[derive(Debug)]

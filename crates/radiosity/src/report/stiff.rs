@@ -132,6 +132,7 @@ impl Room<'_> {
             amount: self.at,
             error: Off::of(&off.collect::<Vec<_>>()),
             bound: solution.bound.first().map(|bound| bound / largest).filter(|bound| bound.is_finite()),
+            points: None,
             in_part: None,
             valid: Some(solution.converged),
             time,

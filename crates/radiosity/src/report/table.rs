@@ -8,6 +8,9 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<String>>,
 }
 
+/// A cell of more characters is a sentence.
+const LONG: usize = 32;
+
 impl Table {
     /// An empty table.
     pub(super) fn new<const N: usize>(header: [&str; N]) -> Table {
@@ -28,11 +31,14 @@ impl Table {
         line(&self.header) + &line(&rule) + &rows
     }
 
-    /// A table element.
+    /// A table element. Sentences take several lines, figures one.
     pub(super) fn html(&self) -> String {
-        let cells = |tag: &str, cells: &[String]| -> String {
-            cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell))).collect()
+        let cell = |tag: &str, cell: &String| {
+            let class = if cell.chars().count() > LONG { " class=\"long\"" } else { "" };
+            format!("<{tag}{class}>{}</{tag}>", escape(cell))
         };
+        let cells =
+            |tag: &str, cells: &[String]| cells.iter().map(|text| cell(tag, text)).collect::<String>();
         let rows: String = self.rows.iter().map(|row| format!("<tr>{}</tr>\n", cells("td", row))).collect();
         let header = cells("th", &self.header);
         format!(
@@ -79,7 +85,9 @@ mod tests {
         let mut table = Table::new(["a", "b"]);
         table.push(["1 < 2".to_owned(), "x".to_owned()]);
         assert_eq!(table.markdown(), "| a | b |\n| --- | --- |\n| 1 < 2 | x |\n");
-        assert!(table.html().contains("<td>1 &lt; 2</td>"));
+        table.push(["many words ".repeat(4), "y".to_owned()]);
+        let html = table.html();
+        assert!(html.contains("<td>1 &lt; 2</td>") && html.contains("<td class=\"long\">many words"));
     }
 
     #[test]
