@@ -217,7 +217,7 @@ fn the_cornell_box_lit_keeps_its_names_and_areas() {
 #[test]
 fn cameras_of_any_angle_come_back() {
     let mut before = scene(&file("", ""));
-    for fov in [1e-320, 1e-45, 0.7, 3.141_592_653_589, std::f64::consts::PI * (1.0 - f64::EPSILON)] {
+    for fov in [1e-320, 1e-45, 0.7, 3.1, std::f64::consts::PI * (1.0 - f64::EPSILON)] {
         before.cameras = vec![Camera {
             name: "eye".into(),
             position: DVec3::new(1.0, 2.0, 3.0),
