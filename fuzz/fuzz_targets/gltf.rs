@@ -1,8 +1,8 @@
 //! Any bytes as a glTF file, or a file of any buffers: a scene or a typed error; a scene whose numbers can be used, and
-//! that is the same when it is written and read.
+//! that is the same when it is written and read, as COLLADA and, its triangles, as GLB.
 #![no_main]
 use arbitrary::Arbitrary;
-use fuzz::{survives_writing, within_memory};
+use fuzz::{survives_lighting, survives_writing, within_memory};
 use libfuzzer_sys::fuzz_target;
 use radiosity::io::gltf::Gltf;
 use serde_json::{Value, json};
@@ -22,6 +22,8 @@ struct File {
     accessors: Vec<Accessor>,
     primitives: Vec<Primitive>,
     nodes: Vec<Node>,
+    /// The lens of the camera of every node.
+    lens: Option<[f32; 3]>,
     is_two_sided: bool,
 }
 
@@ -65,6 +67,7 @@ fuzz_target!(|input: Input| {
                 assert!(patch.polygon.area() > 0.0, "{} has no area", patch.name);
                 assert!(patch.reflectance.iter().chain(&patch.emission).all(|value| value.is_finite()));
             }
+            survives_lighting(&scene);
             // What a picture reflects on the whole is summed over the pieces of a surface.
             if scene.patches.iter().all(|patch| patch.texture.is_none()) {
                 survives_writing(&scene);
@@ -101,7 +104,12 @@ fn document(file: &File, bytes: usize) -> Value {
     let count = accessors.len();
     let primitives: Vec<Value> = file.primitives.iter().map(|p| primitive(p, count)).collect();
     let count = file.nodes.len();
-    let nodes: Vec<Value> = file.nodes.iter().enumerate().map(|(at, n)| node(n, at, count)).collect();
+    let mut nodes: Vec<Value> = file.nodes.iter().enumerate().map(|(at, n)| node(n, at, count)).collect();
+    let lens = file.lens.filter(|lens| lens.iter().all(|number| number.is_finite()));
+    if lens.is_some() {
+        nodes.iter_mut().for_each(|node| node["camera"] = 0.into());
+    }
+    let [fov, aspect, near] = lens.unwrap_or([1.0; 3]);
     json!({
         "asset": {"version": "2.0"},
         "buffers": [{"byteLength": bytes}],
@@ -109,6 +117,8 @@ fn document(file: &File, bytes: usize) -> Value {
         "accessors": accessors,
         "materials": [{"doubleSided": file.is_two_sided}],
         "meshes": [{"primitives": primitives}],
+        "cameras": [{"type": "perspective",
+            "perspective": {"yfov": fov, "aspectRatio": aspect, "znear": near}}],
         "nodes": nodes,
         "scenes": [{"nodes": if count > 0 { vec![0] } else { vec![] }}],
     })

@@ -1,8 +1,11 @@
 //! What the targets of readers have in common: memory is watched, and a scene is compared with itself written and read.
 
 use peak_alloc::PeakAlloc;
+use radiosity::expose::Exposure;
+use radiosity::glam::DVec3;
 use radiosity::io::collada::Collada;
-use radiosity::{Patch, Scene};
+use radiosity::io::gltf::{Gltf, glb};
+use radiosity::{Patch, PatchRecord, Record, Scene};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -58,4 +61,78 @@ fn facts(patch: &Patch) -> (Vec<Vec<[u64; 3]>>, Vec<u64>) {
     let loops = patch.polygon.loops().map(|points| points.iter().map(|p| p.to_array().map(bits)).collect());
     let colours = patch.reflectance.iter().chain(&patch.emission);
     (loops.collect(), colours.map(|&number| bits(number)).collect())
+}
+
+/// Writes a scene's outlines as fans of triangles, lit alike, as GLB, and reads that. Such a file holds the places relative
+/// to a place, both in single precision.
+///
+/// # Panics
+/// When the file is refused, or its surfaces, seen from all sides, do not have the fans' vertices and areas.
+pub fn survives_lighting(scene: &Scene) {
+    let record = lit(scene);
+    let bytes = glb(&record, Exposure::new(1.0).expect("positive")).expect("a small file");
+    let again = Gltf::from_bytes("lit.glb", bytes).scene().unwrap_or_else(|e| panic!("{e}\n{record:?}"));
+    assert_eq!(scene.cameras.len(), again.cameras.len(), "{record:?}");
+    let limit = f64::from(f32::MAX);
+    if record.vertices.iter().any(|p| p.abs().max_element() > limit) {
+        return;
+    }
+    let single = |p: DVec3| p.as_vec3().as_dvec3();
+    let (low, high) = record
+        .vertices
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+    let middle = single(low.midpoint(high));
+    let places: Vec<DVec3> = record.vertices.iter().map(|p| single(*p - middle) + middle).collect();
+    let read = || again.patches.iter().flat_map(|patch| patch.polygon.loops());
+    assert!(read().flatten().all(|p| places.contains(p)), "another place: {record:?}\n{again:?}");
+    let fans = record.elements.iter().map(|&[_, a, b, c]| area(&[places[a], places[b], places[c]]));
+    let (fans, read): (DVec3, DVec3) = (fans.sum(), read().map(area).sum());
+    let size = places.iter().fold(0.0_f64, |size, p| size.max(p.abs().max_element()));
+    let rounding = 1e-9 * record.elements.len() as f64 * size * size;
+    assert!((fans - read).abs().max_element() <= rounding, "{fans} {read} {record:?}\n{again:?}");
+}
+
+/// The area of a loop, along its normal.
+fn area(points: &[DVec3]) -> DVec3 {
+    let around = points.iter().zip(points.iter().cycle().skip(1));
+    around.map(|(p, q)| (*p - points[0]).cross(*q - points[0]) / 2.0).sum()
+}
+
+/// A solution of a scene as it would be written: its outlines as fans, 1 W/m² everywhere.
+fn lit(scene: &Scene) -> Record {
+    let (mut vertices, mut elements) = (Vec::new(), Vec::new());
+    for (patch, outline) in scene.patches.iter().filter_map(|p| p.polygon.loops().next()).enumerate() {
+        let first = vertices.len();
+        vertices.extend_from_slice(outline);
+        elements.extend((1..outline.len() - 1).map(|i| [patch, first, first + i, first + i + 1]));
+    }
+    let ones = |rows: usize| vec![1.0; rows * scene.bands];
+    let patch = |patch: &Patch| PatchRecord {
+        name: patch.name.clone(),
+        area: patch.polygon.area(),
+        reflectance: patch.reflectance.clone(),
+        emission: patch.emission.clone(),
+        irradiance: ones(1),
+        radiosity: ones(1),
+        picture: None,
+        tint: [1.0; 3],
+    };
+    Record {
+        scene: "lit".into(),
+        asset: scene.asset,
+        cameras: scene.cameras.clone(),
+        bands: scene.bands,
+        wavelengths: Vec::new(),
+        bound: ones(1),
+        patches: scene.patches.iter().map(patch).collect(),
+        vertex_radiosity: ones(vertices.len()),
+        vertex_irradiance: ones(vertices.len()),
+        places: Vec::new(),
+        radiosity: ones(elements.len()),
+        irradiance: ones(elements.len()),
+        pictures: Vec::new(),
+        vertices,
+        elements,
+    }
 }

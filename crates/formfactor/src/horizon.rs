@@ -121,3 +121,31 @@ pub(crate) fn sight(vertex: &Vertex) -> Sight {
 
 /// Directions shorter than this are made longer, before their squares underflow.
 const SHORT: f64 = 1e-100;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two polygons on either side of an edge that passes the horizon: both are cut there in the same bits.
+    #[test]
+    fn a_shared_edge_is_cut_in_one_point() {
+        let from = DifferentialArea::new(DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.3, -0.7, 0.6))
+            .expect("a direction");
+        for i in 1..40 {
+            let step = f64::from(i) / 7.0;
+            let (a, b) = (DVec3::new(step, -1.3 - step, 1.1), DVec3::new(1.7, 2.1 + step, -0.9 / step));
+            let left = PlanarPolygon::new([[a, b, DVec3::new(-3.0, step, 4.0)]]).expect("a triangle");
+            let right = PlanarPolygon::new([[b, a, DVec3::new(5.0, -step, 0.1)]]).expect("a triangle");
+            let cuts = |polygon: &PlanarPolygon| {
+                let loops = above(&from, polygon).0.concat();
+                let bits = |v: Vertex| v.offset.0.map(|x| [x.hi.to_bits(), x.lo.to_bits()]);
+                loops.into_iter().filter(|v| v.given.is_none()).map(bits).collect::<Vec<_>>()
+            };
+            let (left, right) = (cuts(&left), cuts(&right));
+            assert!(
+                left.len() == 2 && left.iter().any(|cut| right.contains(cut)),
+                "{a} {b}: {left:?} {right:?}"
+            );
+        }
+    }
+}

@@ -242,6 +242,13 @@ mod tests {
         (numbers(), numbers(), numbers()).prop_map(DVec3::from)
     }
 
+    /// The three offsets are rounded by 0.9, −0.2 and 0.9: in doubles the height is 2, in truth −0.2.
+    #[test]
+    fn the_horizon_is_exact_where_rounded_offsets_lie() {
+        let (normal, position) = (DVec3::new(1.0, -2.0, 1.0), DVec3::new(-1.1, -0.2, 0.9));
+        assert_eq!(place(normal, position, DVec3::splat(1e16)), Ordering::Less);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 

@@ -93,6 +93,22 @@ fn disks_converge_as_one_over_their_number() {
     converges(&[&adaptive(0.4, 9), &adaptive(0.1, 9)], &open, 8.0, 5e-4);
 }
 
+/// The closed form: a disk of radius r, h above dA, F = r² / (r² + h²).
+#[test]
+fn a_disk_over_its_axis_is_exact() {
+    for (radius, height) in [(0.1, 1.0), (1.0, 1.0), (5.0, 0.5)] {
+        let corner = |i: u32| {
+            let (sine, cosine) = (-f64::from(i) / 500.0 * std::f64::consts::PI).sin_cos();
+            DVec3::new(radius * cosine, radius * sine, height)
+        };
+        let lid = PlanarPolygon::new([(0..1000).map(corner).collect::<Vec<_>>()]).unwrap();
+        let below = DifferentialArea::new(DVec3::ZERO, DVec3::Z).unwrap();
+        let found = Disk.row(&Enclosure::new(vec![lid]), &below, &[0])[0];
+        let known = radius * radius / (radius * radius + height * height);
+        assert!((found / known - 1.0).abs() < 1e-5, "{found} is not {known}");
+    }
+}
+
 #[test]
 fn shadow_edges_slow_parts_down() {
     let room = room();

@@ -1,7 +1,7 @@
 //! Form factors from area to area: closed forms, references with a blocker, reciprocity and closure.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::glam::DMat3;
-use formfactor::{AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, PlanarPolygon};
+use formfactor::{AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, PlanarPolygon, unoccluded};
 
 fn rectangle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> PlanarPolygon {
     PlanarPolygon::new([[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]]]).unwrap()
@@ -242,6 +242,19 @@ fn a_bad_tolerance_is_refused_and_a_cancelled_matrix_is_none() {
 
 #[test]
 fn many_points_see_what_each_sees() {
+    // With one thing in between, and with many.
+    let lidded = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));
+    let points: Vec<DifferentialArea> = (1..6u32)
+        .map(|i| {
+            DifferentialArea::new(DVec3::new(0.1 * f64::from(i), 0.5, 0.0), DVec3::Z).unwrap().owned_by(0)
+        })
+        .collect();
+    for (from, found) in points.iter().zip(lidded.form_factors(&points, 1)) {
+        let open = unoccluded(from, &lidded.polygons()[1]).value;
+        assert!(found.value < open - 1e-3, "the lid hides nothing from {from:?}");
+        let alone = lidded.form_factor(from, 1);
+        assert!((found.value - alone.value).abs() <= alone.error_bound + found.error_bound, "{from:?}");
+    }
     let room = cornell_box();
     let points: Vec<DifferentialArea> = (0..25u32)
         .map(|i| DVec3::new(250.0 + f64::from(i % 5), 0.0, 30.0 + 4.0 * f64::from(i / 5)))

@@ -25,6 +25,21 @@ fn a_region_survives_the_round_trip() {
 }
 
 #[test]
+fn every_bit_survives_the_round_trip() {
+    let third = 1.0 / 3.0;
+    let crooked = [[0.1, 5e-324], [third * 1e300, -2e-310], [1.7e308, third], [-third, 1.7e308]];
+    let region = Region::from_rings([crooked], FillRule::NonZero).expect("finite");
+    let polygons = MultiPolygon::from(&region);
+    let mut points: Vec<(f64, f64)> = polygons.0[0].exterior().coords().map(|p| p.x_y()).collect();
+    points.pop();
+    let mut given = crooked.map(|[x, y]| (x, y));
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    given.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert_eq!(points, given);
+    assert_eq!(Region::try_from(&polygons), Ok(region));
+}
+
+#[test]
 fn a_hole_cuts_whatever_its_direction_and_polygons_may_overlap() {
     let holed = polygon!(
         exterior: [(x: 0.0, y: 0.0), (x: 0.0, y: 4.0), (x: 4.0, y: 4.0), (x: 4.0, y: 0.0)],

@@ -54,6 +54,19 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
+    /// A patch emits so much that the light of the scene, or its power, may leave the range of doubles.
+    #[error(
+        "patch {patch}: emission {value} in band {band} is too large for the numbers of this program; give all emissions in \
+         a larger unit"
+    )]
+    Bright {
+        /// The patch's name.
+        patch: String,
+        /// The band.
+        band: usize,
+        /// What was given.
+        value: f64,
+    },
     /// A patch's reflectance or emission has another number of bands than the scene.
     #[error(
         "patch {patch}: {found} bands where the scene has {expected}; give every patch the scene's bands"

@@ -161,8 +161,8 @@ pub enum Fault {
     /// A field of view outside the possible.
     #[error("the angle {0} is not between 0 and 180 degrees; correct it")]
     Angle(f64),
-    /// A ratio that is not positive.
-    #[error("the ratio {0} is not positive; correct it")]
+    /// A ratio of width to height that no picture has.
+    #[error("no picture is {0} times as wide as high; correct the ratio, or the angles")]
     Ratio(f64),
     /// A colour below zero.
     #[error("the colour {0} is negative; give 0 or more")]

@@ -67,7 +67,8 @@ impl<'e> Balance<'e> {
     }
 }
 
-/// The largest magnitude.
+/// The largest magnitude; that of NaN is infinite, so that it is never taken for a small one.
 pub(super) fn largest(values: &[f64]) -> f64 {
-    values.iter().map(|value| value.abs()).fold(0.0, f64::max)
+    let magnitude = |value: &f64| if value.is_nan() { f64::INFINITY } else { value.abs() };
+    values.iter().map(magnitude).fold(0.0, f64::max)
 }

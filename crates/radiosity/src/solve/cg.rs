@@ -15,13 +15,15 @@ pub(super) fn conjugate_gradients(
     residual: &mut [f64],
     mut watch: impl FnMut(&[f64], &[f64], f64) -> ControlFlow<()>,
 ) {
+    let areas = &balance.exchange.areas;
+    let (one, square) = (unit(largest(residual)), unit(largest(areas)));
     let weight = |piece: usize| {
         let rho = balance.reflectance[piece];
-        if rho > 0.0 { balance.exchange.areas[piece] / rho } else { 0.0 }
+        if rho > 0.0 { areas[piece] / square / rho } else { 0.0 }
     };
     let weights: Vec<f64> = (0..x.len()).map(weight).collect();
     let dot = |u: &[f64], v: &[f64]| -> f64 {
-        weights.iter().zip(u.iter().zip(v)).map(|(weight, (u, v))| weight * u * v).sum()
+        weights.iter().zip(u.iter().zip(v)).map(|(weight, (u, v))| weight * (u / one) * (v / one)).sum()
     };
     let mut direction = residual.to_vec();
     let mut length = dot(residual, residual);
@@ -37,4 +39,9 @@ pub(super) fn conjugate_gradients(
         direction.iter_mut().zip(residual.iter()).for_each(|(d, r)| *d = r + turn * *d);
         length = next;
     }
+}
+
+/// The power of two below a magnitude: products of what is measured in it stay in the doubles' range, and no bit changes.
+fn unit(magnitude: f64) -> f64 {
+    f64::from_bits(magnitude.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }

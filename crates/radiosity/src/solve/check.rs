@@ -1,13 +1,27 @@
 //! Refuses scenes that have no solution.
 use crate::{Error, Patch, Scene};
+use std::f64::consts::PI;
 
-/// Checks that every patch has the scene's bands, a reflectance of 0 or more, and emits no negative light. Whether a
-/// reflectance of 1 or more is too much depends on what stands around it: see [`super::rooms`].
+/// Checks that every patch has the scene's bands, a reflectance of 0 or more, and emits no negative light and none beyond
+/// the range of doubles. Whether a reflectance of 1 or more is too much depends on what stands around it: see
+/// [`super::rooms`].
 pub(super) fn check(scene: &Scene) -> Result<(), Error> {
     if scene.patches.is_empty() {
         return Err(Error::NoPatches);
     }
-    scene.patches.iter().try_for_each(|patch| check_patch(patch, scene.bands))
+    scene.patches.iter().try_for_each(|patch| check_patch(patch, scene.bands))?;
+    let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
+    scene.patches.iter().try_for_each(|patch| check_power(patch, area))
+}
+
+/// Checks that the light that such a patch gives, on all surfaces, is a number, and its power: no reflectance below 1 makes
+/// it more than 2^53 times as bright.
+fn check_power(patch: &Patch, area: f64) -> Result<(), Error> {
+    let brightest = 1.0 / f64::EPSILON * 2.0 * PI * area.max(1.0);
+    let beyond = patch.emission.iter().position(|value| !(value * brightest).is_finite());
+    beyond.map_or(Ok(()), |band| {
+        Err(Error::Bright { patch: patch.name.clone(), band, value: patch.emission[band] })
+    })
 }
 
 /// The same for one patch.

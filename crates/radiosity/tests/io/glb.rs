@@ -1,8 +1,8 @@
 //! The binary glTF: its layout, and what a viewer finds in it.
 use crate::samples::{file, node, record, scene};
 use radiosity::expose::Exposure;
-use radiosity::io::gltf::glb;
-use radiosity::{Mesh, Scene};
+use radiosity::io::gltf::{Gltf, glb};
+use radiosity::{Camera, Mesh, Scene};
 use serde_json::Value;
 
 struct Parts {
@@ -91,6 +91,40 @@ fn light_beyond_single_precision_stays_finite() {
 }
 
 #[test]
+fn a_small_thing_far_away_keeps_its_shape_and_place() {
+    // A tenth of the coordinates' own rounding in single precision, which is 1/16.
+    let node = node("n", "<translate>1000000.01 0 0</translate><scale>0.006 0.006 1</scale>", "square");
+    let scene = scene(&file("", &node).replace("0.0254", "1"));
+    let bytes = glb(&record(&scene, [1.0; 3]), Exposure::new(1.0).unwrap()).unwrap();
+    let again = Gltf::from_bytes("far.glb", bytes).scene().unwrap();
+    let relative = again.patches[0].polygon.area() / (0.006 * 0.006) - 1.0;
+    assert!(relative.abs() < 1e-5, "{relative}");
+    let x = again.extent()[0].x;
+    assert!((x - 1_000_000.01).abs() < 1e-7, "{x}");
+}
+
+#[test]
+fn what_single_precision_cannot_hold_is_still_a_file() {
+    let huge = "<scale>1e200 1e200 1</scale>";
+    let camera = Camera {
+        name: "far".into(),
+        position: [0.0, 0.0, 1e200].into(),
+        direction: [0.0, 0.0, -1.0].into(),
+        up: [0.0, 1.0, 0.0].into(),
+        vertical_fov: 1.0,
+        aspect: 1.0,
+    };
+    let mut scene = scene(&file("", &node("n", huge, "square")));
+    scene.cameras.push(camera);
+    for unit in [1e-300, 1.0, 1e300] {
+        scene.asset.unit = unit;
+        let bytes = glb(&record(&scene, [1.0; 3]), Exposure::new(1.0).unwrap()).unwrap();
+        let again = Gltf::from_bytes("far.glb", bytes).scene().unwrap();
+        assert_eq!(again.cameras.len(), 1, "with the unit {unit}");
+    }
+}
+
+#[test]
 fn a_scene_without_patches_is_still_a_file() {
     let (_, _, parts) = written(&file("", ""), 1.0);
     assert!(parts.document.get("meshes").is_none() && parts.binary.is_empty());
@@ -109,7 +143,7 @@ fn a_textured_patch_shows_its_picture_under_what_falls_on_it() {
     assert!(primitives[0]["attributes"]["TEXCOORD_0"].is_null());
     assert!(!primitives[1]["attributes"]["TEXCOORD_0"].is_null());
     // In a picture too: of the eight fields along the front edge every second one is much darker.
-    let camera = radiosity::Camera {
+    let camera = Camera {
         name: "above".into(),
         position: [0.0, -1.75, 10.0].into(),
         direction: [0.0, 0.0, -1.0].into(),

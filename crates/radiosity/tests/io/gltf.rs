@@ -7,9 +7,14 @@ use serde_json::{Value, json};
 
 /// A file of one buffer: four corners of the unit square, and two triangles of them as 16-bit indices.
 fn square() -> Value {
+    square_through([0, 1, 2, 0, 2, 3])
+}
+
+/// The same, with other indices.
+fn square_through(indices: [u16; 6]) -> Value {
     let points = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let mut bytes: Vec<u8> = points.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
-    bytes.extend([0_u16, 1, 2, 0, 2, 3].iter().flat_map(|index| index.to_le_bytes()));
+    bytes.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
     json!({
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -111,6 +116,16 @@ fn strips_and_fans_are_triangles_too() {
         let areas: Vec<f64> = scene.patches.iter().map(|patch| patch.polygon.area()).collect();
         assert_eq!(areas, if mode == 6 { vec![1.0] } else { vec![0.5, 0.5] }, "{mode}");
     }
+}
+
+#[test]
+fn every_second_triangle_of_a_strip_is_turned() {
+    let mut document = square_through([0, 1, 3, 2, 0, 0]);
+    document["meshes"][0]["primitives"][0]["mode"] = json!(5);
+    document["accessors"][1]["count"] = json!(4);
+    let patches = read(&document).patches;
+    let faces: Vec<(f64, f64)> = patches.iter().map(|p| (p.polygon.area(), p.polygon.normal().z)).collect();
+    assert_eq!(faces, [(1.0, 1.0)]);
 }
 
 #[test]

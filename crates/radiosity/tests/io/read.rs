@@ -1,5 +1,5 @@
 //! What the reader makes of good files.
-use crate::samples::{file, geometry, instance, names, node, outline, polylist, primitive, scene};
+use crate::samples::{file, geometry, instance, names, node, outline, polylist, primitive, refusal, scene};
 use radiosity::glam::DVec3;
 use radiosity::inspect::Kind;
 use radiosity::io::collada::Collada;
@@ -325,6 +325,29 @@ fn cameras_look_along_their_minus_z() {
     assert!(((wide.vertical_fov / 2.0).tan() - 0.5).abs() < 1e-12 && wide.aspect == 2.0);
     let both = camera("<xfov>90</xfov><yfov>53.13010235415598</yfov>");
     assert!((both.aspect - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn cameras_that_see_nothing_are_refused_by_line() {
+    let refused = |lens: &str| {
+        let library = format!(
+            "<library_cameras><camera id=\"c\"><optics><technique_common><perspective>{lens}</perspective></technique_common></optics></camera></library_cameras>"
+        );
+        refusal(&file(&library, r##"<node><instance_camera url="#c"/></node>"##))
+    };
+    for angle in ["0", "-1", "180", "5e-324"] {
+        let message = refused(&format!("<yfov>{angle}</yfov>"));
+        assert!(message.starts_with("test.dae:") && message.contains("the angle"), "{message}");
+    }
+    for lens in [
+        "<yfov>45</yfov><aspect_ratio>0</aspect_ratio>",
+        "<yfov>45</yfov><aspect_ratio>1e-310</aspect_ratio>",
+        "<xfov>170</xfov><aspect_ratio>1e-300</aspect_ratio>",
+        "<xfov>179</xfov><yfov>1e-310</yfov>",
+    ] {
+        let message = refused(lens);
+        assert!(message.starts_with("test.dae:") && message.contains("ratio"), "{message}");
+    }
 }
 
 #[test]

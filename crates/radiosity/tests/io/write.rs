@@ -2,7 +2,7 @@
 use crate::samples::{fans, file, geometry, instance, names, node, polylist, scene};
 use radiosity::glam::DVec3;
 use radiosity::io::collada::Collada;
-use radiosity::{Mesh, Scene, scenes};
+use radiosity::{Camera, Mesh, Scene, scenes};
 
 /// The text lit by fans of triangles, coloured by where their vertices are.
 fn lit(text: &str) -> (Scene, String) {
@@ -211,5 +211,22 @@ fn the_cornell_box_lit_keeps_its_names_and_areas() {
     for name in ["floor", "ceiling", "left", "light", "short-top", "tall-4"] {
         let (old, new) = (area(&before, name), area(&after, name));
         assert!((old - new).abs() < 1e-9 * old, "{name}: {old} {new}");
+    }
+}
+
+#[test]
+fn cameras_of_any_angle_come_back() {
+    let mut before = scene(&file("", ""));
+    for fov in [1e-320, 1e-45, 0.7, 3.1, std::f64::consts::PI * (1.0 - f64::EPSILON)] {
+        before.cameras = vec![Camera {
+            name: "eye".into(),
+            position: DVec3::new(1.0, 2.0, 3.0),
+            direction: DVec3::X,
+            up: DVec3::Z,
+            vertical_fov: fov,
+            aspect: 1.5,
+        }];
+        let camera = Collada::of(&before).scene().unwrap().cameras.remove(0);
+        assert!((camera.vertical_fov - fov).abs() <= 1e-9 * fov, "{fov} became {}", camera.vertical_fov);
     }
 }

@@ -2,7 +2,7 @@
 use crate::build::{cube, patch, room, scene, solved};
 use radiosity::formfactor::PlanarPolygon;
 use radiosity::glam::DVec3;
-use radiosity::{Error, Options, Scene, Solution, solve};
+use radiosity::{Error, Method, Options, Scene, Solution, solve};
 use std::ops::ControlFlow;
 
 fn options(elements: usize) -> Options {
@@ -133,6 +133,39 @@ fn emission_may_be_1e_minus_30_or_1e30() {
             assert!((a * power - b).abs() <= 1e-5 * b.abs(), "{a} {b}");
         }
     }
+}
+
+#[test]
+fn the_unit_of_power_changes_no_bit() {
+    let shine = |method: Method, emission: f64| {
+        let mut lit = cube(1, 0.5, 0.0);
+        lit.patches[0].emission[0] = emission;
+        let solution = solved(&lit, &Options { method, ..options(60) });
+        assert!(solution.converged, "{method:?} {emission}");
+        solution.radiosity
+    };
+    for method in [Method::Shoot, Method::Matrix, Method::Cg, Method::Gmres] {
+        let one = shine(method, 1.0);
+        // Their squares are beyond the range of doubles.
+        for unit in [2f64.powi(-700), 2f64.powi(700)] {
+            let scaled: Vec<f64> = one.iter().map(|b| b * unit).collect();
+            assert_eq!(shine(method, unit), scaled, "{method:?}");
+        }
+    }
+}
+
+#[test]
+fn light_beyond_the_range_is_refused_by_name() {
+    let refused = |scene: &Scene| solve(scene, &options(50), |_| ControlFlow::Continue(())).unwrap_err();
+    let mut bright = floor_and_lamp();
+    bright.patches[1].emission[0] = 1e300;
+    assert!(matches!(refused(&bright), Error::Bright { patch, band: 0, value: 1e300 } if patch == "lamp"));
+    let mut wide = moved(&floor_and_lamp(), |p| 1e50 * p);
+    wide.patches[1].emission[0] = 1e200;
+    assert!(matches!(refused(&wide), Error::Bright { .. }));
+    wide.patches[1].emission[0] = 1e180;
+    let solution = solved(&wide, &options(50));
+    assert!(solution.ledger.emitted[0].is_finite() && solution.radiosity.iter().all(|b| b.is_finite()));
 }
 
 #[test]

@@ -5,6 +5,7 @@ use super::walk::{Sight, name_of};
 use crate::Camera;
 use crate::inspect::Finding;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// The cameras of the scene; others than perspective ones draw a warning.
 pub(super) fn cameras<'a>(
@@ -51,21 +52,28 @@ fn lens<'a>(file: &File<'a>, perspective: Node<'a>) -> Result<(f64, f64), Error>
         (None, Some(vertical), None) => (vertical, 4.0 / 3.0),
         (None, None, _) => return Err(file.fault(perspective, Fault::Child("yfov"))),
     };
-    Ok((2.0 * tangent.atan(), aspect))
+    let fov = 2.0 * tangent.atan();
+    // The tangents' quotients may leave the range.
+    let is_open = fov > 0.0 && fov < PI && aspect.is_normal();
+    if is_open { Ok((fov, aspect)) } else { Err(file.fault(perspective, Fault::Ratio(aspect))) }
 }
 
 /// The tangent of half the angle that a child states in degrees.
 fn half_tangent<'a>(file: &File<'a>, lens: Node<'a>, name: &'static str) -> Result<Option<f64>, Error> {
     let Some(element) = child(lens, name) else { return Ok(None) };
     let [degrees] = file.array(element)?;
-    if degrees > 0.0 && degrees < 180.0 {
-        return Ok(Some((degrees.to_radians() / 2.0).tan()));
-    }
-    Err(file.fault(element, Fault::Angle(degrees)))
+    let tangent = (degrees.to_radians() / 2.0).tan();
+    // One too small to halve has no picture either.
+    let is_open = degrees < 180.0 && tangent > 0.0;
+    if is_open { Ok(Some(tangent)) } else { Err(file.fault(element, Fault::Angle(degrees))) }
 }
 
 fn ratio<'a>(file: &File<'a>, lens: Node<'a>) -> Result<Option<f64>, Error> {
     let Some(element) = child(lens, "aspect_ratio") else { return Ok(None) };
     let [ratio] = file.array(element)?;
-    if ratio > 0.0 { Ok(Some(ratio)) } else { Err(file.fault(element, Fault::Ratio(ratio))) }
+    if ratio.is_normal() && ratio > 0.0 {
+        Ok(Some(ratio))
+    } else {
+        Err(file.fault(element, Fault::Ratio(ratio)))
+    }
 }

@@ -76,7 +76,7 @@ fn lens((index, camera): (usize, &Camera)) -> String {
       <optics>
         <technique_common>
           <perspective>
-            <yfov>{:.9}</yfov>
+            <yfov>{}</yfov>
             <aspect_ratio>{}</aspect_ratio>
             <znear>0.01</znear>
             <zfar>10000</zfar>
@@ -85,9 +85,15 @@ fn lens((index, camera): (usize, &Camera)) -> String {
       </optics>
     </camera>
 "#,
-        camera.vertical_fov.to_degrees(),
+        angle(camera.vertical_fov),
         decimal(&camera.aspect)
     )
+}
+
+/// Radians in degrees, to eleven digits: 45 stays 45, the smallest angle is not 0, the largest not 180.
+fn angle(radians: f64) -> String {
+    let rounded = format!("{:.10e}", radians.to_degrees().min(179.999_999_99));
+    decimal(&rounded.parse().expect("a number"))
 }
 
 /// A matrix, row by row, since not every program reads `<lookat>`: a camera looks along its −z with y up.

@@ -1,11 +1,15 @@
 //! glTF 2.0 binary: the lit mesh for any viewer.
 use super::super::Error;
-use super::buffer::{Buffer, container};
+use super::buffer::{Buffer, container, single};
 use super::lit::{materials, primitives};
 use crate::expose::Exposure;
 use crate::{Asset, Camera, Record};
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
+
+/// The lengths that readers know, in single precision.
+const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
+const LARGEST: f64 = f32::MAX as f64;
 
 /// The bytes of a GLB file: one mesh with `POSITION`, `COLOR_0` (exposed, linear) and `_RADIOSITY` (red, green and blue,
 /// W/m², as it is), unlit materials, and the scene's cameras.
@@ -48,12 +52,17 @@ pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, Error> {
     container(&document, buffer.bytes)
 }
 
-/// The middle of the box around some points, and half the box's diagonal.
+/// The middle of the box around some points, as readers will have it, in single precision; and half the box's diagonal.
 fn ball(points: &[DVec3]) -> (DVec3, f64) {
     let boxes = points.iter().map(|point| (*point, *point));
     let around = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     let (low, high) = around.unwrap_or((DVec3::ZERO, DVec3::ONE));
-    (low.midpoint(high), (high - low).length() / 2.0)
+    (held(low.midpoint(high)), (high / 2.0 - low / 2.0).length())
+}
+
+/// A place in single precision.
+fn held(place: DVec3) -> DVec3 {
+    place.map(|coordinate| f64::from(single(coordinate)))
 }
 
 /// From the file's units and axes to metres with y up; right stays right where the format has a right.
@@ -65,11 +74,11 @@ fn upright(asset: &Asset) -> DMat4 {
     } else {
         DMat3::IDENTITY
     };
-    DMat4::from_mat3(turn * asset.unit)
+    DMat4::from_mat3(turn * asset.unit.clamp(SMALLEST, LARGEST))
 }
 
 fn lens(camera: &Camera, near: f64) -> Value {
-    let near = if near > 0.0 { near } else { 1e-3 };
+    let near = near.clamp(SMALLEST, LARGEST);
     json!({
         "name": camera.name,
         "type": "perspective",
@@ -82,6 +91,6 @@ fn camera_node(index: usize, camera: &Camera) -> Value {
     let back = -camera.direction.normalize();
     let right = camera.up.cross(back).normalize();
     let turn = DMat4::from_mat3(DMat3::from_cols(right, back.cross(right), back));
-    let matrix = DMat4::from_translation(camera.position) * turn;
+    let matrix = DMat4::from_translation(held(camera.position)) * turn;
     json!({"name": camera.name, "camera": index, "matrix": matrix.to_cols_array()})
 }
