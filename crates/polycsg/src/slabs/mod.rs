@@ -77,6 +77,8 @@ pub(crate) struct Slabs {
     open: Vec<Bar>,
     spans: Vec<Span>,
     rungs: Vec<Span>,
+    /// The spans' heights at the left side and their places.
+    keys: Vec<(f64, u32)>,
     /// The spans that follow a rung, by its place.
     followers: Vec<(usize, Bar)>,
     /// The rungs that start in the slab's left point, and those that end in its right one.

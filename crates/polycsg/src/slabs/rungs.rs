@@ -32,10 +32,28 @@ impl Slabs {
             }
         }
         self.open.truncate(kept);
-        self.spans.sort_unstable_by(|a, b| {
-            let by_side = |side: usize| a.heights[side].total_cmp(&b.heights[side]);
-            by_side(0).then_with(|| by_side(1)).then(a.bar.id.cmp(&b.bar.id))
+        self.sort_spans();
+    }
+
+    /// Sorts keys, which are smaller than spans.
+    fn sort_spans(&mut self) {
+        let Slabs { spans, rungs, keys, .. } = self;
+        keys.clear();
+        keys.extend(spans.iter().zip(0..).map(|(span, place)| (span.heights[0], place)));
+        keys.sort_unstable_by(|a, b| {
+            let rest = |key: &(f64, u32)| {
+                let span = &spans[key.1 as usize];
+                (span.heights[1], span.bar.id)
+            };
+            let by_rest = || {
+                let (a, b) = (rest(a), rest(b));
+                a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+            };
+            a.0.total_cmp(&b.0).then_with(by_rest)
         });
+        rungs.clear();
+        rungs.extend(keys.iter().map(|key| spans[key.1 as usize]));
+        std::mem::swap(spans, rungs);
     }
 
     /// Moves as many spans as may be, none of which meets another, to the rungs: the longest increasing subsequence by
