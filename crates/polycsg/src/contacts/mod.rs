@@ -32,6 +32,10 @@ const NONE: u32 = u32::MAX;
 /// So many contacts are quickly sorted at once.
 const FEW: usize = 24;
 
+/// More contacts than that, and buckets of so many bits of edges, are for the caches' sake.
+const MANY: usize = 1 << 16;
+const PART: u32 = 11;
+
 /// All contacts, sorted by edge and along it, and the nodes.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
@@ -137,14 +141,22 @@ impl Contacts {
 
     /// Moves the contacts to their edges' places, or near them: a counting sort by some leading bits of the edge, in place.
     ///
-    /// A few are one bucket.
+    /// A few are one bucket; many are moved to the right part of memory first.
     fn bucket(&mut self, edge_count: usize) {
         self.starts.clear();
         if self.found.len() <= FEW {
             return self.starts.extend([0, index(self.found.len())]);
         }
         let shift = (edge_count / (self.found.len() + 1)).max(1).ilog2();
+        if self.found.len() > MANY {
+            self.bucket_by(edge_count, shift + PART);
+        }
+        self.bucket_by(edge_count, shift);
+    }
+
+    fn bucket_by(&mut self, edge_count: usize, shift: u32) {
         let bucket_of = |contact: &Contact| (contact.edge >> shift) as usize;
+        self.starts.clear();
         self.starts.resize((edge_count >> shift) + 2, 0);
         for contact in &self.found {
             self.starts[bucket_of(contact) + 1] += 1;
