@@ -34,7 +34,7 @@ const FEW: usize = 24;
 
 /// More contacts than that, and buckets of so many bits of edges, are for the caches' sake.
 const MANY: usize = 1 << 16;
-const PART: u32 = 11;
+const PART: u32 = 8;
 
 /// All contacts, sorted by edge and along it, and the nodes.
 #[derive(Debug, Default)]
