@@ -78,9 +78,13 @@ impl Outline {
             }
             self.unsorted[segment as usize][0] = index(self.numbered.len() - 1);
         }
-        // Each point where a walk arrives is also left: the ends are found among the starts.
-        for (edge, [_, end]) in self.unsorted.iter_mut().zip(segments) {
-            edge[1] = index(self.numbered.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
+        // Each point where a walk arrives is also left: the ends are found among the starts, most of them beside their own.
+        for (i, [_, end]) in segments.enumerate() {
+            let beside = [i + 1, i.wrapping_sub(1)].into_iter().filter_map(|j| self.unsorted.get(j));
+            let beside = beside.map(|edge| edge[0]).find(|&number| self.numbered[number as usize] == end);
+            let search =
+                || index(self.numbered.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
+            self.unsorted[i][1] = beside.unwrap_or_else(search);
         }
         self.unsorted.retain(|edge| edge[0] != edge[1]);
         if may_coincide {
