@@ -64,6 +64,35 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Tips a few ulps beside an edge that others cross, so that rounding moves it: at all slopes, and at its end.
+    #[test]
+    fn agree_on_tips_beside_an_edge(
+        (x, run) in (0.3..0.7, -30.0..-1.0_f64),
+        tips in prop::collection::vec((0.0..1.01, -3..4_i8, -0.2..0.2_f64), 1..6),
+        crossings in prop::collection::vec((0.05..0.95, -0.1..0.1_f64), 1..4),
+        turned in any::<bool>(),
+    ) {
+        let along = |t: f64| DVec2::new(x + t * run.exp2(), 0.1 + 0.8 * t);
+        let mut rings = vec![vec![along(0.0), along(1.0), DVec2::new(0.0, 0.45)]];
+        rings.extend(tips.iter().map(|&(t, ulps, rise)| {
+            let side = if ulps < 0 { -0.25 } else { 0.25 };
+            let tip = along(t) + DVec2::new(f64::from(ulps) * f64::EPSILON / 4.0, 0.0);
+            vec![tip, tip + DVec2::new(side, rise), tip + DVec2::new(side, rise - 0.01)]
+        }));
+        rings.extend(crossings.iter().map(|&(t, rise)| {
+            let p = along(t);
+            vec![p - DVec2::new(0.2, rise), p + DVec2::new(0.2, rise), p + DVec2::new(0.2, rise - 0.01)]
+        }));
+        let turn = |p: &DVec2| if turned { p.perp() } else { *p };
+        let rings: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(turn).collect()).collect();
+        check(&rings, FillRule::EvenOdd);
+        check(&rings, FillRule::NonZero);
+    }
+}
+
 /// Without the boxes' shortcut.
 fn boundless() -> Scratch {
     let mut scratch = Scratch::default();
