@@ -2,7 +2,8 @@
 //!
 //! All pairs of edges whose boxes meet are looked at when contacts are found, and rounded pieces stay in their edges'
 //! boxes; pairs that are not clear of one another (see [`Margins`]) are noted here, by tests that err on the safe side. When
-//! no piece of theirs meets another after rounding, nothing on the whole boundary does.
+//! no piece of theirs meets another after rounding, nothing on the whole boundary does. [`Slabs`] report fewer pairs than
+//! boxes; what else comes near an edge is looked for there.
 
 use crate::chains::LONGEST;
 use crate::contacts::{Contact, Met, Partner};

@@ -70,7 +70,7 @@ impl Slabs {
         let mut left = ENDS_PER_EDGE * self.bars.len();
         for &bar in &self.bars {
             let [a, b] = bar.ranks.map(|rank| self.ends[rank as usize]);
-            if (b.y - a.y).abs() <= STEEP * (b.x - a.x) {
+            if (b.y - a.y).abs() / STEEP <= b.x - a.x {
                 continue;
             }
             let ranks = self.ranks_beside(bar, margins.close);
