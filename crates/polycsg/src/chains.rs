@@ -3,7 +3,7 @@
 //! ```text
 //!        ______            Lexicographically monotone: x never turns back (upright edges lead upward or downward,
 //!   ____/  |   \___        all of a chain the same way). So the edges of one chain meet in their common ends only,
-//!   chain 1|   chain 2     at every abscissa a chain has one edge, and two chains are compared by one pass along x.
+//!   chain 1|   chain 2     at every abscissa a chain has one edge, and of two chains only what lies in both boxes meets.
 //! ```
 
 use crate::predicates::{Segment, lexicographic};
@@ -69,33 +69,46 @@ impl Chain {
             return visit(self.first, other.first);
         }
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
-        let mut first = 0;
-        for i in 0..self.len() {
-            let (a, b) = (self.point(points, i), self.point(points, i + 1));
-            if b.x < low.x {
-                continue;
-            }
-            if a.x > high.x {
-                return;
-            }
-            let (bottom, top) = (a.y.min(b.y), a.y.max(b.y));
-            if bottom > high.y || top < low.y {
-                continue;
-            }
-            while first < other.len() && other.point(points, first + 1).x < a.x {
-                first += 1;
-            }
-            for j in first..other.len() {
-                let (c, d) = (other.point(points, j), other.point(points, j + 1));
-                if c.x > b.x {
-                    break;
-                }
-                if c.y.min(d.y) <= top && c.y.max(d.y) >= bottom {
-                    visit(self.edge(i), other.edge(j));
+        let (mut these, those) =
+            (self.edges_within(points, low, high), other.edges_within(points, low, high));
+        while these != 0 {
+            let e = self.first + these.trailing_zeros();
+            these &= these - 1;
+            let (low, high) = bounds(points[e as usize], points[e as usize + 1]);
+            let mut left = those;
+            while left != 0 {
+                let f = other.first + left.trailing_zeros();
+                left &= left - 1;
+                if meets(points[f as usize], points[f as usize + 1], low, high) {
+                    visit(e, f);
                 }
             }
         }
     }
+
+    /// The edges whose boxes meet a box, as bits in the order of the ring.
+    #[inline]
+    fn edges_within(&self, points: &[DVec2], low: DVec2, high: DVec2) -> u32 {
+        if self.len() == 1 {
+            return 1;
+        }
+        let ends = points[self.first as usize..=self.last as usize].windows(2);
+        (0..).zip(ends).fold(0, |edges, (i, ends)| edges | u32::from(meets(ends[0], ends[1], low, high)) << i)
+    }
+}
+
+/// The box around two points.
+#[inline]
+fn bounds(a: DVec2, b: DVec2) -> (DVec2, DVec2) {
+    (a.min(b), a.max(b))
+}
+
+/// Whether the box around two points meets another one.
+#[inline]
+fn meets(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> bool {
+    let (left, right) = if a.x < b.x { (a.x, b.x) } else { (b.x, a.x) };
+    let (bottom, top) = if a.y < b.y { (a.y, b.y) } else { (b.y, a.y) };
+    (left <= high.x) & (right >= low.x) & (bottom <= high.y) & (top >= low.y)
 }
 
 /// The chains of rings, ring by ring.
