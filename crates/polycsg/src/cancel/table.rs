@@ -44,8 +44,8 @@ struct Cells {
 
 impl Cells {
     fn over(points: &[DVec2]) -> Cells {
-        let low = points.iter().fold(DVec2::MAX, |low, &p| low.min(p));
-        let high = points.iter().fold(DVec2::MIN, |high, &p| high.max(p));
+        let (low, high) =
+            points.iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
         let columns = index((points.len() / EDGES_PER_CELL).isqrt() + 1);
         // Halves, so that the width of any finite interval is finite; of no width at all, one cell.
         let factor = f64::from(columns) / (high * 0.5 - low * 0.5);
