@@ -9,10 +9,11 @@
 //! ```
 //!
 //! Whether it pays is told by the edges at a few points, chosen by their digits, so that the order of the input, its
-//! scale and quarter turns do not matter. A vertex that is left by no edge is gone: it is not put into an edge that it
-//! touches.
+//! scale and quarter turns do not matter.
 
+mod cells;
 mod table;
+mod touched;
 
 use crate::copies::mixed;
 use crate::edges::{Edges, Ring};
@@ -20,7 +21,9 @@ use crate::predicates::lexicographic;
 use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
+use std::ops::Range;
 use table::Table;
+use touched::Touched;
 
 /// Fewer edges are not worth a look.
 const FEW: usize = 256;
@@ -44,6 +47,7 @@ pub(crate) struct Cancel {
     table: Table,
     /// Per edge whether it has cancelled.
     gone: Vec<bool>,
+    touched: Touched,
     /// The runs of rings of which edges are gone, ring by ring, and their order by counter and first point.
     runs: Vec<Run>,
     order: Vec<u32>,
@@ -58,10 +62,12 @@ impl Cancel {
     pub(crate) fn cancel(&mut self, edges: &mut Edges) {
         if edges.len() >= FEW && self.pays(edges) {
             self.table.find(edges, &mut self.gone);
-            self.find_runs(edges);
-            self.sort_runs(edges);
-            self.link(edges);
-            std::mem::swap(edges, &mut self.linked);
+            if self.touched.find(edges, self.table.cells, &self.gone) {
+                self.find_runs(edges);
+                self.sort_runs(edges);
+                self.link(edges);
+                std::mem::swap(edges, &mut self.linked);
+            }
         }
     }
 
@@ -121,7 +127,7 @@ impl Cancel {
         let mut run = 0;
         for (ring, about) in (0..).zip(edges.rings()) {
             if !self.gone[about.start as usize..about.end as usize].contains(&true) {
-                self.linked.add_edges(edges, about.start..about.end);
+                self.add_edges(edges, about.start..about.end);
                 self.linked.close(about.counter());
             }
             while self.runs.get(run).is_some_and(|run| run.ring == ring) {
@@ -133,6 +139,16 @@ impl Cancel {
         }
     }
 
+    /// Adds edges to a new ring, cut at the vertices that touch them.
+    fn add_edges(&mut self, edges: &Edges, mut span: Range<u32>) {
+        for &(edge, point) in self.touched.inside(span.clone()) {
+            self.linked.add_edges(edges, span.start..edge + 1);
+            self.linked.add_edge(point, edges.origin(edge));
+            span.start = edge + 1;
+        }
+        self.linked.add_edges(edges, span);
+    }
+
     /// Walks from a run to any other that starts where it ends, and so on until it is back.
     fn walk(&mut self, edges: &Edges, first: u32, ring: Ring) {
         let start = edges.point(self.runs[first as usize].first);
@@ -142,8 +158,8 @@ impl Cancel {
             let Run { ring, first, count } = self.runs[run as usize];
             let about = edges.rings()[ring as usize];
             let before_end = count.min(about.end - first);
-            self.linked.add_edges(edges, first..first + before_end);
-            self.linked.add_edges(edges, about.start..about.start + count - before_end);
+            self.add_edges(edges, first..first + before_end);
+            self.add_edges(edges, about.start..about.start + count - before_end);
             let last = if count > before_end { about.start + count - before_end } else { first + count };
             let end = edges.point(last);
             if end == start {

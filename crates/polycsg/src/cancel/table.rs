@@ -1,16 +1,12 @@
 //! A hash table of edges by their ends, a part of it for each cell of the plane: what lies close in the plane is looked
 //! up close in memory.
 
+use super::cells::Cells;
 use crate::copies::mixed;
 use crate::edges::Edges;
-use crate::truth::index;
-use glam::DVec2;
 
 /// No edge.
 const NONE: u32 = u32::MAX;
-
-/// So many edges are in a cell on the average.
-const EDGES_PER_CELL: usize = 64;
 
 /// Edges with the same ends and counter: one of them, and a list of those that have not cancelled, all in one direction.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +20,7 @@ struct Kind {
 pub(super) struct Table {
     /// Whether all rings change one counter.
     alike: bool,
-    cells: Cells,
+    pub(super) cells: Cells,
     /// Per edge its cell; per cell where its part of the table starts.
     cell: Vec<u32>,
     starts: Vec<u32>,
@@ -32,35 +28,6 @@ pub(super) struct Table {
     kinds: Vec<Kind>,
     /// Per edge the next in its kind's list.
     next: Vec<u32>,
-}
-
-/// A grid over the box of all points.
-#[derive(Clone, Copy, Debug, Default)]
-struct Cells {
-    half_low: DVec2,
-    factor: DVec2,
-    columns: u32,
-}
-
-impl Cells {
-    fn over(points: &[DVec2]) -> Cells {
-        let (low, high) =
-            points.iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
-        let columns = index((points.len() / EDGES_PER_CELL).isqrt() + 1);
-        // Halves, so that the width of any finite interval is finite; of no width at all, one cell.
-        let factor = f64::from(columns) / (high * 0.5 - low * 0.5);
-        let factor = DVec2::select(factor.is_finite_mask(), factor, DVec2::ZERO);
-        Cells { half_low: low * 0.5, factor, columns }
-    }
-
-    /// The same for both directions of an edge.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
-    fn of(self, [a, b]: [DVec2; 2]) -> u32 {
-        let place = (a * 0.25 + b * 0.25 - self.half_low) * self.factor;
-        let [column, row] = [place.x as u32, place.y as u32].map(|i| i.min(self.columns - 1));
-        row * self.columns + column
-    }
 }
 
 impl Table {
@@ -88,7 +55,7 @@ impl Table {
         self.cell.clear();
         self.cell.resize(edges.len(), 0);
         self.starts.clear();
-        self.starts.resize(self.cells.columns.pow(2) as usize + 1, 0);
+        self.starts.resize(self.cells.len() + 1, 0);
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
             for edge in ring.start..ring.end {
                 let cell = self.cells.of(edges.segment(edge));

@@ -100,6 +100,12 @@ impl Edges {
         self.origins.extend(edges.map(|edge| others.origin(edge)));
     }
 
+    /// Adds an edge by its start.
+    pub(crate) fn add_edge(&mut self, start: DVec2, origin: Origin) {
+        self.points.push(start);
+        self.origins.push(origin);
+    }
+
     /// Closes the ring whose edges were added, and lets them change a counter.
     pub(crate) fn close(&mut self, counter: Option<u32>) {
         let start = index(self.ring.len());
@@ -171,7 +177,8 @@ impl Edges {
         })
     }
 
-    /// Lets rings stand for their copies too, and drops these.
+    /// Lets rings stand for their copies too, and drops these; where they cancel, a ring that changes nothing is left, as its
+    /// vertices count.
     pub(crate) fn unite(&mut self, copies: &[Copy]) {
         let mut dropped = vec![false; self.rings.len()];
         for copy in copies {
@@ -186,7 +193,6 @@ impl Edges {
                 }
                 _ => of.winds += winds,
             }
-            dropped[copy.of as usize] = of.winds == 0 && of.also == END;
         }
         self.drop_rings(&dropped);
     }

@@ -1,0 +1,116 @@
+//! Vertices that are gone but touch an edge that is left: they are vertices of it from then on, as they are where nothing
+//! cancels.
+
+use super::cells::Cells;
+use crate::edges::Edges;
+use crate::predicates::{Side, is_inside, lexicographic, side};
+use glam::DVec2;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// Edges that are left may touch so many cells each, on the average, and some more.
+const CELLS_PER_EDGE: usize = 4;
+const MORE: usize = 1000;
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(super) struct Touched {
+    /// Edges that are left and points inside them, in order along each.
+    inside: Vec<(u32, DVec2)>,
+    /// Per cell where its edges start in `near`: those that are left and whose boxes touch it.
+    starts: Vec<u32>,
+    near: Vec<u32>,
+}
+
+impl Touched {
+    /// Finds them; false where the edges that are left are too long for that.
+    pub(super) fn find(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
+        let left = (0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge);
+        let left = left.filter(|&edge| edges.ring(edge).end != edge);
+        let in_time = self.list(edges, cells, left, gone.len());
+        if in_time {
+            self.look(edges, cells, gone);
+        }
+        in_time
+    }
+
+    /// The points inside some edges, by edge and in order along each.
+    pub(super) fn inside(&self, span: Range<u32>) -> &[(u32, DVec2)] {
+        let first = self.inside.partition_point(|(edge, _)| *edge < span.start);
+        let count = self.inside[first..].partition_point(|(edge, _)| *edge < span.end);
+        &self.inside[first..first + count]
+    }
+
+    /// Lists the edges that are left cell by cell.
+    fn list(
+        &mut self,
+        edges: &Edges,
+        cells: Cells,
+        left: impl Iterator<Item = u32> + Clone,
+        count: usize,
+    ) -> bool {
+        let touched = |edge: u32| {
+            let [a, b] = edges.segment(edge);
+            cells.within(a.min(b), a.max(b)).flatten().map(|cell| cell as usize)
+        };
+        self.starts.clear();
+        self.starts.resize(cells.len() + 2, 0);
+        let mut room = MORE + CELLS_PER_EDGE * count;
+        for edge in left.clone() {
+            for cell in touched(edge) {
+                if room == 0 {
+                    return false;
+                }
+                room -= 1;
+                self.starts[cell + 2] += 1;
+            }
+        }
+        for cell in 2..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        self.near.clear();
+        self.near.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
+        for edge in left {
+            for cell in touched(edge) {
+                self.near[self.starts[cell + 1] as usize] = edge;
+                self.starts[cell + 1] += 1;
+            }
+        }
+        true
+    }
+
+    /// Looks at each vertex between two gone edges of its ring.
+    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) {
+        self.inside.clear();
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            let mut before = gone[ring.end as usize - 1];
+            for vertex in ring.start..ring.end {
+                let after = gone[vertex as usize];
+                if before && after {
+                    self.look_at(edges, cells, edges.point(vertex));
+                }
+                before = after;
+            }
+        }
+        let forward = |edge: u32| {
+            let [start, end] = edges.segment(edge);
+            lexicographic(start, end)
+        };
+        self.inside.sort_unstable_by(|(e, p), (f, q)| {
+            let along =
+                || if forward(*e) == Ordering::Less { lexicographic(*p, *q) } else { lexicographic(*q, *p) };
+            e.cmp(f).then_with(along)
+        });
+        self.inside.dedup();
+    }
+
+    fn look_at(&mut self, edges: &Edges, cells: Cells, p: DVec2) {
+        let cell = cells.at(p) as usize;
+        for &edge in &self.near[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+            let [a, b] = edges.segment(edge);
+            if is_inside([a, b], p) && side(a, b, p) == Side::On {
+                self.inside.push((edge, p));
+            }
+        }
+    }
+}
