@@ -1,8 +1,9 @@
 //! A grid over all edges.
 
-use crate::predicates::Segment;
+use crate::predicates::{Segment, lexicographic};
 use crate::truth::index;
 use glam::DVec2;
+use std::cmp::Ordering;
 use std::ops::Range;
 
 /// So many edges are in a cell on the average.
@@ -32,35 +33,30 @@ impl Cells {
         self.columns.pow(2) as usize
     }
 
-    /// The cell of an edge's middle, the same for both directions.
+    /// The cell of an edge's smaller end, the same for both directions.
     #[inline]
     pub(super) fn of(self, [a, b]: Segment) -> u32 {
-        self.at_half(a * 0.25 + b * 0.25)
+        self.at(if lexicographic(a, b) == Ordering::Less { a } else { b })
     }
 
     /// The cell of a point.
     #[inline]
     pub(super) fn at(self, p: DVec2) -> u32 {
-        self.at_half(p * 0.5)
+        let [column, row] = self.place(p);
+        row * self.columns + column
     }
 
     /// The cells that a box touches, row by row.
     pub(super) fn within(self, low: DVec2, high: DVec2) -> impl Iterator<Item = Range<u32>> {
-        let ([left, bottom], [right, top]) = (self.place(low * 0.5), self.place(high * 0.5));
+        let ([left, bottom], [right, top]) = (self.place(low), self.place(high));
         (bottom..=top).map(move |row| row * self.columns + left..row * self.columns + right + 1)
-    }
-
-    #[inline]
-    fn at_half(self, half: DVec2) -> u32 {
-        let [column, row] = self.place(half);
-        row * self.columns + column
     }
 
     /// Column and row: weakly monotone in the coordinates.
     #[inline]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
-    fn place(self, half: DVec2) -> [u32; 2] {
-        let place = (half - self.half_low) * self.factor;
+    fn place(self, p: DVec2) -> [u32; 2] {
+        let place = (p * 0.5 - self.half_low) * self.factor;
         [place.x as u32, place.y as u32].map(|i| i.min(self.columns - 1))
     }
 }

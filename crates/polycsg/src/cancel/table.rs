@@ -20,7 +20,7 @@ struct Kind {
 pub(super) struct Table {
     /// Whether all rings change one counter.
     alike: bool,
-    pub(super) cells: Cells,
+    cells: Cells,
     /// Per edge its cell; per cell where its part of the table starts.
     cell: Vec<u32>,
     starts: Vec<u32>,
@@ -47,6 +47,16 @@ impl Table {
                 key = next_key;
             }
         }
+    }
+
+    pub(super) fn cells(&self) -> Cells {
+        self.cells
+    }
+
+    /// Of each kind of edges with their smaller end in a cell one.
+    pub(super) fn edges_in(&self, cell: u32) -> impl Iterator<Item = u32> {
+        let [start, end] = [cell, cell + 1].map(|cell| self.starts[cell as usize] as usize);
+        self.kinds[start..end].iter().map(|kind| kind.one).filter(|&edge| edge != NONE)
     }
 
     /// Gives each cell two places for each of its edges.

@@ -2,8 +2,10 @@
 //! cancels.
 
 use super::cells::Cells;
+use super::table::Table;
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
+use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -24,12 +26,13 @@ pub(super) struct Touched {
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long for that.
-    pub(super) fn find(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
+    pub(super) fn find(&mut self, edges: &Edges, table: &Table, gone: &[bool]) -> bool {
+        let cells = table.cells();
         let left = (0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge);
         let left = left.filter(|&edge| edges.ring(edge).end != edge);
         let in_time = self.list(edges, cells, left, gone.len());
         if in_time {
-            self.look(edges, cells, gone);
+            self.look(edges, table, gone);
         }
         in_time
     }
@@ -79,38 +82,54 @@ impl Touched {
         true
     }
 
-    /// Looks at each vertex between two gone edges of its ring.
-    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) {
+    /// Looks at all smaller ends of edges, and at the vertices between two gone edges that are the larger end of both.
+    fn look(&mut self, edges: &Edges, table: &Table, gone: &[bool]) {
         self.inside.clear();
-        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
-            let mut before = gone[ring.end as usize - 1];
-            for vertex in ring.start..ring.end {
-                let after = gone[vertex as usize];
-                if before && after {
-                    self.look_at(edges, cells, edges.point(vertex));
+        for cell in 0..index(self.starts.len() - 2) {
+            if self.starts[cell as usize] < self.starts[cell as usize + 1] {
+                for edge in table.edges_in(cell) {
+                    let [a, b] = edges.segment(edge);
+                    self.look_at(edges, cell, if rises(edges, edge) { a } else { b });
                 }
-                before = after;
             }
         }
-        let forward = |edge: u32| {
-            let [start, end] = edges.segment(edge);
-            lexicographic(start, end)
-        };
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            let span = ring.start as usize..ring.end as usize;
+            let points = &edges.points()[span.start..=span.end];
+            let (mut before, mut rose) = (gone[span.end - 1], rises(edges, ring.end - 1));
+            for (pair, &gone) in points.windows(2).zip(&gone[span]) {
+                let rises = pair[0].x < pair[1].x || (pair[0].x == pair[1].x && pair[0].y < pair[1].y);
+                if before & gone & rose & !rises {
+                    self.look_at(edges, table.cells().at(pair[0]), pair[0]);
+                }
+                (before, rose) = (gone, rises);
+            }
+        }
+        self.sort(edges);
+    }
+
+    fn sort(&mut self, edges: &Edges) {
         self.inside.sort_unstable_by(|(e, p), (f, q)| {
-            let along =
-                || if forward(*e) == Ordering::Less { lexicographic(*p, *q) } else { lexicographic(*q, *p) };
+            let along = || if rises(edges, *e) { lexicographic(*p, *q) } else { lexicographic(*q, *p) };
             e.cmp(f).then_with(along)
         });
         self.inside.dedup();
     }
 
-    fn look_at(&mut self, edges: &Edges, cells: Cells, p: DVec2) {
-        let cell = cells.at(p) as usize;
-        for &edge in &self.near[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+    fn look_at(&mut self, edges: &Edges, cell: u32, p: DVec2) {
+        let [start, end] = [cell, cell + 1].map(|cell| self.starts[cell as usize] as usize);
+        for &edge in &self.near[start..end] {
             let [a, b] = edges.segment(edge);
             if is_inside([a, b], p) && side(a, b, p) == Side::On {
                 self.inside.push((edge, p));
             }
         }
     }
+}
+
+/// Whether an edge starts in its smaller end.
+#[inline]
+fn rises(edges: &Edges, edge: u32) -> bool {
+    let [start, end] = edges.segment(edge);
+    lexicographic(start, end) == Ordering::Less
 }
