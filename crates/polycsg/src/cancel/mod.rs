@@ -93,6 +93,9 @@ impl Cancel {
     fn find_runs(&mut self, edges: &Edges) {
         self.runs.clear();
         for (ring, about) in (0..).zip(edges.rings()) {
+            if !self.gone[about.start as usize..about.end as usize].contains(&false) {
+                continue;
+            }
             let is_gone = |edge: u32| self.gone[edge as usize];
             let Some(last_gone) = (about.start..about.end).rfind(|&edge| is_gone(edge)) else { continue };
             let mut run = Run { ring, first: about.next(last_gone), count: 0 };

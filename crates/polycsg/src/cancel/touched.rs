@@ -3,7 +3,7 @@
 
 use super::cells::Cells;
 use super::table::Table;
-use crate::edges::Edges;
+use crate::edges::{Edges, Ring};
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use crate::truth::index;
 use glam::DVec2;
@@ -28,8 +28,9 @@ impl Touched {
     /// Finds them; false where the edges that are left are too long for that.
     pub(super) fn find(&mut self, edges: &Edges, table: &Table, gone: &[bool]) -> bool {
         let cells = table.cells();
-        let left = (0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge);
-        let left = left.filter(|&edge| edges.ring(edge).end != edge);
+        let is_left = |ring: &&Ring| gone[ring.start as usize..ring.end as usize].contains(&false);
+        let left = edges.rings().iter().filter(is_left).flat_map(|ring| ring.start..ring.end);
+        let left = left.filter(|&edge| !gone[edge as usize]);
         let in_time = self.list(edges, cells, left, gone.len());
         if in_time {
             self.look(edges, table, gone);
@@ -98,7 +99,7 @@ impl Touched {
             let points = &edges.points()[span.start..=span.end];
             let (mut before, mut rose) = (gone[span.end - 1], rises(edges, ring.end - 1));
             for (pair, &gone) in points.windows(2).zip(&gone[span]) {
-                let rises = pair[0].x < pair[1].x || (pair[0].x == pair[1].x && pair[0].y < pair[1].y);
+                let rises = lexicographic(pair[0], pair[1]) == Ordering::Less;
                 if before & gone & rose & !rises {
                     self.look_at(edges, table.cells().at(pair[0]), pair[0]);
                 }
