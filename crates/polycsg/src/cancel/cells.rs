@@ -6,9 +6,6 @@ use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// So many edges are in a cell on the average.
-const EDGES_PER_CELL: usize = 64;
-
 /// A grid over the box of all points.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cells {
@@ -18,10 +15,11 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    pub(super) fn over(points: &[DVec2]) -> Cells {
+    /// With so many edges in each, on the average.
+    pub(super) fn over(points: &[DVec2], edges_per_cell: usize) -> Cells {
         let (low, high) =
             points.iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
-        let columns = index((points.len() / EDGES_PER_CELL).isqrt() + 1);
+        let columns = index((points.len() / edges_per_cell).isqrt() + 1);
         // Halves, so that the width of any finite interval is finite; of no width at all, one cell.
         let factor = f64::from(columns) / (high * 0.5 - low * 0.5);
         let factor = DVec2::select(factor.is_finite_mask(), factor, DVec2::ZERO);

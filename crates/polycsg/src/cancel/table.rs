@@ -5,6 +5,9 @@ use super::cells::Cells;
 use crate::copies::mixed;
 use crate::edges::Edges;
 
+/// So many edges are in a cell on the average.
+const EDGES_PER_CELL: usize = 64;
+
 /// No edge.
 const NONE: u32 = u32::MAX;
 
@@ -49,19 +52,9 @@ impl Table {
         }
     }
 
-    pub(super) fn cells(&self) -> Cells {
-        self.cells
-    }
-
-    /// Of each kind of edges with their smaller end in a cell one.
-    pub(super) fn edges_in(&self, cell: u32) -> impl Iterator<Item = u32> {
-        let [start, end] = [cell, cell + 1].map(|cell| self.starts[cell as usize] as usize);
-        self.kinds[start..end].iter().map(|kind| kind.one).filter(|&edge| edge != NONE)
-    }
-
     /// Gives each cell two places for each of its edges.
     fn lay_out(&mut self, edges: &Edges) {
-        self.cells = Cells::over(edges.points());
+        self.cells = Cells::over(edges.points(), EDGES_PER_CELL);
         self.cell.clear();
         self.cell.resize(edges.len(), 0);
         self.starts.clear();

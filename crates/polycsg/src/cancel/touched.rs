@@ -2,13 +2,14 @@
 //! cancels.
 
 use super::cells::Cells;
-use super::table::Table;
 use crate::edges::{Edges, Ring};
 use crate::predicates::{Side, is_inside, lexicographic, side};
-use crate::truth::index;
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
+
+/// So many edges are in a cell on the average: maps have far more at some places.
+const EDGES_PER_CELL: usize = 2;
 
 /// Edges that are left may touch so many cells each, on the average, and some more.
 const CELLS_PER_EDGE: usize = 4;
@@ -26,14 +27,14 @@ pub(super) struct Touched {
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long for that.
-    pub(super) fn find(&mut self, edges: &Edges, table: &Table, gone: &[bool]) -> bool {
-        let cells = table.cells();
+    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool]) -> bool {
+        let cells = Cells::over(edges.points(), EDGES_PER_CELL);
         let is_left = |ring: &&Ring| gone[ring.start as usize..ring.end as usize].contains(&false);
         let left = edges.rings().iter().filter(is_left).flat_map(|ring| ring.start..ring.end);
         let left = left.filter(|&edge| !gone[edge as usize]);
         let in_time = self.list(edges, cells, left, gone.len());
         if in_time {
-            self.look(edges, table, gone);
+            self.look(edges, cells, gone);
         }
         in_time
     }
@@ -83,27 +84,17 @@ impl Touched {
         true
     }
 
-    /// Looks at all smaller ends of edges, and at the vertices between two gone edges that are the larger end of both.
-    fn look(&mut self, edges: &Edges, table: &Table, gone: &[bool]) {
+    /// Looks at the vertices between two gone edges.
+    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) {
         self.inside.clear();
-        for cell in 0..index(self.starts.len() - 2) {
-            if self.starts[cell as usize] < self.starts[cell as usize + 1] {
-                for edge in table.edges_in(cell) {
-                    let [a, b] = edges.segment(edge);
-                    self.look_at(edges, cell, if rises(edges, edge) { a } else { b });
-                }
-            }
-        }
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
             let span = ring.start as usize..ring.end as usize;
-            let points = &edges.points()[span.start..=span.end];
-            let (mut before, mut rose) = (gone[span.end - 1], rises(edges, ring.end - 1));
-            for (pair, &gone) in points.windows(2).zip(&gone[span]) {
-                let rises = lexicographic(pair[0], pair[1]) == Ordering::Less;
-                if before & gone & rose & !rises {
-                    self.look_at(edges, table.cells().at(pair[0]), pair[0]);
+            let mut before = gone[span.end - 1];
+            for (&p, &gone) in edges.points()[span.clone()].iter().zip(&gone[span]) {
+                if before & gone {
+                    self.look_at(edges, cells.at(p) as usize, p);
                 }
-                (before, rose) = (gone, rises);
+                before = gone;
             }
         }
         self.sort(edges);
@@ -117,8 +108,9 @@ impl Touched {
         self.inside.dedup();
     }
 
-    fn look_at(&mut self, edges: &Edges, cell: u32, p: DVec2) {
-        let [start, end] = [cell, cell + 1].map(|cell| self.starts[cell as usize] as usize);
+    #[inline]
+    fn look_at(&mut self, edges: &Edges, cell: usize, p: DVec2) {
+        let [start, end] = [self.starts[cell] as usize, self.starts[cell + 1] as usize];
         for &edge in &self.near[start..end] {
             let [a, b] = edges.segment(edge);
             if is_inside([a, b], p) && side(a, b, p) == Side::On {
