@@ -62,13 +62,13 @@ impl Suspects {
         self.all = self.all
             || slabs.copies().next().is_some()
             || !slabs.widen(margins.close)
+            || !slabs.places().all(|place| self.look_at_place(edges, place))
             || !slabs.ends_beside_ends(margins.close, |p, q| {
                 edges.at(p).into_iter().for_each(|e| edges.at(q).into_iter().for_each(|f| self.add(e, f)));
             })
             || !slabs.ends_beside_steep_edges(margins, |e, p| {
                 edges.at(p).into_iter().for_each(|f| self.add(e, f));
-            })
-            || !slabs.places().all(|place| self.look_at_place(edges, place));
+            });
     }
 
     /// Notes edges of several rings that leave one point in nearly the same direction; false when they are too many for

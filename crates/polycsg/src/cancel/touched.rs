@@ -15,6 +15,10 @@ const EDGES_PER_CELL: usize = 2;
 const CELLS_PER_EDGE: usize = 4;
 const MORE: usize = 1000;
 
+/// So many pairs of a vertex and an edge in its cell are looked at for each edge: where one far point makes one cell of all
+/// others, they would be too many.
+const PAIRS_PER_EDGE: usize = 64;
+
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(super) struct Touched {
@@ -26,17 +30,13 @@ pub(super) struct Touched {
 }
 
 impl Touched {
-    /// Finds them; false where the edges that are left are too long for that.
+    /// Finds them; false where the edges that are left are too long, or all too close together, for that.
     pub(super) fn find(&mut self, edges: &Edges, gone: &[bool]) -> bool {
         let cells = Cells::over(edges.points(), EDGES_PER_CELL);
         let is_left = |ring: &&Ring| gone[ring.start as usize..ring.end as usize].contains(&false);
         let left = edges.rings().iter().filter(is_left).flat_map(|ring| ring.start..ring.end);
         let left = left.filter(|&edge| !gone[edge as usize]);
-        let in_time = self.list(edges, cells, left, gone.len());
-        if in_time {
-            self.look(edges, cells, gone);
-        }
-        in_time
+        self.list(edges, cells, left, gone.len()) && self.look(edges, cells, gone)
     }
 
     /// The points inside some edges, by edge and in order along each.
@@ -85,19 +85,23 @@ impl Touched {
     }
 
     /// Looks at the vertices between two gone edges.
-    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) {
+    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
         self.inside.clear();
+        let mut room = MORE + PAIRS_PER_EDGE * gone.len();
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
             let span = ring.start as usize..ring.end as usize;
             let mut before = gone[span.end - 1];
             for (&p, &gone) in edges.points()[span.clone()].iter().zip(&gone[span]) {
                 if before & gone {
-                    self.look_at(edges, cells.at(p) as usize, p);
+                    let looked_at = self.look_at(edges, cells.at(p) as usize, p);
+                    let Some(left) = room.checked_sub(looked_at) else { return false };
+                    room = left;
                 }
                 before = gone;
             }
         }
         self.sort(edges);
+        true
     }
 
     fn sort(&mut self, edges: &Edges) {
@@ -108,8 +112,9 @@ impl Touched {
         self.inside.dedup();
     }
 
+    /// Returns at how many edges it looked.
     #[inline]
-    fn look_at(&mut self, edges: &Edges, cell: usize, p: DVec2) {
+    fn look_at(&mut self, edges: &Edges, cell: usize, p: DVec2) -> usize {
         let [start, end] = [self.starts[cell] as usize, self.starts[cell + 1] as usize];
         for &edge in &self.near[start..end] {
             let [a, b] = edges.segment(edge);
@@ -117,6 +122,7 @@ impl Touched {
                 self.inside.push((edge, p));
             }
         }
+        end - start
     }
 }
 
