@@ -45,6 +45,26 @@ fn hub(n: usize) {
     assert_eq!(whole.difference(&region).polygons().count(), n);
 }
 
+/// Two such vertices beside one another, two roundings apart, each with its triangles on the side away from the other.
+fn hubs(n: usize) {
+    let (top, beside) = (coordinate(n), coordinate(n).next_up().next_up());
+    let triangle = |i: usize, apex: f64, base: usize| {
+        let [left, right] = [2 * i, 2 * i + 1].map(|x| DVec2::new(coordinate(x), coordinate(base)));
+        vec![DVec2::new(0.0, apex), left, right]
+    };
+    let fans: Vec<Ring> = (0..n).flat_map(|i| [triangle(i, top, 0), triangle(i, beside, 2 * n)]).collect();
+    assert_eq!(read(&fans, FillRule::NonZero).polygons().count(), 2 * n);
+}
+
+/// A lattice of squares side by side and one square far away: the points' box says nothing about where they are.
+fn far(n: usize) {
+    let mut squares: Vec<Ring> =
+        (0..n * n).map(|i| [i % n, i / n]).map(|[x, y]| rectangle([x, y], [x + 1, y + 1])).collect();
+    squares.push(rectangle([1 << 30, 1 << 30], [(1 << 30) + 1, (1 << 30) + 1]));
+    let region = read(&squares, FillRule::NonZero);
+    assert_eq!((region.polygons().count(), region.area()), (2, coordinate(n * n + 1)));
+}
+
 /// Squares in squares: every second one is a hole, and each hole is its square's.
 fn nest(n: usize) {
     let squares: Vec<Ring> = (0..n).map(|i| rectangle([i, i], [4 * n - i, 4 * n - i])).collect();
@@ -124,6 +144,16 @@ fn one_vertex_of_many_edges() {
 }
 
 #[test]
+fn two_vertices_of_many_edges() {
+    hubs(3_000);
+}
+
+#[test]
+fn many_squares_and_one_far_away() {
+    far(150);
+}
+
+#[test]
 fn many_nested_rings() {
     nest(10_000);
 }
@@ -162,6 +192,18 @@ fn deep_expressions() {
 #[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
 fn one_vertex_of_a_hundred_thousand_edges() {
     hub(50_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn two_vertices_of_a_hundred_thousand_edges() {
+    hubs(50_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn a_million_squares_and_one_far_away() {
+    far(1_000);
 }
 
 #[test]

@@ -61,14 +61,14 @@ impl Suspects {
         let margins = self.margins;
         self.all = self.all
             || slabs.copies().next().is_some()
-            || !slabs.widen(margins.close)
             || !slabs.places().all(|place| self.look_at_place(edges, place))
             || !slabs.ends_beside_ends(margins.close, |p, q| {
                 edges.at(p).into_iter().for_each(|e| edges.at(q).into_iter().for_each(|f| self.add(e, f)));
             })
             || !slabs.ends_beside_steep_edges(margins, |e, p| {
                 edges.at(p).into_iter().for_each(|f| self.add(e, f));
-            });
+            })
+            || !slabs.widen(margins.close);
     }
 
     /// Notes edges of several rings that leave one point in nearly the same direction; false when they are too many for

@@ -10,6 +10,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cells {
     half_low: DVec2,
+    half_size: DVec2,
     factor: DVec2,
     columns: u32,
 }
@@ -19,11 +20,16 @@ impl Cells {
     pub(super) fn over(points: &[DVec2], edges_per_cell: usize) -> Cells {
         let (low, high) =
             points.iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
-        let columns = index((points.len() / edges_per_cell).isqrt() + 1);
-        // Halves, so that the width of any finite interval is finite; of no width at all, one cell.
-        let factor = f64::from(columns) / (high * 0.5 - low * 0.5);
-        let factor = DVec2::select(factor.is_finite_mask(), factor, DVec2::ZERO);
-        Cells { half_low: low * 0.5, factor, columns }
+        // Halves, so that the width of any finite interval is finite.
+        let (half_low, half_size) = (low * 0.5, high * 0.5 - low * 0.5);
+        Cells { half_low, half_size, factor: DVec2::ZERO, columns: 1 }.with(points.len() / edges_per_cell)
+    }
+
+    /// About so many cells, over the same box; of no width at all, one.
+    pub(super) fn with(self, count: usize) -> Cells {
+        let columns = index(count.isqrt() + 1);
+        let factor = f64::from(columns) / self.half_size;
+        Cells { factor: DVec2::select(factor.is_finite_mask(), factor, DVec2::ZERO), columns, ..self }
     }
 
     /// How many there are.
@@ -50,10 +56,15 @@ impl Cells {
         (bottom..=top).map(move |row| row * self.columns + left..row * self.columns + right + 1)
     }
 
+    /// How many there are in a row, and in a column.
+    pub(super) fn columns(self) -> usize {
+        self.columns as usize
+    }
+
     /// Column and row: weakly monotone in the coordinates.
     #[inline]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
-    fn place(self, p: DVec2) -> [u32; 2] {
+    pub(super) fn place(self, p: DVec2) -> [u32; 2] {
         let place = (p * 0.5 - self.half_low) * self.factor;
         [place.x as u32, place.y as u32].map(|i| i.min(self.columns - 1))
     }

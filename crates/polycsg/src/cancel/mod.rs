@@ -62,7 +62,7 @@ impl Cancel {
     pub(crate) fn cancel(&mut self, edges: &mut Edges) {
         if edges.len() >= FEW && self.pays(edges) {
             self.table.find(edges, &mut self.gone);
-            if self.touched.find(edges, &self.gone) {
+            if self.touched.find(edges, &self.gone, self.table.cells()) {
                 self.find_runs(edges);
                 self.sort_runs(edges);
                 self.link(edges);

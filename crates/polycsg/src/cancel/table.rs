@@ -34,7 +34,12 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Finds the edges that cancel.
+    /// The cells of all points that were looked at last.
+    pub(super) fn cells(&self) -> Cells {
+        self.cells
+    }
+
+    /// Finds the edges that cancel: they are gone, and so is what is no edge.
     pub(super) fn find(&mut self, edges: &Edges, gone: &mut Vec<bool>) {
         gone.clear();
         gone.resize(edges.len(), false);
@@ -50,6 +55,7 @@ impl Table {
                 key = next_key;
             }
         }
+        edges.rings().iter().for_each(|ring| gone[ring.end as usize] = true);
     }
 
     /// Gives each cell two places for each of its edges.

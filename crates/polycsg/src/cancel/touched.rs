@@ -2,7 +2,7 @@
 //! cancels.
 
 use super::cells::Cells;
-use crate::edges::{Edges, Ring};
+use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -19,24 +19,32 @@ const MORE: usize = 1000;
 /// others, they would be too many.
 const PAIRS_PER_EDGE: usize = 64;
 
+/// So many consecutive vertices are passed over at once where no edge is left nearby.
+const TOGETHER: u32 = 16;
+
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(super) struct Touched {
     /// Edges that are left and points inside them, in order along each.
     inside: Vec<(u32, DVec2)>,
+    left: Vec<u32>,
     /// Per cell where its edges start in `near`: those that are left and whose boxes touch it.
     starts: Vec<u32>,
     near: Vec<u32>,
+    /// Of the wide cells in the columns and rows before each, how many the boxes of edges that are left touch.
+    near_before: Vec<u32>,
 }
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long, or all too close together, for that.
-    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool]) -> bool {
-        let cells = Cells::over(edges.points(), EDGES_PER_CELL);
-        let is_left = |ring: &&Ring| gone[ring.start as usize..ring.end as usize].contains(&false);
-        let left = edges.rings().iter().filter(is_left).flat_map(|ring| ring.start..ring.end);
-        let left = left.filter(|&edge| !gone[edge as usize]);
-        self.list(edges, cells, left, gone.len()) && self.look(edges, cells, gone)
+    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool], wide: Cells) -> bool {
+        let cells = wide.with(gone.len() / EDGES_PER_CELL);
+        self.left.clear();
+        self.left.extend((0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge));
+        self.list(edges, cells) && {
+            self.count(edges, wide);
+            self.look(edges, [wide, cells], gone)
+        }
     }
 
     /// The points inside some edges, by edge and in order along each.
@@ -47,21 +55,15 @@ impl Touched {
     }
 
     /// Lists the edges that are left cell by cell.
-    fn list(
-        &mut self,
-        edges: &Edges,
-        cells: Cells,
-        left: impl Iterator<Item = u32> + Clone,
-        count: usize,
-    ) -> bool {
+    fn list(&mut self, edges: &Edges, cells: Cells) -> bool {
         let touched = |edge: u32| {
             let [a, b] = edges.segment(edge);
             cells.within(a.min(b), a.max(b)).flatten().map(|cell| cell as usize)
         };
         self.starts.clear();
         self.starts.resize(cells.len() + 2, 0);
-        let mut room = MORE + CELLS_PER_EDGE * count;
-        for edge in left.clone() {
+        let mut room = MORE + CELLS_PER_EDGE * edges.len();
+        for &edge in &self.left {
             for cell in touched(edge) {
                 if room == 0 {
                     return false;
@@ -75,7 +77,7 @@ impl Touched {
         }
         self.near.clear();
         self.near.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
-        for edge in left {
+        for &edge in &self.left {
             for cell in touched(edge) {
                 self.near[self.starts[cell + 1] as usize] = edge;
                 self.starts[cell + 1] += 1;
@@ -84,24 +86,57 @@ impl Touched {
         true
     }
 
+    /// Counts the wide cells that edges which are left touch.
+    fn count(&mut self, edges: &Edges, wide: Cells) {
+        let row = wide.columns() + 1;
+        self.near_before.clear();
+        self.near_before.resize(row * row, 0);
+        for &edge in &self.left {
+            let [a, b] = edges.segment(edge);
+            for cells in wide.within(a.min(b), a.max(b)) {
+                let place = cells.start as usize / wide.columns() + row + 1;
+                self.near_before[cells.start as usize + place..cells.end as usize + place].fill(1);
+            }
+        }
+        for place in row + 1..row * row {
+            let [left, below, both] = [place - 1, place - row, place - row - 1].map(|p| self.near_before[p]);
+            self.near_before[place] =
+                if place % row == 0 { 0 } else { self.near_before[place] + left + below - both };
+        }
+    }
+
     /// Looks at the vertices between two gone edges.
-    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
+    fn look(&mut self, edges: &Edges, [wide, cells]: [Cells; 2], gone: &[bool]) -> bool {
         self.inside.clear();
         let mut room = MORE + PAIRS_PER_EDGE * gone.len();
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
-            let span = ring.start as usize..ring.end as usize;
-            let mut before = gone[span.end - 1];
-            for (&p, &gone) in edges.points()[span.clone()].iter().zip(&gone[span]) {
-                if before & gone {
-                    let looked_at = self.look_at(edges, cells.at(p) as usize, p);
-                    let Some(left) = room.checked_sub(looked_at) else { return false };
-                    room = left;
+            for start in (ring.start..ring.end).step_by(TOGETHER as usize) {
+                let vertices = start..ring.end.min(start + TOGETHER);
+                if !self.are_near(wide, &edges.points()[vertices.start as usize..vertices.end as usize]) {
+                    continue;
                 }
-                before = gone;
+                for vertex in vertices {
+                    if gone[vertex as usize] & gone[ring.previous(vertex) as usize] {
+                        let p = edges.point(vertex);
+                        let looked_at = self.look_at(edges, cells.at(p) as usize, p);
+                        let Some(left) = room.checked_sub(looked_at) else { return false };
+                        room = left;
+                    }
+                }
             }
         }
         self.sort(edges);
         true
+    }
+
+    /// Whether the points' box touches wide cells with edges that are left.
+    #[inline]
+    fn are_near(&self, wide: Cells, points: &[DVec2]) -> bool {
+        let (low, high) =
+            points.iter().fold((points[0], points[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let ([left, bottom], [right, top]) = (wide.place(low), wide.place(high));
+        let before = |column, row| self.near_before[row as usize * (wide.columns() + 1) + column as usize];
+        before(right + 1, top + 1) + before(left, bottom) != before(left, top + 1) + before(right + 1, bottom)
     }
 
     fn sort(&mut self, edges: &Edges) {
@@ -131,4 +166,69 @@ impl Touched {
 fn rises(edges: &Edges, edge: u32) -> bool {
     let [start, end] = edges.segment(edge);
     lexicographic(start, end) == Ordering::Less
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Touched;
+    use crate::cancel::table::Table;
+    use crate::edges::{Edges, Origin};
+    use glam::DVec2;
+
+    fn add_square(edges: &mut Edges, low: DVec2) {
+        for corner in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y] {
+            edges.add_edge(low + corner, Origin { operand: 0, edge: 0 });
+        }
+        edges.close(Some(0));
+    }
+
+    /// What is found in a grid of squares and something else.
+    fn found(columns: u16, add: impl Fn(&mut Edges)) -> Option<Vec<(u32, DVec2)>> {
+        let (mut edges, mut table, mut gone, mut touched) =
+            (Edges::default(), Table::default(), Vec::new(), Touched::default());
+        add(&mut edges);
+        for cell in 0..columns * columns {
+            add_square(&mut edges, DVec2::new(f64::from(cell % columns), f64::from(cell / columns)));
+        }
+        table.find(&edges, &mut gone);
+        touched.find(&edges, &gone, table.cells()).then_some(touched.inside)
+    }
+
+    #[test]
+    fn a_grid_has_none() {
+        assert_eq!(found(40, |_| ()), Some(Vec::new()));
+    }
+
+    /// A triangle stands with two of its sides in corners of squares that have cancelled.
+    #[test]
+    fn in_order_along_both_directions() {
+        let corners = [DVec2::new(2.0, 0.5), DVec2::new(8.0, 9.5), DVec2::new(8.0, 0.5)];
+        let on_side = [[4.0, 3.5], [6.0, 6.5]];
+        assert!(on_side.iter().all(|p| (p[0] - 2.0) * 9.0 == (p[1] - 0.5) * 6.0));
+        let between = |x: f64| DVec2::new(x, 0.5 + (x - 2.0) * 1.5);
+        let whole: Vec<DVec2> = (3..8).map(f64::from).map(between).filter(|p| p.y == p.y.floor()).collect();
+        for reversed in [false, true] {
+            let mut ring = corners;
+            let mut expected: Vec<DVec2> =
+                whole.iter().copied().chain((1..10).map(|y| DVec2::new(8.0, f64::from(y)))).collect();
+            if reversed {
+                ring.reverse();
+            }
+            let found = found(10, |edges| {
+                ring.iter().for_each(|&p| edges.add_edge(p, Origin { operand: 0, edge: 0 }));
+                edges.close(Some(0));
+            });
+            let mut points: Vec<DVec2> = found.expect("few").iter().map(|&(_, p)| p).collect();
+            let by_bits = |p: &DVec2| (p.x.to_bits(), p.y.to_bits());
+            points.sort_by_key(by_bits);
+            expected.sort_by_key(by_bits);
+            assert_eq!(points, expected);
+        }
+    }
+
+    /// One far square makes one cell of all others: every vertex would be looked at beside every edge of the outline.
+    #[test]
+    fn gives_up_where_all_are_in_one_cell() {
+        assert_eq!(found(100, |edges| add_square(edges, DVec2::splat(1e9))), None);
+    }
 }

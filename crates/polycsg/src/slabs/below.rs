@@ -3,6 +3,7 @@
 use super::rungs::Span;
 use super::{Bar, FEW, NONE, Slab, Slabs, parts};
 use crate::predicates::{Side, height_order, side};
+use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -61,28 +62,31 @@ impl Slabs {
         let p = self.ends[rank as usize];
         let at = |rung: &Span| if rank == slab[0] { rung.heights[0] } else { self.height_inside(rung, rank) };
         let first = self.rungs.partition_point(|rung| at(rung) + self.slack < p.y);
-        let last = first + self.rungs[first..].iter().take_while(|rung| at(rung) <= p.y + self.slack).count();
-        for i in (first.saturating_sub(1)..last).rev() {
-            if self.look_at(query, self.rungs[i].bar) {
-                return;
-            }
+        let near = &self.rungs[first..];
+        let near = &near[..near.partition_point(|rung| at(rung) <= p.y + self.slack)];
+        let below = first + near.partition_point(|rung| self.is_below(rung.bar, p));
+        if let Some(place) = below.checked_sub(1) {
+            self.look_at(query, self.rungs[place].bar);
         }
     }
 
-    /// Takes an edge if it is below a query, and higher than what was found; returns whether it is below.
-    fn look_at(&mut self, query: usize, bar: Bar) -> bool {
+    fn is_below(&self, bar: Bar, p: DVec2) -> bool {
+        let [a, b] = self.segment(bar);
+        side(a, b, p) == Side::Left
+    }
+
+    /// Takes an edge if it is below a query, and higher than what was found.
+    fn look_at(&mut self, query: usize, bar: Bar) {
         let (rank, place) = self.queries[query];
         let p = self.ends[rank as usize];
-        let [a, b] = bar.ranks.map(|rank| self.ends[rank as usize]);
-        let is_below = bar.ranks[0] < rank && rank < bar.ranks[1] && side(a, b, p) == Side::Left;
-        if is_below {
-            let nearest = &mut self.nearest[place as usize];
-            let before = self.bars.get(*nearest as usize);
-            let before = before.map(|bar| bar.ranks.map(|rank| self.ends[rank as usize]));
-            if before.is_none_or(|before| height_order([a, b], before, p.x) == Ordering::Greater) {
-                *nearest = bar.id;
+        if bar.ranks[0] < rank && rank < bar.ranks[1] && self.is_below(bar, p) {
+            let before = self.bars.get(self.nearest[place as usize] as usize);
+            let is_higher = |before: &Bar| {
+                height_order(self.segment(bar), self.segment(*before), p.x) == Ordering::Greater
+            };
+            if before.is_none_or(is_higher) {
+                self.nearest[place as usize] = bar.id;
             }
         }
-        is_below
     }
 }

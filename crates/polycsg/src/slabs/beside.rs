@@ -69,7 +69,7 @@ impl Slabs {
     pub(crate) fn ends_beside_steep_edges(&self, margins: Margins, mut visit: impl FnMut(u32, u32)) -> bool {
         let mut left = ENDS_PER_EDGE * self.bars.len();
         for &bar in &self.bars {
-            let [a, b] = bar.ranks.map(|rank| self.ends[rank as usize]);
+            let [a, b] = self.segment(bar);
             if (b.y - a.y).abs() / STEEP <= b.x - a.x {
                 continue;
             }
@@ -89,7 +89,7 @@ impl Slabs {
 
     /// The ends over an edge's range of abscissae, widened.
     fn ranks_beside(&self, bar: Bar, distance: f64) -> Range<u32> {
-        let [left, right] = bar.ranks.map(|rank| self.ends[rank as usize].x);
+        let [left, right] = self.segment(bar).map(|end| end.x);
         let before = |x: f64| self.ends.partition_point(|p| p.x < x);
         index(before(left - distance))..index(before(right + distance))
     }

@@ -1,8 +1,9 @@
 //! Where an edge is at an end of another one: a height with a bound on its error.
 
 use super::rungs::Span;
-use super::{Bar, Slabs};
+use super::{Bar, Slab, Slabs};
 use glam::DVec2;
+use std::cmp::Ordering;
 
 /// Coordinates between this and its inverse have slopes.
 pub(super) const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
@@ -10,19 +11,36 @@ pub(super) const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
 /// `64u`, see [`Slabs::height`]: rungs keep their computed order between the slab's sides, too.
 pub(super) const SLACK: f64 = 64.0 * (f64::EPSILON / 2.0);
 
-/// The line through an edge: by its left end and its slope, which is NaN where it would not do.
+/// The line through an edge: by the end that is nearer to the slab at hand, as edges from one end are in their order
+/// there, and its slope, unless that would not do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
-    start: DVec2,
+    end: DVec2,
+    is_right_end: bool,
     slope: f64,
+    has_slope: bool,
+}
+
+impl Line {
+    /// The order of lines through one end, in a slab.
+    pub(super) fn order(&self, other: &Line) -> Ordering {
+        let key = |line: &Line| if line.is_right_end { -line.slope } else { line.slope };
+        self.is_right_end.cmp(&other.is_right_end).then_with(|| key(self).total_cmp(&key(other)))
+    }
 }
 
 impl Slabs {
     #[inline]
-    pub(super) fn line(&self, bar: Bar) -> Line {
-        let [a, b] = bar.ranks.map(|rank| self.ends[rank as usize]);
-        let is_slanted = self.has_slopes && a.x != b.x;
-        Line { start: a, slope: if is_slanted { (b.y - a.y) / (b.x - a.x) } else { f64::NAN } }
+    pub(super) fn line(&self, bar: Bar, slab: Slab) -> Line {
+        let [a, b] = self.segment(bar);
+        let [left, right] = slab.map(|rank| self.ends[rank as usize].x);
+        let is_right_end = b.x - right < left - a.x;
+        Line {
+            end: if is_right_end { b } else { a },
+            is_right_end,
+            slope: (b.y - a.y) / (b.x - a.x),
+            has_slope: self.has_slopes && a.x != b.x,
+        }
     }
 
     /// Where an edge has a rank, as a height; wrong by a quarter of the slack at most.
@@ -42,10 +60,10 @@ impl Slabs {
     /// 2u of that (u = 2^-53).
     #[inline]
     fn height_at(&self, ranks: [u32; 2], line: Line, p: DVec2) -> f64 {
-        if line.slope.is_nan() {
-            self.height_anywhere(ranks, p)
+        if line.has_slope {
+            line.end.y + (p.x - line.end.x) * line.slope
         } else {
-            line.start.y + (p.x - line.start.x) * line.slope
+            self.height_anywhere(ranks, p)
         }
     }
 

@@ -28,7 +28,7 @@ mod rungs;
 #[cfg(test)]
 mod tests;
 
-use crate::predicates::lexicographic;
+use crate::predicates::{Segment, lexicographic};
 use crate::truth::index;
 use found::Found;
 use glam::DVec2;
@@ -81,8 +81,8 @@ pub(crate) struct Slabs {
     keys: Vec<(f64, u32)>,
     /// The spans that follow a rung, by its place.
     followers: Vec<(usize, Bar)>,
-    /// The rungs that start in the slab's left point, and those that end in its right one.
-    fans: [Range<usize>; 2],
+    /// Per rung where those end that follow it and share its left end, and its right one.
+    fans: Vec<[u32; 2]>,
     tops: Vec<u32>,
     before: Vec<u32>,
     found: Found,
@@ -241,19 +241,24 @@ impl Slabs {
         }
     }
 
+    /// An edge, directed to the right.
+    #[inline]
+    fn segment(&self, bar: Bar) -> Segment {
+        bar.ranks.map(|rank| self.ends[rank as usize])
+    }
+
     fn may_meet(&self, e: Bar, f: Bar, slab: Slab) -> bool {
         let (r, s) = (e.ranks, f.ranks);
         let (left, right) = (r[0].max(s[0]).max(slab[0]), r[1].min(s[1]).min(slab[1]));
         if left >= right {
             return false;
         }
-        let lines = [self.line(e), self.line(f)];
+        let lines = [self.line(e, slab), self.line(f, slab)];
         let order = |rank: u32| {
             let (y, z) = (self.height(r, lines[0], rank), self.height(s, lines[1], rank));
             if (y - z).abs() > self.slack { y.total_cmp(&z) } else { Ordering::Equal }
         };
-        let fans = [r[0] == s[0] && r[0] == left, r[1] == s[1] && r[1] == right];
-        match fans {
+        match [r[0] == s[0], r[1] == s[1]] {
             [false, false] => {
                 let order_left = order(left);
                 order_left == Ordering::Equal || order_left != order(right)

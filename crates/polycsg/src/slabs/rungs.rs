@@ -2,8 +2,9 @@
 
 use super::heights::Line;
 use super::{Bar, FEW, NONE, Slab, Slabs};
-use crate::predicates::Segment;
+use crate::predicates::{Side, side};
 use crate::truth::index;
+use glam::DVec2;
 use std::ops::Range;
 
 /// An edge from side to side of a slab: its heights there, and whether they are its ends.
@@ -12,7 +13,7 @@ pub(super) struct Span {
     pub(super) heights: [f64; 2],
     pub(super) line: Line,
     pub(super) bar: Bar,
-    pub(super) is_end: [bool; 2],
+    is_end: [bool; 2],
 }
 
 impl Slabs {
@@ -22,7 +23,7 @@ impl Slabs {
         for i in start..self.open.len() {
             let bar = self.open[i];
             if bar.ranks[0] <= slab[0] && slab[1] <= bar.ranks[1] {
-                let line = self.line(bar);
+                let line = self.line(bar, slab);
                 let heights = slab.map(|rank| self.height(bar.ranks, line, rank));
                 let is_end = [0, 1].map(|side| bar.ranks[side] == slab[side]);
                 self.spans.push(Span { heights, line, bar, is_end });
@@ -41,15 +42,11 @@ impl Slabs {
         keys.clear();
         keys.extend(spans.iter().zip(0..).map(|(span, place)| (span.heights[0], place)));
         keys.sort_unstable_by(|a, b| {
-            let rest = |key: &(f64, u32)| {
-                let span = &spans[key.1 as usize];
-                (span.heights[1], span.bar.id)
-            };
-            let by_rest = || {
-                let (a, b) = (rest(a), rest(b));
-                a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
-            };
-            a.0.total_cmp(&b.0).then_with(by_rest)
+            a.0.total_cmp(&b.0).then_with(|| {
+                let [a, b] = [a, b].map(|key| &spans[key.1 as usize]);
+                let by_heights = a.heights[1].total_cmp(&b.heights[1]);
+                by_heights.then_with(|| a.line.order(&b.line)).then(a.bar.id.cmp(&b.bar.id))
+            })
         });
         rungs.clear();
         rungs.extend(keys.iter().map(|key| spans[key.1 as usize]));
@@ -59,15 +56,16 @@ impl Slabs {
     /// Moves as many spans as may be, none of which meets another, to the rungs: the longest increasing subsequence by
     /// patience sorting.
     pub(super) fn choose_rungs(&mut self) {
-        let Slabs { spans, rungs, tops, before, slack, .. } = self;
+        let Slabs { spans, rungs, tops, before, .. } = self;
+        let order = Order { ends: &self.ends, slack: self.slack };
         tops.clear();
         before.clear();
         for (i, span) in spans.iter().enumerate() {
-            let pile = tops.partition_point(|&top| is_below(&spans[top as usize], span, 1, *slack));
+            let pile = tops.partition_point(|&top| order.is_below(&spans[top as usize], span, 1));
             let below = pile.checked_sub(1).map_or(NONE, |pile| tops[pile]);
             let fits = below == NONE || {
                 let below = &spans[below as usize];
-                is_below(below, span, 0, *slack) && is_below(below, span, 1, *slack)
+                order.is_below(below, span, 0) && order.is_below(below, span, 1)
             };
             before.push(below);
             if fits {
@@ -86,10 +84,20 @@ impl Slabs {
         }
         rungs.reverse();
         spans.retain(|span| span.bar.id != NONE);
-        self.fans = [0, 1].map(|side| {
-            let start = self.rungs.iter().position(|rung| rung.is_end[side]).unwrap_or(0);
-            start..start + self.rungs[start..].iter().take_while(|rung| rung.is_end[side]).count()
-        });
+        self.find_fans();
+    }
+
+    /// Finds for each rung where those end that follow it and share its left end, or its right one.
+    fn find_fans(&mut self) {
+        let Slabs { rungs, fans, .. } = self;
+        fans.clear();
+        fans.resize(rungs.len(), [index(rungs.len()); 2]);
+        for i in (1..rungs.len()).rev() {
+            for side in [0, 1] {
+                let is_shared = rungs[i - 1].bar.ranks[side] == rungs[i].bar.ranks[side];
+                fans[i - 1][side] = if is_shared { fans[i][side] } else { index(i) };
+            }
+        }
     }
 
     /// Takes the spans that follow a rung.
@@ -132,35 +140,100 @@ impl Slabs {
 
     /// Finds the rungs, and if asked for their followers, that an edge may meet in a slab.
     pub(super) fn compare(&mut self, bar: Bar, slab: Slab, with_followers: bool) {
-        let line = self.line(bar);
-        let (near_left, left) = self.position(bar, line, 0, slab, None);
+        let line = self.line(bar, slab);
+        let near_left = self.position(bar, line, 0, slab, None);
         // Most edges meet none, and are between the same two all the way.
-        let (near_right, right) = self.position(bar, line, 1, slab, Some(left.start));
+        let near_right = self.position(bar, line, 1, slab, Some(near_left.start));
+        let left = self.compare_near(bar, near_left, 0, with_followers);
+        let right = self.compare_near(bar, near_right, 1, with_followers);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
-        let ends = bar.ranks.map(|rank| self.ends[rank as usize]);
-        let any = |rungs: &Range<usize>| rungs.start < rungs.end;
-        for rungs in near_left.into_iter().chain(near_right).chain([crossed]).filter(any) {
-            let all = if with_followers { &self.followers[..] } else { &[] };
-            let first = all.partition_point(|&(place, _)| place < rungs.start);
-            let followers = all[first..].iter().take_while(|&&(place, _)| place < rungs.end);
-            let near =
-                self.rungs[rungs.clone()].iter().map(|rung| rung.bar).chain(followers.map(|&(_, bar)| bar));
-            let meets =
-                |other: &Bar| boxes_meet(ends, other.ranks.map(|rank| self.ends[rank as usize]), self.reach);
-            self.found.add(near.filter(meets).map(|other| [bar.id, other.id]));
+        self.add_rungs(bar, crossed.clone());
+        if with_followers {
+            self.add_followers(bar, crossed);
         }
     }
 
-    /// Of the place where an edge enters or leaves a slab or ends in it, the rungs that may go through it, and those
-    /// between which it lies; rungs that start or end in it with the edge count for the second only.
-    fn position(
-        &self,
+    /// Finds which of the rungs near an edge at a side it may meet there; returns those between which it lies. Fans that
+    /// start or end with the edge do not meet it there.
+    #[inline]
+    fn compare_near(
+        &mut self,
         bar: Bar,
-        line: Line,
+        near: Range<usize>,
         side: usize,
-        slab: Slab,
-        guess: Option<usize>,
-    ) -> ([Range<usize>; 2], Range<usize>) {
+        with_followers: bool,
+    ) -> Range<usize> {
+        let mut between = near.clone();
+        let mut start = near.start;
+        while start < near.end {
+            let fan = start..near.end.min(self.fans[start][side] as usize);
+            start = fan.end;
+            let Span { bar: rung, is_end, .. } = self.rungs[fan.start];
+            if rung.ranks[side] != bar.ranks[side] {
+                let met = if fan.len() > FEW && self.reach == 0.0 {
+                    self.met_at_end(bar, fan.clone(), side)
+                } else {
+                    fan.clone()
+                };
+                between.start = if fan.start < met.start { met.start } else { between.start };
+                between.end = if met.end < fan.end { between.end.min(met.end) } else { between.end };
+                self.add_rungs(bar, met);
+            } else if is_end[side] {
+                // So do its followers.
+                continue;
+            }
+            if with_followers {
+                self.add_followers(bar, fan);
+            }
+        }
+        between
+    }
+
+    /// Of a fan of rungs from one point, those that go through an edge's end or that all do, if it goes through theirs:
+    /// else an empty range between those below the edge and those above.
+    #[cold]
+    fn met_at_end(&self, bar: Bar, fan: Range<usize>, end: usize) -> Range<usize> {
+        let [p, q] = [bar, self.rungs[fan.start].bar].map(|bar| bar.ranks[end]);
+        let edge_is_longer = if end == 0 { p < q } else { p > q };
+        if edge_is_longer {
+            let [a, b] = self.segment(bar);
+            return match side(a, b, self.ends[q as usize]) {
+                Side::Left => fan.start..fan.start,
+                Side::On => fan,
+                Side::Right => fan.end..fan.end,
+            };
+        }
+        let side_of = |rung: &Span| {
+            let [a, b] = self.segment(rung.bar);
+            side(a, b, self.ends[p as usize])
+        };
+        let rungs = &self.rungs[fan.clone()];
+        let below = rungs.partition_point(|rung| side_of(rung) == Side::Left);
+        let on = rungs[below..].partition_point(|rung| side_of(rung) == Side::On);
+        fan.start + below..fan.start + below + on
+    }
+
+    fn add_rungs(&mut self, bar: Bar, rungs: Range<usize>) {
+        if rungs.start < rungs.end {
+            let Slabs { rungs: all, found, ends, reach, .. } = self;
+            let meets = |other: &Bar| other.meets(bar, ends, *reach);
+            let others = all[rungs].iter().map(|rung| rung.bar);
+            found.add(others.filter(meets).map(|other| [bar.id, other.id]));
+        }
+    }
+
+    fn add_followers(&mut self, bar: Bar, rungs: Range<usize>) {
+        if rungs.start < rungs.end && !self.followers.is_empty() {
+            let Slabs { followers, found, ends, reach, .. } = self;
+            let first = followers.partition_point(|&(place, _)| place < rungs.start);
+            let others = followers[first..].iter().take_while(|&&(place, _)| place < rungs.end);
+            let meets = |other: &Bar| other.meets(bar, ends, *reach);
+            found.add(others.map(|&(_, other)| other).filter(meets).map(|other| [bar.id, other.id]));
+        }
+    }
+
+    /// Of the place where an edge enters or leaves a slab or ends in it, the rungs that may go through it.
+    fn position(&self, bar: Bar, line: Line, side: usize, slab: Slab, guess: Option<usize>) -> Range<usize> {
         let rank = bar.ranks[side].clamp(slab[0], slab[1]);
         let height = self.height(bar.ranks, line, rank);
         let at = |rung: &Span| {
@@ -173,29 +246,46 @@ impl Slabs {
             self.rungs[..guess].last().is_none_or(is_below) && !self.rungs.get(guess).is_some_and(is_below)
         };
         let first = guess.filter(fits).unwrap_or_else(|| self.rungs.partition_point(is_below));
-        let last = match self.rungs.get(first) {
-            Some(rung) if may_touch(rung) => first + self.rungs[first..].partition_point(may_touch),
-            _ => first,
-        };
-        let fan = self.fans[side].clone();
-        if bar.ranks[side] == slab[side] && !fan.is_empty() {
-            ([first..fan.start, fan.end..last], fan)
-        } else {
-            ([first..last, 0..0], first..last)
+        match self.rungs.get(first) {
+            Some(rung) if may_touch(rung) => first..first + self.rungs[first..].partition_point(may_touch),
+            _ => first..first,
         }
     }
 }
 
-/// Whether a span lies below another one at a side, or both end there in one point.
-#[inline]
-fn is_below(a: &Span, b: &Span, side: usize, slack: f64) -> bool {
-    a.heights[side] + slack < b.heights[side] || (a.is_end[side] && b.is_end[side])
+/// What tells where spans are.
+struct Order<'a> {
+    ends: &'a [DVec2],
+    slack: f64,
 }
 
-/// Whether the boxes of two edges, widened, meet: where all is within the heights' error, boxes still tell short edges
-/// apart.
-#[inline]
-fn boxes_meet([a, b]: Segment, [c, d]: Segment, reach: f64) -> bool {
-    let (low, high) = (a.min(b) - reach, a.max(b) + reach);
-    low.cmple(c.max(d)).all() && high.cmpge(c.min(d)).all()
+impl Order<'_> {
+    /// Whether a span lies below another one at a side, or may do so and shares its end there or beyond; of spans that
+    /// share their other ends, the exact order tells where heights do not.
+    #[inline]
+    fn is_below(&self, a: &Span, b: &Span, side: usize) -> bool {
+        let (low, high) = (a.heights[side], b.heights[side]);
+        let shares = |side: usize| a.bar.ranks[side] == b.bar.ranks[side];
+        low + self.slack < high
+            || (low <= high + self.slack
+                && (shares(side) || (shares(1 - side) && self.is_exactly_below(a, b, side))))
+    }
+
+    /// Whether the end of a span at a side lies above another span that shares its other end.
+    #[cold]
+    fn is_exactly_below(&self, a: &Span, b: &Span, end: usize) -> bool {
+        let [p, q] = a.bar.ranks.map(|rank| self.ends[rank as usize]);
+        side(p, q, self.ends[b.bar.ranks[end] as usize]) == Side::Left
+    }
+}
+
+impl Bar {
+    /// Whether the boxes of two edges, widened, meet: where all is within the heights' error, boxes still tell short
+    /// edges apart.
+    #[inline]
+    fn meets(self, other: Bar, ends: &[DVec2], reach: f64) -> bool {
+        let [[a, b], [c, d]] = [self, other].map(|bar| bar.ranks.map(|rank| ends[rank as usize]));
+        let (low, high) = (a.min(b) - reach, a.max(b) + reach);
+        low.cmple(c.max(d)).all() && high.cmpge(c.min(d)).all()
+    }
 }

@@ -90,6 +90,15 @@ fn apart(segments: Vec<Segment>) -> Vec<Segment> {
     kept
 }
 
+/// Edges from points that are a few roundings apart, to a lattice around them.
+fn fans() -> impl Strategy<Value = Vec<Segment>> {
+    let apex = (0_u64..3, 0_u64..3).prop_map(|(i, j)| {
+        DVec2::new(f64::from_bits(5_f64.to_bits() + i), f64::from_bits(6_f64.to_bits() + j))
+    });
+    let end = (0..12_i32, 0..12_i32).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
+    prop::collection::vec((apex, end).prop_map(|(apex, end)| [apex, end]), 0..90).prop_map(distinct)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(120))]
 
@@ -123,6 +132,12 @@ proptest! {
     }
 
     #[test]
+    fn fans_from_nearly_one_point(segments in fans()) {
+        check(&segments);
+        check_below(&apart(segments));
+    }
+
+    #[test]
     fn over_the_whole_range(segments in segments(
         [prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL, prop::num::f64::NORMAL].prop_map(|[x, y]| DVec2::new(x, y)), 60,
     )) {
@@ -148,6 +163,24 @@ fn fans_cost_nothing() {
         fan.iter().copied().chain([[DVec2::new(-0.5, 0.1), DVec2::new(0.5, 0.1)]]).collect();
     check(&crossed);
     assert!(found(&crossed).len() < 320, "{}", found(&crossed).len());
+}
+
+/// Seen from another point of the same abscissa, or nearly the same, a fan is one line; and so are two that start a few
+/// roundings apart.
+#[test]
+fn fans_cost_nothing_from_beside() {
+    let turns: [fn(DVec2) -> DVec2; 4] =
+        [|p| p, |p| -p, |p| DVec2::new(p.x, -p.y), |p| DVec2::new(-p.x, p.y)];
+    for (turn, offset) in turns.iter().flat_map(|turn| [0.0, 1e-300, 1e-14].map(|offset| (turn, offset))) {
+        let fan = |apex: f64, base: f64| {
+            (0..600).map(move |i| [DVec2::new(0.0, apex), DVec2::new(f64::from(i) + 1.0, base)])
+        };
+        let above = [DVec2::new(offset, 1200.0), DVec2::new(1.0, 1300.0)];
+        let two = fan(600.0, 0.0).chain(fan(600.0_f64.next_up(), 1200.0)).chain([above]);
+        let segments: Vec<Segment> = two.map(|s| s.map(turn)).collect();
+        assert!(found(&segments).len() < 20, "{} at {offset}", found(&segments).len());
+        check_below(&segments);
+    }
 }
 
 /// Edges that all but coincide, with ends all along them.
