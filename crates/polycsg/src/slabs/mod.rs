@@ -22,13 +22,14 @@
 
 mod below;
 mod beside;
+mod column;
 mod found;
 mod heights;
 mod rungs;
 #[cfg(test)]
 mod tests;
 
-use crate::predicates::{Segment, lexicographic};
+use crate::predicates::{Segment, Side, lexicographic, side};
 use crate::truth::index;
 use found::Found;
 use glam::DVec2;
@@ -188,6 +189,10 @@ impl Slabs {
 
     /// Finds the pairs of the open edges from `start` on that may meet in a slab, and forgets these edges.
     fn look_into(&mut self, slab: Slab, start: usize) {
+        if slab.map(|rank| self.ends[rank as usize].x) == [self.ends[slab[0] as usize].x; 2] {
+            self.look_into_column(slab, start);
+            return self.open.truncate(start);
+        }
         self.sort_out_spans(slab, start);
         while !self.spans.is_empty() {
             if self.found.is_over() {
@@ -263,9 +268,17 @@ impl Slabs {
                 let order_left = order(left);
                 order_left == Ordering::Equal || order_left != order(right)
             }
-            [true, _] => order(right) == Ordering::Equal,
-            [_, true] => order(left) == Ordering::Equal,
+            [true, _] => order(right) == Ordering::Equal && self.may_run_together(e, f.ranks[1]),
+            [_, true] => order(left) == Ordering::Equal && self.may_run_together(e, f.ranks[0]),
         }
+    }
+
+    /// Whether of two edges with a common end, one of them given by its other end, both are on one line, or as close
+    /// together as asked for.
+    #[cold]
+    fn may_run_together(&self, bar: Bar, end: u32) -> bool {
+        let [a, b] = self.segment(bar);
+        self.reach > 0.0 || side(a, b, self.ends[end as usize]) == Side::On
     }
 }
 

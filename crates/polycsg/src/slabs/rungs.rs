@@ -166,15 +166,15 @@ impl Slabs {
         let mut between = near.clone();
         let mut start = near.start;
         while start < near.end {
-            let fan = start..near.end.min(self.fans[start][side] as usize);
+            let Span { bar: rung, is_end, .. } = self.rungs[start];
+            let fans = self.fans[start].map(|end| start..near.end.min(end as usize));
+            let is_shared = rung.ranks[side] == bar.ranks[side];
+            let end = if is_shared || fans[1 - side].len() <= fans[side].len() { side } else { 1 - side };
+            let fan = fans[end].clone();
             start = fan.end;
-            let Span { bar: rung, is_end, .. } = self.rungs[fan.start];
-            if rung.ranks[side] != bar.ranks[side] {
-                let met = if fan.len() > FEW && self.reach == 0.0 {
-                    self.met_at_end(bar, fan.clone(), side)
-                } else {
-                    fan.clone()
-                };
+            if !is_shared {
+                let is_wide = fan.len() > FEW && self.reach == 0.0;
+                let met = if is_wide { self.met_in_fan(bar, &fan, end, side) } else { fan.clone() };
                 between.start = if fan.start < met.start { met.start } else { between.start };
                 between.end = if met.end < fan.end { between.end.min(met.end) } else { between.end };
                 self.add_rungs(bar, met);
@@ -189,23 +189,44 @@ impl Slabs {
         between
     }
 
-    /// Of a fan of rungs from one point, those that go through an edge's end or that all do, if it goes through theirs:
-    /// else an empty range between those below the edge and those above.
+    /// Of a fan of rungs that share an end, those that an edge may meet which comes near at a side; if none, an empty
+    /// range between those below the edge and those above.
+    ///
+    /// Near the common end, the edge is among those around it there. Elsewhere it is between these and those around its
+    /// own end, which the fan's lines are in the same order around.
     #[cold]
-    fn met_at_end(&self, bar: Bar, fan: Range<usize>, end: usize) -> Range<usize> {
-        let [p, q] = [bar, self.rungs[fan.start].bar].map(|bar| bar.ranks[end]);
-        let edge_is_longer = if end == 0 { p < q } else { p > q };
-        if edge_is_longer {
-            let [a, b] = self.segment(bar);
-            return match side(a, b, self.ends[q as usize]) {
-                Side::Left => fan.start..fan.start,
-                Side::On => fan,
-                Side::Right => fan.end..fan.end,
-            };
+    fn met_in_fan(&self, bar: Bar, fan: &Range<usize>, end: usize, side: usize) -> Range<usize> {
+        let rung = self.rungs[fan.start].bar;
+        if end == side {
+            return self.around_common_end(bar, fan, end);
         }
+        let around_end = self.around(bar.ranks[side], fan);
+        if rung.ranks[end] == bar.ranks[end] {
+            return around_end;
+        }
+        let around = self.around_common_end(bar, fan, end);
+        around.start.min(around_end.start)..around.end.max(around_end.end)
+    }
+
+    /// Of a fan's rungs, those between which an edge is where they all end or, if it does not come so far, where it ends.
+    fn around_common_end(&self, bar: Bar, fan: &Range<usize>, end: usize) -> Range<usize> {
+        let [own, common] = [bar, self.rungs[fan.start].bar].map(|bar| bar.ranks[end]);
+        if (end == 0) != (own < common) {
+            return self.around(own, fan);
+        }
+        let [a, b] = self.segment(bar);
+        match side(a, b, self.ends[common as usize]) {
+            Side::Left => fan.start..fan.start,
+            Side::On => fan.clone(),
+            Side::Right => fan.end..fan.end,
+        }
+    }
+
+    /// Of a fan's rungs, those whose lines go through a point, or an empty range between those below and those above.
+    fn around(&self, rank: u32, fan: &Range<usize>) -> Range<usize> {
         let side_of = |rung: &Span| {
             let [a, b] = self.segment(rung.bar);
-            side(a, b, self.ends[p as usize])
+            side(a, b, self.ends[rank as usize])
         };
         let rungs = &self.rungs[fan.clone()];
         let below = rungs.partition_point(|rung| side_of(rung) == Side::Left);
