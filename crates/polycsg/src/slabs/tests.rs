@@ -183,6 +183,22 @@ fn fans_cost_nothing_from_beside() {
     }
 }
 
+/// Through the vertex of a fan, where its heights are one, and up to one of its edges just beyond that.
+#[test]
+fn fans_are_met_where_they_start() {
+    let apex = DVec2::new(0.0, 600.0);
+    let fan = (0..40).map(|i| [apex, DVec2::new(1024.0, 600.0 - 16.0 * f64::from(i))]);
+    let (run, rise) = (2_f64.powi(-40), 2_f64.powi(-41));
+    let through = [DVec2::new(-3.0, 597.0), DVec2::new(3.0, 603.0)];
+    let up_to = |end: f64| [DVec2::new(-7.0, 700.0), apex + DVec2::new(run, end)];
+    let beside = [apex + DVec2::new(run / 2.0, 1.0), DVec2::new(5.0, 800.0)];
+    let segments: Vec<Segment> =
+        fan.chain([through, up_to(-rise / 2.0), up_to(-rise / 4.0), beside]).collect();
+    for turn in [|p| p, |p: DVec2| -p, |p: DVec2| DVec2::new(p.x, -p.y), |p: DVec2| DVec2::new(-p.x, p.y)] {
+        check(&segments.iter().map(|s| s.map(turn)).collect::<Vec<_>>());
+    }
+}
+
 /// Edges that all but coincide, with ends all along them.
 #[test]
 fn bundles_are_compared_once() {
