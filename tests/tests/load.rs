@@ -5,6 +5,8 @@
 //! | test | time | memory |
 //! | --- | --- | --- |
 //! | `one_vertex_of_a_hundred_thousand_edges` | 1.5 s | 170 MB |
+//! | `two_vertices_of_a_hundred_thousand_edges` | 1.3 s | 215 MB |
+//! | `a_million_squares_and_one_far_away` | 4.2 s | 1.7 GB |
 //! | `a_hundred_thousand_nested_rings` | 2.8 s | 200 MB |
 //! | `a_million_copies` | 0.8 s | 615 MB |
 //! | `a_million_rings` | 1.5 s | 1.1 GB |
