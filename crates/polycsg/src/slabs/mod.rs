@@ -23,6 +23,7 @@
 mod below;
 mod beside;
 mod column;
+mod fans;
 mod found;
 mod heights;
 mod rungs;
