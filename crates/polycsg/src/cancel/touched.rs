@@ -4,7 +4,7 @@
 use super::cells::Cells;
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
-use glam::DVec2;
+use glam::{BVec2, DVec2};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -31,19 +31,19 @@ pub(super) struct Touched {
     /// Per cell where its edges start in `near`: those that are left and whose boxes touch it.
     starts: Vec<u32>,
     near: Vec<u32>,
-    /// Of the wide cells in the columns and rows before each, how many the boxes of edges that are left touch.
+    /// Of the cells in the columns and rows before each, how many the boxes of edges that are left touch.
     near_before: Vec<u32>,
 }
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long, or all too close together, for that.
-    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool], wide: Cells) -> bool {
-        let cells = wide.with(gone.len() / EDGES_PER_CELL);
+    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool], cells: Cells) -> bool {
+        let cells = cells.with(gone.len() / EDGES_PER_CELL);
         self.left.clear();
         self.left.extend((0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge));
         self.list(edges, cells) && {
-            self.count(edges, wide);
-            self.look(edges, [wide, cells], gone)
+            self.count(cells.columns());
+            self.look(edges, cells, gone)
         }
     }
 
@@ -86,33 +86,29 @@ impl Touched {
         true
     }
 
-    /// Counts the wide cells that edges which are left touch.
-    fn count(&mut self, edges: &Edges, wide: Cells) {
-        let row = wide.columns() + 1;
-        self.near_before.clear();
-        self.near_before.resize(row * row, 0);
-        for &edge in &self.left {
-            let [a, b] = edges.segment(edge);
-            for cells in wide.within(a.min(b), a.max(b)) {
-                let place = cells.start as usize / wide.columns() + row + 1;
-                self.near_before[cells.start as usize + place..cells.end as usize + place].fill(1);
+    /// Counts the cells that edges which are left touch.
+    fn count(&mut self, columns: usize) {
+        let Touched { starts, near_before, .. } = self;
+        near_before.clear();
+        near_before.resize((columns + 1).pow(2), 0);
+        for (row, starts) in (1..).zip(starts[..=columns.pow(2)].windows(columns + 1).step_by(columns)) {
+            let (below, here) = near_before[(row - 1) * (columns + 1)..].split_at_mut(columns + 1);
+            let mut count = 0;
+            for column in 0..columns {
+                count += u32::from(starts[column] < starts[column + 1]);
+                here[column + 1] = below[column + 1] + count;
             }
-        }
-        for place in row + 1..row * row {
-            let [left, below, both] = [place - 1, place - row, place - row - 1].map(|p| self.near_before[p]);
-            self.near_before[place] =
-                if place % row == 0 { 0 } else { self.near_before[place] + left + below - both };
         }
     }
 
     /// Looks at the vertices between two gone edges.
-    fn look(&mut self, edges: &Edges, [wide, cells]: [Cells; 2], gone: &[bool]) -> bool {
+    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
         self.inside.clear();
         let mut room = MORE + PAIRS_PER_EDGE * gone.len();
         for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
             for start in (ring.start..ring.end).step_by(TOGETHER as usize) {
                 let vertices = start..ring.end.min(start + TOGETHER);
-                if !self.are_near(wide, &edges.points()[vertices.start as usize..vertices.end as usize]) {
+                if !self.are_near(cells, &edges.points()[vertices.start as usize..vertices.end as usize]) {
                     continue;
                 }
                 for vertex in vertices {
@@ -129,13 +125,13 @@ impl Touched {
         true
     }
 
-    /// Whether the points' box touches wide cells with edges that are left.
+    /// Whether the points' box touches cells with edges that are left.
     #[inline]
-    fn are_near(&self, wide: Cells, points: &[DVec2]) -> bool {
+    fn are_near(&self, cells: Cells, points: &[DVec2]) -> bool {
         let (low, high) =
             points.iter().fold((points[0], points[0]), |(low, high), &p| (low.min(p), high.max(p)));
-        let ([left, bottom], [right, top]) = (wide.place(low), wide.place(high));
-        let before = |column, row| self.near_before[row as usize * (wide.columns() + 1) + column as usize];
+        let ([left, bottom], [right, top]) = (cells.place(low), cells.place(high));
+        let before = |column, row| self.near_before[row as usize * (cells.columns() + 1) + column as usize];
         before(right + 1, top + 1) + before(left, bottom) != before(left, top + 1) + before(right + 1, bottom)
     }
 
@@ -153,7 +149,9 @@ impl Touched {
         let [start, end] = [self.starts[cell] as usize, self.starts[cell + 1] as usize];
         for &edge in &self.near[start..end] {
             let [a, b] = edges.segment(edge);
-            if is_inside([a, b], p) && side(a, b, p) == Side::On {
+            // Most are neither: one comparison of all four sides is quicker than one after the other.
+            let is_in_box = a.min(b).cmple(p) & a.max(b).cmpge(p) == BVec2::TRUE;
+            if is_in_box && is_inside([a, b], p) && side(a, b, p) == Side::On {
                 self.inside.push((edge, p));
             }
         }
