@@ -6,7 +6,7 @@
 //! boxes; what else comes near an edge is looked for there.
 
 use crate::chains::LONGEST;
-use crate::contacts::{Contact, Met, Partner};
+use crate::contacts::{Contact, Met};
 use crate::edges::{Edges, Ring};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
 use crate::slabs::Slabs;
@@ -21,6 +21,22 @@ pub(crate) struct Suspects {
     all: bool,
     pairs: Vec<[u32; 2]>,
     margins: Margins,
+    /// Things that happen close together.
+    pub(crate) close: Vec<Close>,
+}
+
+/// Two places close together on an edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Close {
+    pub(crate) edge: u32,
+    pub(crate) places: [At; 2],
+}
+
+/// Where something happens on an edge: at a node, or at a vertex that may be none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum At {
+    Node(u32),
+    Vertex(u32),
 }
 
 impl Suspects {
@@ -33,6 +49,7 @@ impl Suspects {
     pub(crate) fn start(&mut self, size: f64) {
         self.all = !self.wanted;
         self.pairs.clear();
+        self.close.clear();
         self.margins = Margins::for_size(size);
     }
 
@@ -112,30 +129,25 @@ impl Suspects {
         let segment = edges.segment(edge);
         let least = self.margins.gap / (segment[1] - segment[0]).abs().max_element();
         let far = |a: Parameter, b: Parameter| b.distance_from(a) > least;
+        let node = |contact: Contact| At::Node(contact.node);
         for pair in contacts.windows(2).filter(|pair| !far(pair[0].at(), pair[1].at())) {
-            self.add_group(edges, edge, [pair[0].partner, pair[1].partner]);
+            self.close.push(Close { edge, places: [node(pair[0]), node(pair[1])] });
         }
         let (first, last) = (contacts[0], contacts[contacts.len() - 1]);
         if !far(Parameter::START, first.at()) && first.partner.met() != Met::Start {
-            self.add_group(edges, edge, [first.partner, Partner::vertex(edge)]);
+            self.close.push(Close { edge, places: [node(first), At::Vertex(edge)] });
         }
         if !far(last.at(), Parameter::END) {
-            self.add_group(edges, edge, [last.partner, Partner::vertex(ring.next(edge))]);
+            self.close.push(Close { edge, places: [node(last), At::Vertex(ring.next(edge))] });
         }
         self.look_around(edges, ring, edge);
     }
 
-    /// Notes all pairs of an edge and two things that meet it close together.
-    fn add_group(&mut self, edges: &Edges, edge: u32, met: [Partner; 2]) {
-        let mut group = vec![edge];
-        for partner in met {
-            match partner.met() {
-                Met::FromLeft(f) | Met::FromRight(f) => group.push(f),
-                Met::Vertex(v) => group.extend([v, edges.ring(v).previous(v)]),
-                Met::Start => group.push(edges.ring(edge).previous(edge)),
-            }
-        }
-        for (i, &e) in group.iter().enumerate() {
+    /// Notes all pairs of edges that meet close together; suspects all edges where they are many.
+    pub(crate) fn add_group(&mut self, group: &[u32]) {
+        const MOST: usize = 64;
+        self.all |= group.len() > MOST;
+        for (i, &e) in group.iter().enumerate().take_while(|_| !self.all) {
             self.pairs.extend(group[..i].iter().filter(|&&f| f != e).map(|&f| [e, f]));
         }
     }

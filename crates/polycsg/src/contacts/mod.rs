@@ -6,6 +6,7 @@
 //! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
 //! that equality along each edge is all that is needed to unify them.
 
+mod close;
 mod find;
 mod meeting;
 mod partner;
@@ -50,6 +51,7 @@ pub(crate) struct Contacts {
     /// Per vertex its node; empty as long as no vertex has one.
     node_of_vertex: Vec<u32>,
     rings: UnionFind,
+    meeting: close::Meeting,
     /// Whether any two nodes lie in one point, or any node is a vertex.
     degenerate: bool,
 }
@@ -83,6 +85,7 @@ impl Contacts {
         self.bucket(edges.len());
         self.sort(edges);
         self.unify(edges, suspects);
+        self.look_closely(edges, suspects);
         self.prefer_vertices();
         Ok(())
     }

@@ -12,6 +12,10 @@ fn rings(points: impl Strategy<Value = DVec2>) -> impl Strategy<Value = Vec<Vec<
     prop::collection::vec(prop::collection::vec(points, 3..9), 5..14)
 }
 
+fn whole() -> impl Strategy<Value = DVec2> {
+    (-6..7_i8, -6..7_i8).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
+}
+
 fn check(rings: &[Vec<DVec2>], rule: FillRule) {
     let (a, b) = rings.split_at(rings.len() / 2);
     let operand = |rings: &[Vec<DVec2>]| Csg::rings(rings, rule).expect("finite");
@@ -66,6 +70,25 @@ proptest! {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Corners of several rings in one point, a rounding away from an edge that cuts them off, and an edge through it.
+    #[test]
+    fn agree_on_corners_beside_an_edge(
+        (ends, part) in (prop::array::uniform2(whole()), 1..10_u8),
+        corners in prop::collection::vec(prop::array::uniform2(whole()), 2..6),
+        through in any::<bool>(),
+    ) {
+        let corner = (ends[0] * f64::from(10 - part) + ends[1] * f64::from(part)) / 10.0;
+        let mut rings = vec![vec![ends[0], ends[1], DVec2::new(0.0, 7.0)]];
+        rings.extend(corners.iter().map(|&[p, q]| vec![corner, p, q]));
+        let beside = |x: f64| corner + DVec2::new(x, 0.0);
+        rings.extend(through.then(|| vec![beside(-3.0), beside(3.0), DVec2::new(0.4, -5.0)]));
+        let half = rings.len() / 2;
+        rings.rotate_left(half);
+        for rule in [FillRule::NonZero, FillRule::EvenOdd] {
+            check(&rings, rule);
+        }
+    }
 
     /// Tips a few ulps beside an edge that others cross, so that rounding moves it: at all slopes, and at its end.
     #[test]

@@ -1,0 +1,79 @@
+//! Where two things happen on an edge close together, all edges that meet there may do so once more when they are rounded.
+
+use super::{Contacts, Met, NONE};
+use crate::edges::Edges;
+use crate::suspects::{At, Close, Suspects};
+
+/// What meets in some nodes.
+#[derive(Debug, Default)]
+pub(super) struct Meeting {
+    /// Per node that stands for all at its point whether it is one of these.
+    is_close: Vec<bool>,
+    /// These nodes and the edges through them, sorted.
+    edges: Vec<[u32; 2]>,
+    group: Vec<u32>,
+}
+
+impl Contacts {
+    /// Notes all pairs of edges that meet in one of two places close together.
+    pub(super) fn look_closely(&mut self, edges: &Edges, suspects: &mut Suspects) {
+        let close = std::mem::take(&mut suspects.close);
+        let mut meeting = std::mem::take(&mut self.meeting);
+        if self.degenerate && !close.is_empty() {
+            self.gather(edges, &close, &mut meeting);
+        }
+        for Close { edge, places } in &close {
+            meeting.group.clear();
+            meeting.group.push(*edge);
+            places.iter().for_each(|&at| self.add_edges(edges, at, &mut meeting));
+            meeting.group.sort_unstable();
+            meeting.group.dedup();
+            suspects.add_group(&meeting.group);
+        }
+        suspects.close = close;
+        self.meeting = meeting;
+    }
+
+    /// Gathers the edges that start, end or lie in the nodes of some places.
+    fn gather(&self, edges: &Edges, close: &[Close], meeting: &mut Meeting) {
+        meeting.is_close.clear();
+        meeting.is_close.resize(self.nodes.len(), false);
+        for node in close.iter().flat_map(|close| close.places).filter_map(|at| self.node_of(at)) {
+            meeting.is_close[node as usize] = true;
+        }
+        meeting.edges.clear();
+        for contact in &self.found {
+            let node = self.node(contact.node);
+            if meeting.is_close[node as usize] {
+                meeting.edges.push([node, contact.edge]);
+                if contact.partner.met() == Met::Start {
+                    meeting.edges.push([node, edges.ring(contact.edge).previous(contact.edge)]);
+                }
+            }
+        }
+        meeting.edges.sort_unstable();
+    }
+
+    fn node_of(&self, at: At) -> Option<u32> {
+        match at {
+            At::Node(node) => Some(self.node(node)),
+            At::Vertex(vertex) => self.node_at(vertex),
+        }
+    }
+
+    /// Adds the edges that meet in a place to the group.
+    fn add_edges(&self, edges: &Edges, at: At, meeting: &mut Meeting) {
+        let Meeting { edges: gathered, group, .. } = meeting;
+        match (self.node_of(at), at) {
+            (Some(node), _) if self.degenerate => {
+                let first = gathered.partition_point(|pair| pair[0] < node);
+                let there = gathered[first..].iter().take_while(|pair| pair[0] == node);
+                group.extend(there.map(|pair| pair[1]));
+            }
+            (_, At::Node(node)) => {
+                group.extend(self.nodes[node as usize].iter().filter(|&&edge| edge != NONE))
+            }
+            (_, At::Vertex(vertex)) => group.extend([vertex, edges.ring(vertex).previous(vertex)]),
+        }
+    }
+}
