@@ -1,6 +1,6 @@
 //! Where two things happen on an edge close together, all edges that meet there may do so once more when they are rounded.
 
-use super::{Contacts, Met, NONE};
+use super::{Contacts, Met};
 use crate::edges::Edges;
 use crate::suspects::{At, Close, Suspects};
 
@@ -70,9 +70,7 @@ impl Contacts {
                 let there = gathered[first..].iter().take_while(|pair| pair[0] == node);
                 group.extend(there.map(|pair| pair[1]));
             }
-            (_, At::Node(node)) => {
-                group.extend(self.nodes[node as usize].iter().filter(|&&edge| edge != NONE))
-            }
+            (_, At::Node(node)) => group.extend(self.nodes[node as usize]),
             (_, At::Vertex(vertex)) => group.extend([vertex, edges.ring(vertex).previous(vertex)]),
         }
     }
