@@ -1,9 +1,8 @@
 //! A grid over all edges.
 
-use crate::predicates::{Segment, lexicographic};
+use crate::predicates::Segment;
 use crate::truth::index;
 use glam::DVec2;
-use std::cmp::Ordering;
 use std::ops::Range;
 
 /// A grid over the box of all points.
@@ -37,10 +36,10 @@ impl Cells {
         self.columns.pow(2) as usize
     }
 
-    /// The cell of an edge's smaller end, the same for both directions.
+    /// The cell of the low corner of an edge's box, the same for both directions.
     #[inline]
     pub(super) fn of(self, [a, b]: Segment) -> u32 {
-        self.at(if lexicographic(a, b) == Ordering::Less { a } else { b })
+        self.at(a.min(b))
     }
 
     /// The cell of a point.

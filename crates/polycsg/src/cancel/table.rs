@@ -11,13 +11,6 @@ const EDGES_PER_CELL: usize = 64;
 /// No edge.
 const NONE: u32 = u32::MAX;
 
-/// Edges with the same ends and counter: one of them, and a list of those that have not cancelled, all in one direction.
-#[derive(Clone, Copy, Debug)]
-struct Kind {
-    one: u32,
-    left: u32,
-}
-
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(super) struct Table {
@@ -27,9 +20,10 @@ pub(super) struct Table {
     /// Per edge its cell; per cell where its part of the table starts.
     cell: Vec<u32>,
     starts: Vec<u32>,
-    /// In each part with open addressing, half of the places empty.
-    kinds: Vec<Kind>,
-    /// Per edge the next in its kind's list.
+    /// In each part with open addressing, half of the places empty: of edges with the same ends and counter one that
+    /// has not cancelled, or any.
+    kinds: Vec<u32>,
+    /// Per edge the next of its kind that has not cancelled, all in one direction.
     next: Vec<u32>,
 }
 
@@ -76,7 +70,7 @@ impl Table {
             self.starts[cell] += self.starts[cell - 1];
         }
         self.kinds.clear();
-        self.kinds.resize(2 * edges.len(), Kind { one: NONE, left: NONE });
+        self.kinds.resize(2 * edges.len(), NONE);
     }
 
     /// Cancels an edge against one of its kind, or puts it into the kind's list.
@@ -85,17 +79,20 @@ impl Table {
         let [start, end] = [self.starts[cell], self.starts[cell + 1]].map(|place| place as usize);
         let fraction = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
         let mut place = start + ((fraction * (end - start) as u64) >> 32) as usize;
-        while self.kinds[place].one != NONE && !self.is_kind(edges, self.kinds[place].one, edge) {
+        while self.kinds[place] != NONE && !self.is_kind(edges, self.kinds[place], edge) {
             place = if place + 1 == end { start } else { place + 1 };
         }
-        let kind = &mut self.kinds[place];
-        if kind.left != NONE && edges.point(kind.left) != edges.point(edge) {
-            gone[edge as usize] = true;
-            gone[kind.left as usize] = true;
-            kind.left = self.next[kind.left as usize];
+        let one = self.kinds[place];
+        if one == NONE || gone[one as usize] {
+            self.kinds[place] = edge;
+        } else if edges.point(one) == edges.point(edge) {
+            self.next[edge as usize] = one;
+            self.kinds[place] = edge;
         } else {
-            self.next[edge as usize] = kind.left;
-            *kind = Kind { one: edge, left: edge };
+            gone[edge as usize] = true;
+            gone[one as usize] = true;
+            let next = self.next[one as usize];
+            self.kinds[place] = if next == NONE { one } else { next };
         }
     }
 
