@@ -114,7 +114,14 @@ impl Suspects {
     fn are_flat(&self, edges: &Edges, corner: DVec2, pair: [u32; 2]) -> bool {
         let [s, t] = pair.map(|edge| edges.segment(edge));
         let [p, q] = [s, t].map(|[a, b]| if a == corner { b } else { a });
-        (p - corner).dot(q - corner) > 0.0 && !self.margins.are_steep([s, t], doubled_area(corner, p, q))
+        self.are_flat_at(corner, p, q)
+    }
+
+    /// The same by the common end and the two others.
+    #[inline]
+    fn are_flat_at(&self, corner: DVec2, p: DVec2, q: DVec2) -> bool {
+        (p - corner).dot(q - corner) > 0.0
+            && !self.margins.are_steep([[corner, p], [corner, q]], doubled_area(corner, p, q))
     }
 
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
@@ -152,34 +159,45 @@ impl Suspects {
         }
     }
 
-    /// Notes what is close to an edge on both sides along its ring: its neighbours where they turn back sharply, and of
-    /// those beyond, which may be in one chain with it and were not compared, those that are not apart from it.
+    /// Notes what is close to an edge on both sides along its ring: its neighbours where they turn back sharply, and those
+    /// beyond, where the neighbour is too narrow to keep them away.
     fn look_around(&mut self, edges: &Edges, ring: Ring, edge: u32) {
-        let steps: [fn(Ring, u32) -> u32; 2] = [Ring::next, Ring::previous];
+        let [a, b] = edges.segment(edge);
+        let [before, after] = [ring.previous(edge), ring.next(edge)];
+        let [start, end] = [edges.point(before), edges.point(after + 1)];
+        if self.are_flat_at(a, b, start) {
+            self.add(edge, before);
+        }
+        if self.are_flat_at(b, a, end) {
+            self.add(edge, after);
+        }
+        if (start.x - a.x).abs() <= self.margins.close {
+            self.look_beyond(edges, edge, before, |other| ring.previous(other));
+        }
+        if (end.x - b.x).abs() <= self.margins.close {
+            self.look_beyond(edges, edge, after, |other| ring.next(other));
+        }
+    }
+
+    /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, and were not compared with it,
+    /// and are not apart from it.
+    fn look_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> u32) {
         let s = edges.segment(edge);
-        for (step, corner) in steps.into_iter().zip([s[1], s[0]]) {
-            let mut other = step(ring, edge);
+        let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
+        if !leads_on(edges.segment(neighbour)) {
+            return; // another chain, whose boxes were looked at
+        }
+        let mut other = neighbour;
+        for _ in 0..LONGEST {
+            other = step(other);
             let t = edges.segment(other);
-            if self.are_flat(edges, corner, [edge, other]) {
+            let gap = (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
+            if gap > self.margins.close || !leads_on(t) {
+                break;
+            }
+            let areas = |line: Segment, ends: Segment| ends.map(|p| doubled_area(line[0], line[1], p));
+            if !self.margins.are_apart(s, areas(s, t)) && !self.margins.are_apart(t, areas(t, s)) {
                 self.add(edge, other);
-            }
-            let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
-            let is_wide = (t[1].x - t[0].x).abs() > self.margins.close;
-            if is_wide || !leads_on(t) {
-                continue; // far from all that follows, or another chain, whose boxes were looked at
-            }
-            for _ in 0..LONGEST {
-                other = step(ring, other);
-                let t = edges.segment(other);
-                let gap =
-                    (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
-                if gap > self.margins.close || !leads_on(t) {
-                    break;
-                }
-                let areas = |line: Segment, ends: Segment| ends.map(|p| doubled_area(line[0], line[1], p));
-                if !self.margins.are_apart(s, areas(s, t)) && !self.margins.are_apart(t, areas(t, s)) {
-                    self.add(edge, other);
-                }
             }
         }
     }
