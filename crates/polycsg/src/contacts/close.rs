@@ -23,6 +23,9 @@ impl Contacts {
             self.gather(edges, &close, &mut meeting);
         }
         for Close { edge, places } in &close {
+            if suspects.all() {
+                break; // by now so many meet in one place that each of its edges would gather them all
+            }
             meeting.group.clear();
             meeting.group.push(*edge);
             places.iter().for_each(|&at| self.add_edges(edges, at, &mut meeting));
