@@ -34,7 +34,7 @@ impl Slabs {
         }
         self.sort_out_spans(slab, start);
         while !self.spans.is_empty() {
-            self.choose_rungs();
+            self.choose_rungs(slab);
             queries.clone().for_each(|query| self.look_at_rungs(query, slab));
             if slab[1] - slab[0] > 1 {
                 self.open.extend(self.spans.drain(..).map(|span| span.bar));

@@ -23,9 +23,9 @@
 mod below;
 mod beside;
 mod column;
-mod fans;
 mod found;
 mod heights;
+mod order;
 mod rungs;
 #[cfg(test)]
 mod tests;
@@ -83,7 +83,7 @@ pub(crate) struct Slabs {
     keys: Vec<(f64, u32)>,
     /// The spans that follow a rung, by its place.
     followers: Vec<(usize, Bar)>,
-    /// Per rung where those end that follow it and share its left end, and its right one.
+    /// Per rung where those end that come after it and share its left end, and its right one.
     fans: Vec<[u32; 2]>,
     tops: Vec<u32>,
     before: Vec<u32>,
@@ -200,8 +200,8 @@ impl Slabs {
                 self.spans.clear();
                 break;
             }
-            self.choose_rungs();
-            self.sort_out_followers();
+            self.choose_rungs(slab);
+            self.sort_out_followers(slab);
             self.compare_followers(slab);
             for i in 0..self.spans.len() {
                 self.compare(self.spans[i].bar, slab, true);

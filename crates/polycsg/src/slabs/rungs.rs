@@ -1,8 +1,8 @@
 //! The edges that span a slab: which of them are its rungs, which follow one, and what else comes near them.
 
 use super::heights::Line;
+use super::order::Order;
 use super::{Bar, FEW, NONE, Slab, Slabs};
-use crate::predicates::{Side, side};
 use crate::truth::index;
 use glam::DVec2;
 use std::ops::Range;
@@ -25,7 +25,7 @@ impl Slabs {
             if bar.ranks[0] <= slab[0] && slab[1] <= bar.ranks[1] {
                 let line = self.line(bar, slab);
                 let heights = slab.map(|rank| self.height(bar.ranks, line, rank));
-                let is_end = [0, 1].map(|side| bar.ranks[side] == slab[side]);
+                let is_end = [0, 1].map(|side| self.is_at(bar.ranks[side], slab[side]));
                 self.spans.push(Span { heights, line, bar, is_end });
             } else {
                 self.open[kept] = bar;
@@ -33,12 +33,19 @@ impl Slabs {
             }
         }
         self.open.truncate(kept);
-        self.sort_spans();
+        self.sort_spans(slab);
     }
 
-    /// Sorts keys, which are smaller than spans.
-    fn sort_spans(&mut self) {
-        let Slabs { spans, rungs, keys, .. } = self;
+    /// Whether an end is one at a slab's side, or above or below that: edges on one line then have the end in common.
+    fn is_at(&self, end: u32, side: u32) -> bool {
+        let [p, q] = [end, side].map(|rank| self.ends[rank as usize]);
+        end == side || (self.reach == 0.0 && p.x == q.x)
+    }
+
+    /// Sorts keys, which are smaller than spans; then, where there is one, those in their exact order that heights do not tell
+    /// apart.
+    fn sort_spans(&mut self, slab: Slab) {
+        let Slabs { spans, rungs, keys, ends, slack, reach, .. } = self;
         keys.clear();
         keys.extend(spans.iter().zip(0..).map(|(span, place)| (span.heights[0], place)));
         keys.sort_unstable_by(|a, b| {
@@ -51,21 +58,28 @@ impl Slabs {
         rungs.clear();
         rungs.extend(keys.iter().map(|key| spans[key.1 as usize]));
         std::mem::swap(spans, rungs);
+        let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
+        if order.is_exact {
+            let is_tied = |a: &Span, b: &Span| b.heights[0] - a.heights[0] <= order.slack;
+            for tied in spans.chunk_by_mut(is_tied).filter(|tied| tied.len() > 1) {
+                tied.sort_by(|a, b| order.compare(a, b, slab));
+            }
+        }
     }
 
     /// Moves as many spans as may be, none of which meets another, to the rungs: the longest increasing subsequence by
     /// patience sorting.
-    pub(super) fn choose_rungs(&mut self) {
+    pub(super) fn choose_rungs(&mut self, slab: Slab) {
         let Slabs { spans, rungs, tops, before, .. } = self;
-        let order = Order { ends: &self.ends, slack: self.slack };
+        let order = Order { ends: &self.ends, slack: self.slack, is_exact: self.reach == 0.0 };
         tops.clear();
         before.clear();
         for (i, span) in spans.iter().enumerate() {
-            let pile = tops.partition_point(|&top| order.is_below(&spans[top as usize], span, 1));
+            let pile = tops.partition_point(|&top| order.is_below(&spans[top as usize], span, 1, slab));
             let below = pile.checked_sub(1).map_or(NONE, |pile| tops[pile]);
             let fits = below == NONE || {
                 let below = &spans[below as usize];
-                order.is_below(below, span, 0) && order.is_below(below, span, 1)
+                order.is_below(below, span, 0, slab) && order.is_below(below, span, 1, slab)
             };
             before.push(below);
             if fits {
@@ -88,21 +102,31 @@ impl Slabs {
     }
 
     /// Takes the spans that follow a rung.
-    pub(super) fn sort_out_followers(&mut self) {
-        let Slabs { spans, rungs, followers, slack, .. } = self;
-        followers.clear();
+    pub(super) fn sort_out_followers(&mut self, slab: Slab) {
+        let mut spans = std::mem::take(&mut self.spans);
+        self.followers.clear();
         spans.retain(|span| {
-            let at = rungs.partition_point(|rung| rung.heights[0] + *slack < span.heights[0]);
-            let is_near =
-                |rung: &Span, side: usize| (rung.heights[side] - span.heights[side]).abs() <= *slack;
-            let near = rungs[at..].iter().take_while(|rung| is_near(rung, 0));
-            // Of a fan all are near there: those that end alike and are near on the other side are few.
-            let mut near = near.take(FEW).zip(at..);
-            let found = near.find(|(rung, _)| rung.is_end == span.is_end && is_near(rung, 1));
-            followers.extend(found.map(|(_, place)| (place, span.bar)));
-            found.is_none()
+            let followed = self.followed(span, slab);
+            self.followers.extend(followed.map(|place| (place, span.bar)));
+            followed.is_none()
         });
-        followers.sort_unstable_by_key(|&(place, bar)| (place, bar.id));
+        self.spans = spans;
+        self.followers.sort_unstable_by_key(|&(place, bar)| (place, bar.id));
+    }
+
+    /// The rung that a span follows: one that ends alike and is near at both sides or, where spans have an exact order, on
+    /// its line.
+    fn followed(&self, span: &Span, slab: Slab) -> Option<usize> {
+        let order = self.order();
+        let is_near = |rung: &Span| {
+            let is_tied = |side: usize| (rung.heights[side] - span.heights[side]).abs() <= self.slack;
+            let is_on = |&rank: &u32| order.at(rung.bar, span.bar, rank).is_eq();
+            is_tied(0) && is_tied(1) && (!order.is_exact || slab.iter().all(is_on))
+        };
+        let near = [0, 1].map(|side| self.near(span.bar, span.line, side, slab, None));
+        let [from, to] = [near[0].start.max(near[1].start), near[0].end.min(near[1].end)];
+        let follows = |&place: &usize| self.rungs[place].is_end == span.is_end && is_near(&self.rungs[place]);
+        (from..to).take(FEW).find(follows)
     }
 
     /// Finds the pairs of followers and rungs, and of followers of one rung or of rungs near one another, that may meet in
@@ -115,7 +139,8 @@ impl Slabs {
             let [left, right] = self.rungs[place].heights;
             let are_near = |other: usize| {
                 let heights = self.rungs[other].heights;
-                heights[0] - left <= 3.0 * self.slack || heights[1] - right <= 3.0 * self.slack
+                let is_near = heights[0] - left <= 3.0 * self.slack || heights[1] - right <= 3.0 * self.slack;
+                other == place || (is_near && self.reach > 0.0)
             };
             for &(_, f) in self.followers[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
                 if self.may_meet(e, f, slab) {
@@ -128,11 +153,12 @@ impl Slabs {
     /// Finds the rungs, and if asked for their followers, that an edge may meet in a slab.
     pub(super) fn compare(&mut self, bar: Bar, slab: Slab, with_followers: bool) {
         let line = self.line(bar, slab);
-        let near_left = self.position(bar, line, 0, slab, None);
+        let near_left = self.near(bar, line, 0, slab, None);
         // Most edges meet none, and are between the same two all the way.
-        let near_right = self.position(bar, line, 1, slab, Some(near_left.start));
-        let left = self.compare_near(bar, near_left, 0, with_followers);
-        let right = self.compare_near(bar, near_right, 1, with_followers);
+        let near_right = self.near(bar, line, 1, slab, Some(near_left.start));
+        let [left, right] = [near_left, near_right];
+        self.compare_near(bar, left.clone(), 0, with_followers);
+        self.compare_near(bar, right.clone(), 1, with_followers);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
         self.add_rungs(bar, crossed.clone());
         if with_followers {
@@ -140,40 +166,23 @@ impl Slabs {
         }
     }
 
-    /// Finds which of the rungs near an edge at a side it may meet there; returns those between which it lies. Fans that
-    /// start or end with the edge do not meet it there.
+    /// Takes the rungs near an edge at a side, but for fans that start or end with the edge: these do not meet it there.
     #[inline]
-    fn compare_near(
-        &mut self,
-        bar: Bar,
-        near: Range<usize>,
-        side: usize,
-        with_followers: bool,
-    ) -> Range<usize> {
-        let mut between = near.clone();
+    fn compare_near(&mut self, bar: Bar, near: Range<usize>, side: usize, with_followers: bool) {
         let mut start = near.start;
         while start < near.end {
             let Span { bar: rung, is_end, .. } = self.rungs[start];
-            let fans = self.fans[start].map(|end| start..near.end.min(end as usize));
+            let end = near.end.min(self.fans[start][side] as usize);
             let is_shared = rung.ranks[side] == bar.ranks[side];
-            let end = if is_shared || fans[1 - side].len() <= fans[side].len() { side } else { 1 - side };
-            let fan = fans[end].clone();
-            start = fan.end;
             if !is_shared {
-                let is_wide = fan.len() > FEW && self.reach == 0.0;
-                let met = if is_wide { self.met_in_fan(bar, &fan, end, side) } else { fan.clone() };
-                between.start = if fan.start < met.start { met.start } else { between.start };
-                between.end = if met.end < fan.end { between.end.min(met.end) } else { between.end };
-                self.add_rungs(bar, met);
-            } else if is_end[side] {
-                // So do its followers.
-                continue;
+                self.add_rungs(bar, start..end);
             }
-            if with_followers {
-                self.add_followers(bar, fan);
+            // Where a fan ends with the edge, so do its followers.
+            if with_followers && !(is_shared && is_end[side]) {
+                self.add_followers(bar, start..end);
             }
+            start = end;
         }
-        between
     }
 
     fn add_rungs(&mut self, bar: Bar, rungs: Range<usize>) {
@@ -196,7 +205,8 @@ impl Slabs {
     }
 
     /// Of the place where an edge enters or leaves a slab or ends in it, the rungs that may go through it.
-    fn position(&self, bar: Bar, line: Line, side: usize, slab: Slab, guess: Option<usize>) -> Range<usize> {
+    #[inline]
+    fn near(&self, bar: Bar, line: Line, side: usize, slab: Slab, guess: Option<usize>) -> Range<usize> {
         let rank = bar.ranks[side].clamp(slab[0], slab[1]);
         let height = self.height(bar.ranks, line, rank);
         let at = |rung: &Span| {
@@ -210,35 +220,45 @@ impl Slabs {
         };
         let first = guess.filter(fits).unwrap_or_else(|| self.rungs.partition_point(is_below));
         match self.rungs.get(first) {
-            Some(rung) if may_touch(rung) => first..first + self.rungs[first..].partition_point(may_touch),
+            Some(rung) if may_touch(rung) => {
+                let near = first..first + self.rungs[first..].partition_point(may_touch);
+                if near.len() > FEW && self.reach == 0.0 { self.touched(bar, rank, near) } else { near }
+            }
             _ => first..first,
         }
     }
-}
 
-/// What tells where spans are.
-struct Order<'a> {
-    ends: &'a [DVec2],
-    slack: f64,
-}
-
-impl Order<'_> {
-    /// Whether a span lies below another one at a side, or may do so and shares its end there or beyond; of spans that
-    /// share their other ends, the exact order tells where heights do not.
-    #[inline]
-    fn is_below(&self, a: &Span, b: &Span, side: usize) -> bool {
-        let (low, high) = (a.heights[side], b.heights[side]);
-        let shares = |side: usize| a.bar.ranks[side] == b.bar.ranks[side];
-        low + self.slack < high
-            || (low <= high + self.slack
-                && (shares(side) || (shares(1 - side) && self.is_exactly_below(a, b, side))))
+    /// Of the rungs near the place where an edge has a rank, those that it touches there, or an empty range between those
+    /// below it and those above.
+    #[cold]
+    fn touched(&self, bar: Bar, rank: u32, near: Range<usize>) -> Range<usize> {
+        let order = self.order();
+        let [a, b] = self.segment(bar);
+        let is_point = bar.ranks.contains(&rank) || a.x == b.x;
+        let place = |rung: &Span| {
+            if is_point { order.to_point(rung.bar, rank) } else { order.at(rung.bar, bar, rank) }
+        };
+        let rungs = &self.rungs[near.clone()];
+        let below = rungs.partition_point(|rung| place(rung).is_lt());
+        let on = rungs[below..].partition_point(|rung| place(rung).is_eq());
+        near.start + below..near.start + below + on
     }
 
-    /// Whether the end of a span at a side lies above another span that shares its other end.
-    #[cold]
-    fn is_exactly_below(&self, a: &Span, b: &Span, end: usize) -> bool {
-        let [p, q] = a.bar.ranks.map(|rank| self.ends[rank as usize]);
-        side(p, q, self.ends[b.bar.ranks[end] as usize]) == Side::Left
+    pub(super) fn order(&self) -> Order<'_> {
+        Order { ends: &self.ends, slack: self.slack, is_exact: self.reach == 0.0 }
+    }
+
+    /// Finds for each rung where those end that come after it and share its left end, or its right one.
+    fn find_fans(&mut self) {
+        let Slabs { rungs, fans, .. } = self;
+        fans.clear();
+        fans.resize(rungs.len(), [index(rungs.len()); 2]);
+        for i in (1..rungs.len()).rev() {
+            for side in [0, 1] {
+                let is_shared = rungs[i - 1].bar.ranks[side] == rungs[i].bar.ranks[side];
+                fans[i - 1][side] = if is_shared { fans[i][side] } else { index(i) };
+            }
+        }
     }
 }
 
