@@ -7,13 +7,12 @@ use crate::truth::index;
 use glam::DVec2;
 use std::ops::Range;
 
-/// An edge from side to side of a slab: its heights there, and whether they are its ends.
+/// An edge from side to side of a slab, with its heights there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) heights: [f64; 2],
     pub(super) line: Line,
     pub(super) bar: Bar,
-    is_end: [bool; 2],
 }
 
 impl Slabs {
@@ -25,8 +24,7 @@ impl Slabs {
             if bar.ranks[0] <= slab[0] && slab[1] <= bar.ranks[1] {
                 let line = self.line(bar, slab);
                 let heights = slab.map(|rank| self.height(bar.ranks, line, rank));
-                let is_end = [0, 1].map(|side| self.is_at(bar.ranks[side], slab[side]));
-                self.spans.push(Span { heights, line, bar, is_end });
+                self.spans.push(Span { heights, line, bar });
             } else {
                 self.open[kept] = bar;
                 kept += 1;
@@ -34,12 +32,6 @@ impl Slabs {
         }
         self.open.truncate(kept);
         self.sort_spans(slab);
-    }
-
-    /// Whether an end is one at a slab's side, or above or below that: edges on one line then have the end in common.
-    fn is_at(&self, end: u32, side: u32) -> bool {
-        let [p, q] = [end, side].map(|rank| self.ends[rank as usize]);
-        end == side || (self.reach == 0.0 && p.x == q.x)
     }
 
     /// Sorts keys, which are smaller than spans; then, where there is one, those in their exact order that heights do not tell
@@ -123,10 +115,24 @@ impl Slabs {
             let is_on = |&rank: &u32| order.at(rung.bar, span.bar, rank).is_eq();
             is_tied(0) && is_tied(1) && (!order.is_exact || slab.iter().all(is_on))
         };
-        let near = [0, 1].map(|side| self.near(span.bar, span.line, side, slab, None));
-        let [from, to] = [near[0].start.max(near[1].start), near[0].end.min(near[1].end)];
-        let follows = |&place: &usize| self.rungs[place].is_end == span.is_end && is_near(&self.rungs[place]);
-        (from..to).take(FEW).find(follows)
+        let left = self.near(span.bar, span.line, 0, slab, None);
+        if left.is_empty() {
+            return None;
+        }
+        let right = self.near(span.bar, span.line, 1, slab, Some(left.start));
+        let near = left.start.max(right.start)..left.end.min(right.end);
+        let ends_alike = |rung: Bar| {
+            [0, 1].iter().all(|&side| self.ends_at(rung, side, slab) == self.ends_at(span.bar, side, slab))
+        };
+        let follows = |&place: &usize| ends_alike(self.rungs[place].bar) && is_near(&self.rungs[place]);
+        near.take(FEW).find(follows)
+    }
+
+    /// Whether an edge ends at a side of a slab: where there is an exact order, at its abscissa, so that of edges on one line
+    /// both end there or none.
+    fn ends_at(&self, bar: Bar, side: usize, slab: Slab) -> bool {
+        let (end, at) = (bar.ranks[side], slab[side]);
+        end == at || (self.reach == 0.0 && self.ends[end as usize].x == self.ends[at as usize].x)
     }
 
     /// Finds the pairs of followers and rungs, and of followers of one rung or of rungs near one another, that may meet in
@@ -157,8 +163,8 @@ impl Slabs {
         // Most edges meet none, and are between the same two all the way.
         let near_right = self.near(bar, line, 1, slab, Some(near_left.start));
         let [left, right] = [near_left, near_right];
-        self.compare_near(bar, left.clone(), 0, with_followers);
-        self.compare_near(bar, right.clone(), 1, with_followers);
+        self.compare_near(bar, left.clone(), 0, slab, with_followers);
+        self.compare_near(bar, right.clone(), 1, slab, with_followers);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
         self.add_rungs(bar, crossed.clone());
         if with_followers {
@@ -168,17 +174,17 @@ impl Slabs {
 
     /// Takes the rungs near an edge at a side, but for fans that start or end with the edge: these do not meet it there.
     #[inline]
-    fn compare_near(&mut self, bar: Bar, near: Range<usize>, side: usize, with_followers: bool) {
+    fn compare_near(&mut self, bar: Bar, near: Range<usize>, side: usize, slab: Slab, with_followers: bool) {
         let mut start = near.start;
         while start < near.end {
-            let Span { bar: rung, is_end, .. } = self.rungs[start];
+            let rung = self.rungs[start].bar;
             let end = near.end.min(self.fans[start][side] as usize);
             let is_shared = rung.ranks[side] == bar.ranks[side];
             if !is_shared {
                 self.add_rungs(bar, start..end);
             }
             // Where a fan ends with the edge, so do its followers.
-            if with_followers && !(is_shared && is_end[side]) {
+            if with_followers && !(is_shared && self.ends_at(rung, side, slab)) {
                 self.add_followers(bar, start..end);
             }
             start = end;
