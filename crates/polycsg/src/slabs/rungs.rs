@@ -76,7 +76,11 @@ impl Slabs {
             before.push(below);
             if fits {
                 match tops.get_mut(pile) {
-                    Some(top) => *top = index(i),
+                    // Of two as close together as not to be told apart, the lower one leaves more room.
+                    Some(top) if order.is_exact || span.heights[1] < spans[*top as usize].heights[1] => {
+                        *top = index(i);
+                    }
+                    Some(_) => {}
                     None => tops.push(index(i)),
                 }
             }
