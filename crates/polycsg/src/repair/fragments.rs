@@ -72,41 +72,51 @@ impl Rounded<'_> {
         }
     }
 
-    /// All fragments of all parts.
-    pub(super) fn cut_up(&self, parts: &[Part], mut cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+    /// A fragment for each part.
+    pub(super) fn round(&self, parts: &[Part], fragments: &mut Vec<Fragment>) {
         fragments.clear();
-        for (id, &part) in (0..).zip(parts) {
+        fragments.extend(parts.iter().map(|&Part { start, end, edge }| {
+            let ends = [start, end];
+            let moved = ends.iter().any(|&vertex| self.crossing(vertex).is_some());
+            Fragment { segment: ends.map(|vertex| self.point(vertex)), edge, ends, moved, is_new: true }
+        }));
+    }
+
+    /// Cuts some of the fragments, and leaves the others.
+    pub(super) fn cut_up(&self, mut cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+        let before = std::mem::take(fragments);
+        fragments.reserve(before.len() + cuts.len());
+        for (id, fragment) in (0..).zip(before) {
             let own = cuts.iter().take_while(|cut| cut.0 == id).count();
-            self.fragment(id, part, &cuts[..own], fragments);
+            if own == 0 {
+                fragments.push(Fragment { is_new: false, ..fragment });
+            } else {
+                self.cut(fragment, &cuts[..own], fragments);
+            }
             cuts = &cuts[own..];
         }
     }
 
-    fn fragment(&self, id: u32, part: Part, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
-        let is_crossing = |vertex: u32| self.crossing(vertex).is_some();
-        let mut from = (part.start, self.point(part.start));
-        let mut moved = is_crossing(part.start);
-        let mut add = |from: (u32, DVec2), to: (u32, DVec2), moved: bool| {
-            let segment = [from.1, to.1];
-            fragments.push(Fragment { segment, part: id, edge: part.edge, ends: [from.0, to.0], moved });
-        };
-        for vertex in self.ordered(part, cuts) {
-            let to = (vertex, self.cut_point(part, vertex));
-            add(from, to, true);
-            (from, moved) = (to, true);
+    fn cut(&self, fragment: Fragment, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+        let mut rest = Fragment { moved: true, is_new: true, ..fragment };
+        for vertex in self.ordered(fragment.ends, cuts) {
+            let point = self.cut_point(fragment.edge, vertex);
+            fragments.push(Fragment {
+                segment: [rest.segment[0], point],
+                ends: [rest.ends[0], vertex],
+                ..rest
+            });
+            (rest.segment[0], rest.ends[0]) = (point, vertex);
         }
-        add(from, (part.end, self.point(part.end)), moved || is_crossing(part.end));
+        fragments.push(rest);
     }
 
-    /// The vertices at whose abscissae a part is cut, in order along it, equal abscissae once.
-    fn ordered(&self, part: Part, cuts: &[CutAt]) -> Vec<u32> {
-        if cuts.is_empty() {
-            return Vec::new();
-        }
+    /// The vertices of cuts between two vertices, from the first of these to the second, equal abscissae once.
+    fn ordered(&self, ends: [u32; 2], cuts: &[CutAt]) -> Vec<u32> {
         let mut vertices: Vec<u32> = cuts.iter().map(|cut| cut.1).collect();
         vertices.sort_by(|&a, &b| self.compare_abscissae(a, b));
         vertices.dedup_by(|a, b| self.compare_abscissae(*a, *b) == Ordering::Equal);
-        if self.compare_abscissae(part.start, part.end) == Ordering::Greater {
+        if self.compare_abscissae(ends[0], ends[1]) == Ordering::Greater {
             vertices.reverse();
         }
         vertices
@@ -138,9 +148,9 @@ impl Rounded<'_> {
         }
     }
 
-    /// The point of the part's edge at a vertex's abscissa, rounded.
-    fn cut_point(&self, part: Part, vertex: u32) -> DVec2 {
-        let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(part.edge));
+    /// The point of an edge at a vertex's abscissa, rounded.
+    fn cut_point(&self, edge: u32, vertex: u32) -> DVec2 {
+        let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(edge));
         DVec2::new(self.abscissa(vertex).rounded, y.to_f64())
     }
 

@@ -22,25 +22,24 @@ pub(crate) fn mend(
     mending: &mut Mending,
     outline: &mut Outline,
 ) {
-    mending.cuts.clear();
     rounded.list_parts(None, &mut mending.parts);
-    rounded.cut_up(&mending.parts, &[], &mut mending.fragments);
+    rounded.round(&mending.parts, &mut mending.fragments);
     let (mut may_coincide, mut overlap) = (false, false);
     let mut near = mending.near_suspects(suspects);
     loop {
         mending.find_alike(&mut near);
         mending.find_conflicts(slabs);
         may_coincide |= mending.classes.len() < mending.alike.len();
-        let cut = rounded.add_cuts(mending, &mut overlap);
-        if cut.is_empty() {
+        rounded.list_cuts(mending, &mut overlap);
+        if mending.cuts.is_empty() {
             break;
         }
-        rounded.cut_up(&mending.parts, &mending.cuts, &mut mending.fragments);
-        let is_new = |fragment: &&Fragment| cut.binary_search(&fragment.part).is_ok();
-        near = Near::to(mending.fragments.iter().filter(is_new).map(|fragment| fragment.segment));
+        rounded.cut_up(&mending.cuts, &mut mending.fragments);
+        let new = mending.fragments.iter().filter(|fragment| fragment.is_new);
+        near = Near::to(new.map(|fragment| fragment.segment));
     }
     debug_assert!(overlap || mending.is_mended(slabs));
-    mending.mended = mending.cuts.len();
+    mending.mended = mending.fragments.len() - mending.parts.len();
     if overlap {
         let segments = cut_verticals(&mending.fragments);
         let whole = mending.fragments.iter().filter(|f| f.segment[0] != f.segment[1]);
@@ -94,10 +93,6 @@ impl Mending {
         self.conflicts.is_empty()
     }
 
-    fn members(&self, class: u32) -> impl Iterator<Item = &Fragment> + Clone {
-        self.alike[self.classes[class as usize].members.clone()].iter().map(|&i| &self.fragments[i as usize])
-    }
-
     /// The first of a class.
     fn one_of(&self, class: usize) -> &Fragment {
         &self.fragments[self.alike[self.classes[class].members.start] as usize]
@@ -124,28 +119,27 @@ impl Mending {
 }
 
 impl Rounded<'_> {
-    /// Cuts the parts of conflicting fragments at the ends of one of those that they conflict with; returns the parts
-    /// that were cut, sorted, and notes whether there are any that cannot be cut so.
-    fn add_cuts(&self, mending: &mut Mending, overlap: &mut bool) -> Vec<u32> {
-        let mut added: Vec<CutAt> = Vec::new();
+    /// Lists cuts of the conflicting fragments at the ends of one of those that they conflict with, and notes whether there
+    /// are any that cannot be cut so.
+    fn list_cuts(&self, mending: &mut Mending, overlap: &mut bool) {
+        let mut cuts = std::mem::take(&mut mending.cuts);
+        cuts.clear();
         for &[i, j] in &mending.conflicts {
-            let before = added.len();
+            let before = cuts.len();
             for (class, other) in [(i, j), (j, i)] {
-                let ends = mending.one_of(other as usize).ends;
-                for fragment in mending.members(class) {
-                    let inside = ends.into_iter().filter(|&end| self.is_strictly_between(fragment.ends, end));
-                    added.extend(inside.map(|end| (fragment.part, end)));
+                let vertices = mending.one_of(other as usize).ends;
+                for &fragment in &mending.alike[mending.classes[class as usize].members.clone()] {
+                    let ends = mending.fragments[fragment as usize].ends;
+                    let inside =
+                        vertices.into_iter().filter(|&vertex| self.is_strictly_between(ends, vertex));
+                    cuts.extend(inside.map(|vertex| (fragment, vertex)));
                 }
             }
-            *overlap |= added.len() == before;
+            *overlap |= cuts.len() == before;
         }
-        mending.cuts.extend_from_slice(&added);
-        mending.cuts.sort_unstable();
-        mending.cuts.dedup();
-        let mut parts: Vec<u32> = added.iter().map(|cut| cut.0).collect();
-        parts.sort_unstable();
-        parts.dedup();
-        parts
+        cuts.sort_unstable();
+        cuts.dedup();
+        mending.cuts = cuts;
     }
 }
 

@@ -45,15 +45,16 @@ struct Part {
 #[derive(Clone, Copy, Debug)]
 struct Fragment {
     segment: Segment,
-    part: u32,
     edge: u32,
     /// The vertices whose abscissae its ends have.
     ends: [u32; 2],
     /// Whether an end is a rounded point.
     moved: bool,
+    /// Whether the last cuts made it what it is.
+    is_new: bool,
 }
 
-/// A cut of a part at a vertex's abscissa.
+/// A cut of a fragment, by its place, at a vertex's abscissa.
 type CutAt = (u32, u32);
 
 /// Fragments with the same ends, as a span of `alike`, and whether any has a rounded end.
@@ -73,7 +74,7 @@ pub(crate) struct Mending {
     classes: Vec<Class>,
     /// Pairs of classes.
     conflicts: Vec<[u32; 2]>,
-    /// The cuts, sorted by part.
+    /// The cuts to be made next, sorted.
     cuts: Vec<CutAt>,
     /// The suspected edges, sorted.
     edges: Vec<u32>,

@@ -37,7 +37,7 @@ fn are_all_sound(rounded: Rounded<'_>, suspects: &Suspects, mending: &mut Mendin
     mending.edges.dedup();
     rounded.list_parts(Some(&mending.edges), &mut mending.parts);
     mending.parts.sort_unstable_by_key(|part| part.edge);
-    rounded.cut_up(&mending.parts, &[], &mut mending.fragments);
+    rounded.round(&mending.parts, &mut mending.fragments);
     let fragments = &mending.fragments;
     let of_edge = |edge: u32| {
         let start = fragments.partition_point(|f| f.edge < edge);
@@ -70,7 +70,7 @@ impl Rounded<'_> {
     fn is_sound_throughout(&self, slabs: &mut Slabs, mending: &mut Mending) -> bool {
         let Mending { parts, fragments, .. } = mending;
         self.list_parts(None, parts);
-        self.cut_up(parts, &[], fragments);
+        self.round(parts, fragments);
         if fragments.iter().any(|f| f.segment[0] == f.segment[1]) {
             return false;
         }
