@@ -9,46 +9,51 @@ const BOXES: usize = 64;
 /// The boxes of some segments, or the whole plane.
 #[derive(Debug)]
 pub(super) struct Near {
-    /// By their left sides; none for the whole plane.
-    boxes: Option<Vec<[DVec2; 2]>>,
-    /// The furthest right side of the boxes up to each.
-    furthest: Vec<f64>,
+    /// A tree over the boxes by their left sides: that at `i` has the boxes at `2 i` and `2 i + 1` in it; from half its
+    /// length on they are the segments'. None for the whole plane.
+    tree: Option<Vec<[DVec2; 2]>>,
     looked_at: usize,
     asked: usize,
 }
 
 impl Near {
     pub(super) fn everything() -> Near {
-        Near { boxes: None, furthest: Vec::new(), looked_at: 0, asked: 0 }
+        Near { tree: None, looked_at: 0, asked: 0 }
     }
 
     pub(super) fn to(segments: impl Iterator<Item = Segment>) -> Near {
         let mut boxes: Vec<[DVec2; 2]> = segments.map(|[a, b]| [a.min(b), a.max(b)]).collect();
         boxes.sort_unstable_by(|a, b| a[0].x.total_cmp(&b[0].x));
-        let further = |furthest: &mut f64, [_, high]: &[DVec2; 2]| {
-            *furthest = furthest.max(high.x);
-            Some(*furthest)
-        };
-        let furthest = boxes.iter().scan(f64::NEG_INFINITY, further).collect();
-        Near { boxes: Some(boxes), furthest, looked_at: 0, asked: 0 }
+        let count = boxes.len().next_power_of_two();
+        let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        let mut tree = vec![empty; count];
+        tree.append(&mut boxes);
+        tree.resize(2 * count, empty);
+        for i in (1..count).rev() {
+            let ([a, b], [c, d]) = (tree[2 * i], tree[2 * i + 1]);
+            tree[i] = [a.min(c), b.max(d)];
+        }
+        Near { tree: Some(tree), looked_at: 0, asked: 0 }
     }
 
     /// Whether the box of a segment meets one of the boxes. When that takes too long, says so of any segment.
     pub(super) fn meets(&mut self, [a, b]: Segment) -> bool {
-        let Some(boxes) = &self.boxes else { return true };
-        let (low, high) = (a.min(b), a.max(b));
-        let end = boxes.partition_point(|[left, _]| left.x <= high.x);
+        let Some(tree) = &self.tree else { return true };
         self.asked += 1;
-        for i in (0..end).rev().take_while(|&i| self.furthest[i] >= low.x) {
-            self.looked_at += 1;
-            let [from, to] = boxes[i];
-            if from.cmple(high).all() && to.cmpge(low).all() {
-                return true;
-            }
+        let meets = any(tree, 1, [a.min(b), a.max(b)], &mut self.looked_at);
+        if self.looked_at > BOXES * (self.asked + tree.len()) {
+            self.tree = None;
         }
-        if self.looked_at > BOXES * (self.asked + boxes.len()) {
-            self.boxes = None;
-        }
-        false
+        meets
     }
+}
+
+fn any(tree: &[[DVec2; 2]], place: usize, [low, high]: [DVec2; 2], looked_at: &mut usize) -> bool {
+    let [from, to] = tree[place];
+    *looked_at += 1;
+    from.cmple(high).all()
+        && to.cmpge(low).all()
+        && (2 * place >= tree.len()
+            || any(tree, 2 * place, [low, high], looked_at)
+            || any(tree, 2 * place + 1, [low, high], looked_at))
 }
