@@ -88,6 +88,12 @@ impl Suspects {
             || !slabs.widen(margins.close);
     }
 
+    /// Suspects all edges, and has [`Slabs`] report only what meets; false if they do.
+    pub(crate) fn look_no_more(&mut self, slabs: &mut Slabs) -> bool {
+        self.all = true;
+        slabs.narrow()
+    }
+
     /// Notes edges of several rings that leave one point in nearly the same direction; false when they are too many for
     /// that. Those of one ring are looked at by [`look_along`](Suspects::look_along).
     fn look_at_place(&mut self, edges: &Edges, mut place: impl Iterator<Item = u32>) -> bool {

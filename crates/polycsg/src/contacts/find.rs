@@ -165,11 +165,14 @@ impl Contacts {
         }
         slabs.copies().for_each(|[e, f]| self.meet(edges, e, f, suspects));
         suspects.look_beside(edges, slabs);
-        let are_few = slabs.pairs_within(most, |e, f| {
+        if !slabs.find(most) && !(suspects.look_no_more(slabs) && slabs.find(most)) {
+            return Err(Error::TooManyContacts { limit: most });
+        }
+        slabs.visit(|e, f| {
             if self.found.len() <= most {
                 self.meet(edges, e.min(f), e.max(f), suspects);
             }
         });
-        if are_few { Ok(()) } else { Err(Error::TooManyContacts { limit: most }) }
+        Ok(())
     }
 }

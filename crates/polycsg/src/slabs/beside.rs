@@ -29,12 +29,18 @@ impl Slabs {
     pub(crate) fn widen(&mut self, distance: f64) -> bool {
         const MOST: f64 = 64.0;
         let slack = (STEEP + 16.0) * distance;
-        let is_enough = slack <= MOST * self.slack;
+        let is_enough = slack <= MOST * self.error;
         if is_enough {
-            self.slack = self.slack.max(slack);
+            self.slack = self.error.max(slack);
             self.reach = distance;
         }
         is_enough
+    }
+
+    /// Lets [`pairs`](Slabs::pairs) report what meets, and no more; false if that is so.
+    pub(crate) fn narrow(&mut self) -> bool {
+        self.slack = self.error;
+        std::mem::take(&mut self.reach) > 0.0
     }
 
     /// Calls `visit` for pairs of points, ends of edges, the second of which is just beyond an edge that ends in the first;

@@ -71,6 +71,6 @@ impl Slabs {
         let level = keys[first..].iter().take_while(|key| to_end(key, ends[1]).is_le());
         let level = level.map(|key| &open[key.1 as usize]);
         let level = level.filter(|other| other.ranks.iter().all(|rank| !bar.ranks.contains(rank)));
-        found.add(upright.chain(level).map(|other| [bar.id, other.id]));
+        found.add(upright.chain(level).map(|other| [bar.id, other.id]), false);
     }
 }

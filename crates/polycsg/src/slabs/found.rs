@@ -5,24 +5,33 @@
 pub(super) struct Found {
     pairs: Vec<[u32; 2]>,
     most: usize,
+    /// How many more may only come near one another, those found twice counted twice.
+    near: usize,
     is_over: bool,
 }
 
 impl Found {
-    /// Starts over, with room for so many pairs.
-    pub(super) fn start(&mut self, most: usize) {
+    /// Starts over, with room for so many pairs, and so many that only come near one another.
+    pub(super) fn start(&mut self, most: usize, near: usize) {
         self.pairs.clear();
         self.most = most;
+        self.near = near;
         self.is_over = false;
     }
 
-    /// Adds pairs; when there are too many, nothing.
+    /// Adds pairs, which may only come near one another; when there are too many, nothing.
     #[inline]
-    pub(super) fn add(&mut self, pairs: impl Iterator<Item = [u32; 2]>) {
+    pub(super) fn add(&mut self, pairs: impl Iterator<Item = [u32; 2]>, is_near: bool) {
         if self.is_over {
             return;
         }
+        let before = self.pairs.len();
         self.pairs.extend(pairs.map(|[i, j]| [i.min(j), i.max(j)]));
+        if is_near {
+            let count = self.pairs.len() - before;
+            self.is_over = count > self.near;
+            self.near = self.near.saturating_sub(count);
+        }
         if self.pairs.len() / 2 > self.most {
             self.count();
         }

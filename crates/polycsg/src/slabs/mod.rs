@@ -42,6 +42,9 @@ use std::ops::Range;
 /// So many edges are compared with one another, each with each.
 const FEW: usize = 8;
 
+/// So many pairs for each edge may come near one another without meeting.
+const NEAR: usize = 64;
+
 /// Into so many slabs one is cut.
 const PARTS: u32 = 3;
 
@@ -70,6 +73,8 @@ pub(crate) struct Slabs {
     all: Vec<Bar>,
     bars: Vec<Bar>,
     /// Two heights that differ by more differ.
+    error: f64,
+    /// The same, or more where edges are reported that come near one another.
     slack: f64,
     /// How far boxes are widened.
     reach: f64,
@@ -113,8 +118,8 @@ impl Slabs {
         self.bars.clear();
         self.bars.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
-        self.slack = highest * SLACK + f64::MIN_POSITIVE;
-        self.reach = 0.0;
+        self.error = highest * SLACK + f64::MIN_POSITIVE;
+        self.narrow();
         let is_moderate = |x: f64| x == 0.0 || (LEAST..=1.0 / LEAST).contains(&x.abs());
         self.has_slopes = self.ends.iter().all(|p| is_moderate(p.x) && is_moderate(p.y));
     }
@@ -148,21 +153,18 @@ impl Slabs {
     /// Calls `visit` once for each pair of edges that may meet but in one common end or both, by their ids; of edges with
     /// both ends in common, one stands for all against another such.
     pub(crate) fn pairs(&mut self, visit: impl FnMut(u32, u32)) {
-        self.pairs_within(usize::MAX, visit);
+        self.find(usize::MAX);
+        self.visit(visit);
     }
 
-    /// As [`pairs`](Slabs::pairs), if there are so many at most; else returns false, and calls nothing.
-    pub(crate) fn pairs_within(&mut self, most: usize, mut visit: impl FnMut(u32, u32)) -> bool {
-        if !self.find(most) {
-            return false;
-        }
+    /// The same for the pairs that were found.
+    pub(crate) fn visit(&self, mut visit: impl FnMut(u32, u32)) {
         for bars in self.found.pairs() {
             let [e, f] = bars.map(|bar| self.copies_of(bar));
             visit(self.all[e.start].id, self.all[f.start].id);
             f.clone().skip(1).for_each(|g| visit(self.all[e.start].id, self.all[g].id));
             e.skip(1).for_each(|g| visit(self.all[g].id, self.all[f.start].id));
         }
-        true
     }
 
     /// The places in `all` of the edges that a bar stands for.
@@ -172,9 +174,11 @@ impl Slabs {
         start..start + self.all[start..].iter().take_while(|bar| bar.ranks == ranks).count()
     }
 
-    /// Finds the pairs, as places in `bars`; false when there are more than so many.
-    fn find(&mut self, most: usize) -> bool {
-        self.found.start(most);
+    /// Finds the pairs; false, with nothing to visit, when there are more than so many, or too many that only come near one
+    /// another.
+    pub(crate) fn find(&mut self, most: usize) -> bool {
+        let near = if self.reach > 0.0 { NEAR * self.bars.len() } else { usize::MAX };
+        self.found.start(most, near);
         if let Some(slab) = self.open_all() {
             self.look_into(slab, 0);
         }
@@ -241,7 +245,7 @@ impl Slabs {
             for j in open.start..i {
                 let [e, f] = [self.open[i], self.open[j]];
                 if self.may_meet(e, f, slab) {
-                    self.found.add(std::iter::once([e.id, f.id]));
+                    self.found.add(std::iter::once([e.id, f.id]), false);
                 }
             }
         }

@@ -154,7 +154,7 @@ impl Slabs {
             };
             for &(_, f) in self.followers[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
                 if self.may_meet(e, f, slab) {
-                    self.found.add(std::iter::once([e.id, f.id]));
+                    self.found.add(std::iter::once([e.id, f.id]), true);
                 }
             }
         }
@@ -170,9 +170,9 @@ impl Slabs {
         self.compare_near(bar, left.clone(), 0, slab, with_followers);
         self.compare_near(bar, right.clone(), 1, slab, with_followers);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
-        self.add_rungs(bar, crossed.clone());
+        self.add_rungs(bar, crossed.clone(), false);
         if with_followers {
-            self.add_followers(bar, crossed);
+            self.add_followers(bar, crossed, false);
         }
     }
 
@@ -185,32 +185,32 @@ impl Slabs {
             let end = near.end.min(self.fans[start][side] as usize);
             let is_shared = rung.ranks[side] == bar.ranks[side];
             if !is_shared {
-                self.add_rungs(bar, start..end);
+                self.add_rungs(bar, start..end, true);
             }
             // Where a fan ends with the edge, so do its followers.
             if with_followers && !(is_shared && self.ends_at(rung, side, slab)) {
-                self.add_followers(bar, start..end);
+                self.add_followers(bar, start..end, true);
             }
             start = end;
         }
     }
 
-    fn add_rungs(&mut self, bar: Bar, rungs: Range<usize>) {
+    fn add_rungs(&mut self, bar: Bar, rungs: Range<usize>, is_near: bool) {
         if rungs.start < rungs.end {
             let Slabs { rungs: all, found, ends, reach, .. } = self;
             let meets = |other: &Bar| other.meets(bar, ends, *reach);
             let others = all[rungs].iter().map(|rung| rung.bar);
-            found.add(others.filter(meets).map(|other| [bar.id, other.id]));
+            found.add(others.filter(meets).map(|other| [bar.id, other.id]), is_near);
         }
     }
 
-    fn add_followers(&mut self, bar: Bar, rungs: Range<usize>) {
+    fn add_followers(&mut self, bar: Bar, rungs: Range<usize>, is_near: bool) {
         if rungs.start < rungs.end && !self.followers.is_empty() {
             let Slabs { followers, found, ends, reach, .. } = self;
             let first = followers.partition_point(|&(place, _)| place < rungs.start);
             let others = followers[first..].iter().take_while(|&&(place, _)| place < rungs.end);
             let meets = |other: &Bar| other.meets(bar, ends, *reach);
-            found.add(others.map(|&(_, other)| other).filter(meets).map(|other| [bar.id, other.id]));
+            found.add(others.map(|&(_, other)| other).filter(meets).map(|other| [bar.id, other.id]), is_near);
         }
     }
 
