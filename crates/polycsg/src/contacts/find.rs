@@ -165,7 +165,8 @@ impl Contacts {
         }
         slabs.copies().for_each(|[e, f]| self.meet(edges, e, f, suspects));
         suspects.look_beside(edges, slabs);
-        if !slabs.find(most) && !(suspects.look_no_more(slabs) && slabs.find(most)) {
+        let are_few = slabs.find(most) || (suspects.look_no_more(slabs) && slabs.find(most));
+        if !are_few {
             return Err(Error::TooManyContacts { limit: most });
         }
         slabs.visit(|e, f| {

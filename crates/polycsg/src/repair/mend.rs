@@ -1,7 +1,7 @@
 //! Cuts what conflicts until nothing does.
 
 use super::near::Near;
-use super::{Class, CutAt, Fragment, Mending, Rounded, in_conflict};
+use super::{Class, Fragment, Mending, Rounded, in_conflict};
 use crate::outline::Outline;
 use crate::predicates::{Segment, lexicographic, rightward};
 use crate::slabs::Slabs;
