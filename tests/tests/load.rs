@@ -14,6 +14,9 @@
 //! | `one_ring_of_ten_million_edges` | 14 s | 5.5 GB |
 //! | `four_million_crossings`, twice | 11 s | 2.5 GB |
 //! | `more_crossings_than_memory`, refused | 0.5 s | 470 MB |
+//! | `fifty_thousand_edges_nearly_through_a_point` | 1.5 s | 160 MB |
+//! | `twenty_thousand_strips_a_few_roundings_apart` | 1.1 s | 120 MB |
+//! | `a_star_of_a_few_roundings_below_many_edges` | 2.6 s | 40 MB |
 //! | `expressions_a_hundred_thousand_deep`, to the left and to the right | 0.2 s | 160 MB |
 use glam::DVec2;
 use polycsg::{Csg, Error, FillRule, Region, Scratch};
@@ -140,6 +143,70 @@ fn too_many(n: usize, limit: usize) {
     assert_eq!(refused, Err(Error::TooManyContacts { limit }));
 }
 
+/// Triangles from one corner, turn by turn, with nothing between their area and the closed form but roundings.
+fn fan(n: usize) -> (Vec<Ring>, f64) {
+    let corner = DVec2::new(0.3, 0.7);
+    let turn = std::f64::consts::TAU / coordinate(n);
+    let tip = |i: usize, part: f64| corner + DVec2::from_angle((coordinate(i) + part) * turn);
+    let fan = (0..n).map(|i| vec![corner, tip(i, 0.1), tip(i, 0.6)]).collect();
+    (fan, coordinate(n) * (turn / 2.0).sin() / 2.0)
+}
+
+/// Less a square of some roundings about their corner: 2 n edges end beside one another, and no height tells them apart.
+fn cut_corner(n: usize) {
+    let (fan, area) = fan(n);
+    for size in [2e-12, 2e-14] {
+        let [low, high] = [DVec2::new(0.3, 0.7) - size, DVec2::new(0.3, 0.7) + size];
+        let square = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+        let cut = read(&fan, FillRule::NonZero).difference(&read(&[square], FillRule::NonZero));
+        assert_eq!(cut.polygons().count(), n);
+        assert!((cut.area() - area).abs() < 1e-9, "{} for {area}", cut.area());
+    }
+}
+
+/// Less a star as small, whose every vertex is a rounding from another: hardly a crossing can stay where it is.
+fn cut_star(n: usize) {
+    let (fan, area) = fan(n);
+    let radius = |i: usize| 1e-14 * coordinate(1 + i % 2);
+    let angle = |i: usize| (coordinate(i) + 0.3) * std::f64::consts::PI / coordinate(n);
+    let vertex = |i: usize| DVec2::new(0.3, 0.7) + DVec2::from_angle(angle(i)) * radius(i);
+    let star: Ring = (0..2 * n).map(vertex).collect();
+    let cut = read(&fan, FillRule::NonZero).difference(&read(&[star], FillRule::NonZero));
+    assert!((cut.area() - area).abs() < 1e-9, "{} for {area}", cut.area());
+    assert!(cut.validate().is_ok());
+    let again: Vec<Ring> = cut.rings().map(<[DVec2]>::to_vec).collect();
+    assert_eq!(read(&again, FillRule::EvenOdd), cut);
+}
+
+/// Slanted strips a few roundings apart and half as wide, each with ends of its own, less a square across all of them.
+fn cut_strips(n: usize) {
+    let strip = |i: usize| {
+        let at = |x: f64, part: f64| DVec2::new(x, 0.3 + 0.5 * x + (coordinate(i) + part) * 1e-14);
+        let (left, right) = (coordinate(i * 7919 % n), coordinate(i * 6007 % n));
+        let [left, right] = [0.3 * left / coordinate(n), 1.0 - 0.3 * right / coordinate(n)];
+        vec![at(left, 0.0), at(right, 0.0), at(right, 0.5), at(left, 0.5)]
+    };
+    let strips: Vec<Ring> = (0..n).map(strip).collect();
+    let square = [[0.3, 0.3], [0.7, 0.3], [0.7, 0.8], [0.3, 0.8]].map(DVec2::from).to_vec();
+    let cut = read(&strips, FillRule::NonZero).difference(&read(&[square], FillRule::NonZero));
+    assert_eq!(cut.polygons().count(), 2 * n);
+}
+
+#[test]
+fn many_edges_nearly_through_a_point() {
+    cut_corner(1_000);
+}
+
+#[test]
+fn many_strips_a_few_roundings_apart() {
+    cut_strips(1_000);
+}
+
+#[test]
+fn a_star_of_a_few_roundings() {
+    cut_star(300);
+}
+
 #[test]
 fn one_vertex_of_many_edges() {
     hub(5_000);
@@ -255,4 +322,22 @@ fn one_ring_of_ten_million_edges() {
 #[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
 fn expressions_a_hundred_thousand_deep() {
     chain(100_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn fifty_thousand_edges_nearly_through_a_point() {
+    cut_corner(25_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn twenty_thousand_strips_a_few_roundings_apart() {
+    cut_strips(20_000);
+}
+
+#[test]
+#[ignore = "large: cargo test --release -p tests --test load -- --ignored"]
+fn a_star_of_a_few_roundings_below_many_edges() {
+    cut_star(4_000);
 }

@@ -222,6 +222,62 @@ fn parallel_edges_cost_nothing() {
     assert!(found(&comb).is_empty());
 }
 
+/// Edges around a point that they do not reach, by a few roundings: no height tells them apart there.
+#[test]
+fn edges_nearly_through_a_point_cost_nothing() {
+    let point = DVec2::new(0.3, 0.7);
+    for radius in [1e-12, 1e-14] {
+        let edge = |i: u32| {
+            let direction = DVec2::from_angle(f64::from(i) * 0.0105);
+            [point + direction * radius, point + direction]
+        };
+        let ring: Vec<Segment> = (0..600).map(|i| [edge(i)[0], edge(i + 1)[0]]).collect();
+        let segments: Vec<Segment> = (0..600).map(edge).chain(ring).collect();
+        let segments = apart(distinct(segments.into_iter().map(Into::into).collect()));
+        assert!(segments.len() > 400, "{}", segments.len());
+        for turn in [|p| p, |p: DVec2| DVec2::new(p.y, p.x)] {
+            let segments: Vec<Segment> = segments.iter().map(|s| s.map(turn)).collect();
+            let mut slabs = Slabs::default();
+            let count = u32::try_from(segments.len()).unwrap();
+            slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+            assert!(slabs.find(usize::MAX));
+            let room = slabs.found.room();
+            assert!(room < 20 * segments.len(), "{room} for {}", segments.len());
+            check(&segments);
+            check_below(&segments);
+        }
+    }
+}
+
+/// Slanted edges a part of the slack apart, with ends of their own: what comes near one another is found in few slabs; when
+/// it is too much, nothing but what meets.
+#[test]
+fn parallel_edges_a_few_roundings_apart() {
+    let edges = |distance: f64| {
+        let at = move |i: u32, x: f64| DVec2::new(x, 0.3 + 0.5 * x + f64::from(i) * distance);
+        let part = |i: u32| f64::from(i * 211 % 400) / 1000.0;
+        (0..400).map(move |i| [at(i, part(i)), at(i, 1.0 - part(i + 100))]).collect::<Vec<Segment>>()
+    };
+    let slabs_of = |segments: &[Segment]| {
+        let mut slabs = Slabs::default();
+        slabs.build(segments.iter().flatten().copied(), (0..400).map(|i| (i, [2 * i, 2 * i + 1])));
+        slabs
+    };
+    let near = edges(2e-14);
+    let mut slabs = slabs_of(&near);
+    assert!(slabs.widen(4e-16) && slabs.find(usize::MAX));
+    let mut found = BTreeSet::new();
+    slabs.visit(|i, j| assert!(found.insert([i.min(j), i.max(j)])));
+    let closest = |i: u32| near[i as usize][0].x.max(near[i as usize + 1][0].x) < near[i as usize][1].x;
+    assert!((0..399).filter(|&i| closest(i)).all(|i| found.contains(&[i, i + 1])));
+    assert!(slabs.found.room() < 64 * 400, "{}", slabs.found.room());
+    let nearer = edges(3e-16);
+    let mut slabs = slabs_of(&nearer);
+    assert!(slabs.widen(4e-16) && !slabs.find(usize::MAX));
+    assert!(slabs.narrow() && slabs.find(usize::MAX) && !slabs.narrow());
+    check(&nearer);
+}
+
 /// Of edges with the same ends one stands for all.
 #[test]
 fn copies_are_compared_once() {
