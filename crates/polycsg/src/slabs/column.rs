@@ -25,8 +25,8 @@ impl Slabs {
         }
     }
 
-    /// Sorts the open edges from a place on by their heights in a slab; then, where there is one, those in their exact order
-    /// that heights do not tell apart.
+    /// Sorts the open edges from a place on by their heights in a slab; then exactly what heights do not tell apart, unless
+    /// all that comes near is asked for.
     fn sort_keys(&mut self, slab: Slab, start: usize) {
         let mut keys = std::mem::take(&mut self.keys);
         keys.clear();

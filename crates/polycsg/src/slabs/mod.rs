@@ -13,12 +13,16 @@
 //!   |    e   |       So an edge costs O(log n) in each of O(log n) slabs, and each crossing O(log n) at most.
 //! ```
 //!
-//! Edges that run within the heights' error of a rung from side to side *follow* it: whatever comes near the rung is
-//! compared with them too, and like the rung they are not handed on. Otherwise edges that all but coincide, as shadows of
-//! parallel edges do, would be compared in every slab.
+//! Edges on the line of a rung *follow* it: whatever meets the rung is compared with them too, and like the rung they are
+//! not handed on. Otherwise edges that coincide would be compared in every slab.
 //!
-//! Heights are floats with a bound on their error: the index reports too much and never too little. Two edges with a
-//! common end are reported only if they may meet elsewhere too, so that a fan of edges costs no more than other edges.
+//! Heights are floats with a bound on their error. Where they do not tell two edges apart, the sides of their ends do, so
+//! that thousands of edges within a few roundings of one another still have an order. The index reports too much and never
+//! too little. Two edges with a common end are reported only if they may meet elsewhere too, so that a fan of edges costs
+//! no more than other edges.
+//!
+//! When asked for what comes near one another without meeting, there is no such order: edges within the error, which is
+//! widened then, are reported, and those that are as near to a rung from side to side follow it.
 
 mod below;
 mod beside;

@@ -34,8 +34,8 @@ impl Slabs {
         self.sort_spans(slab);
     }
 
-    /// Sorts keys, which are smaller than spans; then, where there is one, those in their exact order that heights do not tell
-    /// apart.
+    /// Sorts keys, which are smaller than spans; then exactly what heights do not tell apart, unless all that comes near is
+    /// asked for.
     fn sort_spans(&mut self, slab: Slab) {
         let Slabs { spans, rungs, keys, ends, slack, reach, .. } = self;
         keys.clear();
@@ -163,10 +163,9 @@ impl Slabs {
     /// Finds the rungs, and if asked for their followers, that an edge may meet in a slab.
     pub(super) fn compare(&mut self, bar: Bar, slab: Slab, with_followers: bool) {
         let line = self.line(bar, slab);
-        let near_left = self.near(bar, line, 0, slab, None);
+        let left = self.near(bar, line, 0, slab, None);
         // Most edges meet none, and are between the same two all the way.
-        let near_right = self.near(bar, line, 1, slab, Some(near_left.start));
-        let [left, right] = [near_left, near_right];
+        let right = self.near(bar, line, 1, slab, Some(left.start));
         self.compare_near(bar, left.clone(), 0, slab, with_followers);
         self.compare_near(bar, right.clone(), 1, slab, with_followers);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
