@@ -233,7 +233,7 @@ fn edges_nearly_through_a_point_cost_nothing() {
         };
         let ring: Vec<Segment> = (0..600).map(|i| [edge(i)[0], edge(i + 1)[0]]).collect();
         let segments: Vec<Segment> = (0..600).map(edge).chain(ring).collect();
-        let segments = apart(distinct(segments.into_iter().map(Into::into).collect()));
+        let segments = apart(distinct(segments));
         assert!(segments.len() > 400, "{}", segments.len());
         for turn in [|p| p, |p: DVec2| DVec2::new(p.y, p.x)] {
             let segments: Vec<Segment> = segments.iter().map(|s| s.map(turn)).collect();
