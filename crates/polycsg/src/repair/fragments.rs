@@ -78,7 +78,7 @@ impl Rounded<'_> {
         fragments.extend(parts.iter().map(|&Part { start, end, edge }| {
             let ends = [start, end];
             let moved = ends.iter().any(|&vertex| self.crossing(vertex).is_some());
-            Fragment { segment: ends.map(|vertex| self.point(vertex)), edge, ends, moved, is_new: true }
+            Fragment { segment: ends.map(|vertex| self.point(vertex)), edge, ends, moved }
         }));
     }
 
@@ -89,7 +89,7 @@ impl Rounded<'_> {
         for (id, fragment) in (0..).zip(before) {
             let own = cuts.iter().take_while(|cut| cut.0 == id).count();
             if own == 0 {
-                fragments.push(Fragment { is_new: false, ..fragment });
+                fragments.push(fragment);
             } else {
                 self.cut(fragment, &cuts[..own], fragments);
             }
@@ -98,7 +98,7 @@ impl Rounded<'_> {
     }
 
     fn cut(&self, fragment: Fragment, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
-        let mut rest = Fragment { moved: true, is_new: true, ..fragment };
+        let mut rest = Fragment { moved: true, ..fragment };
         for vertex in self.ordered(fragment.ends, cuts) {
             let point = self.cut_point(fragment.edge, vertex);
             fragments.push(Fragment {

@@ -30,13 +30,12 @@ pub(crate) fn mend(
         mending.find_alike(&mut near);
         mending.find_conflicts(slabs);
         may_coincide |= mending.classes.len() < mending.alike.len();
-        rounded.list_cuts(mending, &mut overlap);
+        let torn = rounded.list_cuts(mending, &mut overlap);
         if mending.cuts.is_empty() {
             break;
         }
         rounded.cut_up(&mending.cuts, &mut mending.fragments);
-        let new = mending.fragments.iter().filter(|fragment| fragment.is_new);
-        near = Near::to(new.map(|fragment| fragment.segment));
+        near = Near::to(torn.into_iter());
     }
     debug_assert!(overlap || mending.is_mended(slabs));
     mending.mended = mending.fragments.len() - mending.parts.len();
@@ -120,8 +119,9 @@ impl Mending {
 
 impl Rounded<'_> {
     /// Lists cuts of the conflicting fragments at the ends of one of those that they conflict with, and notes whether there
-    /// are any that cannot be cut so.
-    fn list_cuts(&self, mending: &mut Mending, overlap: &mut bool) {
+    /// are any that cannot be cut so; returns the segments of the others, in whose boxes their new fragments will lie.
+    fn list_cuts(&self, mending: &mut Mending, overlap: &mut bool) -> Vec<Segment> {
+        let mut torn = Vec::new();
         let mut cuts = std::mem::take(&mut mending.cuts);
         cuts.clear();
         for &[i, j] in &mending.conflicts {
@@ -135,11 +135,16 @@ impl Rounded<'_> {
                     cuts.extend(inside.map(|vertex| (fragment, vertex)));
                 }
             }
-            *overlap |= cuts.len() == before;
+            if cuts.len() == before {
+                *overlap = true;
+            } else {
+                torn.extend([i, j].map(|class| mending.one_of(class as usize).segment));
+            }
         }
         cuts.sort_unstable();
         cuts.dedup();
         mending.cuts = cuts;
+        torn
     }
 }
 

@@ -50,8 +50,6 @@ struct Fragment {
     ends: [u32; 2],
     /// Whether an end is a rounded point.
     moved: bool,
-    /// Whether the last cuts made it what it is.
-    is_new: bool,
 }
 
 /// A cut of a fragment, by its place, at a vertex's abscissa.

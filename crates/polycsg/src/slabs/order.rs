@@ -42,11 +42,8 @@ impl Order<'_> {
 
     /// The order of two edges over a rank that both reach, none of them vertical; equal where they meet there.
     ///
-    /// ```text
-    ///      a  ____----      From the first end that both reach to the last one, edges are in one order, unless they cross;
-    ///   ---|--    |         then they are in one order on either side of the crossing.
-    ///      |______|___ b
-    /// ```
+    /// From the first end that both reach to the last one, edges are in one order, unless they cross; then they are in one
+    /// order on either side of the crossing.
     pub(super) fn at(&self, a: Bar, b: Bar, rank: u32) -> Ordering {
         let x = self.ends[rank as usize].x;
         let is_at = |end: u32| self.ends[end as usize].x == x;
