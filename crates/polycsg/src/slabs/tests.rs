@@ -99,6 +99,36 @@ fn fans() -> impl Strategy<Value = Vec<Segment>> {
     prop::collection::vec((apex, end).prop_map(|(apex, end)| [apex, end]), 0..90).prop_map(distinct)
 }
 
+/// Near ends are looked for otherwise.
+const REACH: f64 = 2e-15;
+
+/// Whether a point lies above or below a segment by the reach at most, and not at its ends.
+fn is_near(s: Segment, p: DVec2) -> bool {
+    let [a, b] = rightward(s);
+    let t = (p.x - a.x) / (b.x - a.x);
+    a.x + REACH < p.x && p.x < b.x - REACH && (a.y + (b.y - a.y) * t - p.y).abs() <= 0.8 * REACH
+}
+
+/// Widened slabs report whatever comes near one another, unless it has an end in common, or there is too much of it.
+fn check_near(segments: &[Segment]) {
+    let mut slabs = Slabs::default();
+    let count = u32::try_from(segments.len()).unwrap();
+    slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+    if !slabs.widen(REACH) || !slabs.find(usize::MAX) {
+        return;
+    }
+    let mut found = BTreeSet::new();
+    slabs.visit(|i, j| assert!(found.insert([i.min(j), i.max(j)]), "{i} and {j} twice"));
+    let is_steep = |[a, b]: Segment| (b.y - a.y).abs() > 100.0 * (b.x - a.x).abs();
+    let shares = |s: Segment, t: Segment| s.iter().any(|p| t.contains(p));
+    for (i, &s) in segments.iter().enumerate().filter(|&(_, &s)| !is_steep(s)) {
+        for (j, &t) in segments.iter().enumerate().filter(|&(_, &t)| !shares(s, t)) {
+            let pair = [i.min(j), i.max(j)].map(|i| u32::try_from(i).unwrap());
+            assert!(!t.iter().any(|&p| is_near(s, p)) || found.contains(&pair), "{s:?} and {t:?}");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(120))]
 
@@ -135,6 +165,23 @@ proptest! {
     fn fans_from_nearly_one_point(segments in fans()) {
         check(&segments);
         check_below(&apart(segments));
+    }
+
+    /// Slanted edges some roundings apart.
+    #[test]
+    fn near_one_another(segments in segments((0_u32..60, 0_u32..400).prop_map(|(x, y)| {
+        let x = f64::from(x) / 60.0;
+        DVec2::new(x, 1.0 + 0.3 * x + f64::from(y) * 1e-15)
+    }), 60)) {
+        check_near(&segments);
+    }
+
+    #[test]
+    fn nearly_in_one_line(segments in prop::collection::vec((0_u32..60, 0_u32..60, 0_u32..900).prop_map(|(from, to, y)| {
+        let at = |x: u32, i: u32| DVec2::new(f64::from(x) / 60.0, 1.0 + 0.005 * f64::from(x) + f64::from(i) * 2e-15);
+        [at(from, y), at(to, y + to % 3)]
+    }), 0..90)) {
+        check_near(&segments.into_iter().filter(|[a, b]| a != b).collect::<Vec<_>>());
     }
 
     #[test]
