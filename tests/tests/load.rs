@@ -160,6 +160,7 @@ fn cut_corner(n: usize) {
         let square = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
         let cut = read(&fan, FillRule::NonZero).difference(&read(&[square], FillRule::NonZero));
         assert_eq!(cut.polygons().count(), n);
+        assert!(cut.validate().is_ok());
         assert!((cut.area() - area).abs() < 1e-9, "{} for {area}", cut.area());
     }
 }
@@ -190,6 +191,7 @@ fn cut_strips(n: usize) {
     let square = [[0.3, 0.3], [0.7, 0.3], [0.7, 0.8], [0.3, 0.8]].map(DVec2::from).to_vec();
     let cut = read(&strips, FillRule::NonZero).difference(&read(&[square], FillRule::NonZero));
     assert_eq!(cut.polygons().count(), 2 * n);
+    assert!(cut.validate().is_ok());
 }
 
 #[test]
