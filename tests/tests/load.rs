@@ -14,9 +14,9 @@
 //! | `one_ring_of_ten_million_edges` | 14 s | 5.5 GB |
 //! | `four_million_crossings`, twice | 11 s | 2.5 GB |
 //! | `more_crossings_than_memory`, refused | 0.5 s | 470 MB |
-//! | `fifty_thousand_edges_nearly_through_a_point` | 1.5 s | 160 MB |
-//! | `twenty_thousand_strips_a_few_roundings_apart` | 1.1 s | 120 MB |
-//! | `a_star_of_a_few_roundings_below_many_edges` | 2.6 s | 40 MB |
+//! | `fifty_thousand_edges_nearly_through_a_point`, twice | 2.6 s | 155 MB |
+//! | `twenty_thousand_strips_a_few_roundings_apart` | 4.8 s | 230 MB |
+//! | `a_star_of_a_few_roundings_below_many_edges` | 4.6 s | 65 MB |
 //! | `expressions_a_hundred_thousand_deep`, to the left and to the right | 0.2 s | 160 MB |
 use glam::DVec2;
 use polycsg::{Csg, Error, FillRule, Region, Scratch};

@@ -161,6 +161,15 @@ proptest! {
         check(&segments);
     }
 
+    /// Ends and starts on three verticals, a rounding apart.
+    #[test]
+    fn along_verticals(segments in segments((0..3_i32, 0_u64..24).prop_map(|(x, ulps)| {
+        DVec2::new(f64::from(x), f64::from_bits(1_f64.to_bits() + ulps))
+    }), 60)) {
+        check(&segments);
+        check_below(&apart(segments));
+    }
+
     #[test]
     fn fans_from_nearly_one_point(segments in fans()) {
         check(&segments);
