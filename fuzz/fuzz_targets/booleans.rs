@@ -47,7 +47,7 @@ fuzz_target!(|input: Input| {
             panic!("{operation:?}: {e}\n{:?}\n{:?}", pair.a, pair.b);
         }
         let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
-        let by_slabs = expression.evaluate_in(&mut polycsg::fuzzing::hasty());
+        let by_slabs = expression.evaluate_with(&mut polycsg::fuzzing::hasty());
         assert_eq!(by_slabs, expression.evaluate(), "{operation:?} by slabs\n{:?}\n{:?}", pair.a, pair.b);
         let is_asked = operation == Operation::ALL[usize::from(input.company % 4)];
         if let (true, Some(&company)) = (is_asked, Company::ALL.get(usize::from(input.company / 4 % 16))) {
@@ -67,7 +67,7 @@ fn assert_alike(expression: &Csg<'_>, company: Company, pair: &Pair) {
     let points = pair.a.rings.iter().chain(&pair.b.rings).flatten();
     let size = points.map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let rings = company.rings(size).expect("there is room");
-    let others = Csg::rings(&rings, FillRule::NonZero).expect("finite");
+    let others = Csg::from_rings(&rings, FillRule::NonZero).expect("finite");
     let together = without_company(&(expression.clone() | others).evaluate(), size);
     assert_eq!(together, shapes(&expression.evaluate()), "beside {company:?}\n{:?}\n{:?}", pair.a, pair.b);
 }

@@ -27,7 +27,7 @@ fuzz_target!(|input: Input| {
     let slabs: Vec<Ring> = input.slabs.iter().take(MOST_SHAPES).map(|s| scaled(slab(s, &input))).collect();
     let needles: Vec<Ring> =
         input.needles.iter().take(MOST_SHAPES).map(|n| scaled(needle(*n, &input))).collect();
-    let leaf = |rings: &[Ring]| Csg::rings(rings, FillRule::EvenOdd).expect("finite points");
+    let leaf = |rings: &[Ring]| Csg::from_rings(rings, FillRule::EvenOdd).expect("finite points");
     let (a, b) = (leaf(&slabs), leaf(&needles));
     let results = [a.clone() | b.clone(), a.clone() & b.clone(), a.clone() - b.clone(), a ^ b];
     for result in results.map(|csg| csg.evaluate()) {

@@ -65,7 +65,7 @@ fn verdict(pair: &Pair, operation: Operation) -> Option<Verdict> {
 fn changes_in(company: Company, pair: &Pair, operation: Operation) -> bool {
     let size = rings(pair).flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let Some(others) = company.rings(size) else { return false };
-    let others = Csg::rings(&others, FillRule::NonZero).expect("finite points");
+    let others = Csg::from_rings(&others, FillRule::NonZero).expect("finite points");
     let together = csg(operation, leaf(&pair.a), leaf(&pair.b)) | others;
     without_company(&together.evaluate(), size) != shapes(&evaluated(pair, operation))
 }

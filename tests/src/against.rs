@@ -30,7 +30,7 @@ pub fn class(membership: Membership) -> Class {
 
 /// An operand as a leaf; its coordinates must be finite.
 pub fn leaf(operand: &Operand) -> Csg<'static> {
-    Csg::rings(&operand.rings, fill_rule(operand.rule)).expect("generated coordinates are finite")
+    Csg::from_rings(&operand.rings, fill_rule(operand.rule)).expect("generated coordinates are finite")
 }
 
 /// An operand as a region; its coordinates must be finite.

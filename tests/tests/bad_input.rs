@@ -23,7 +23,7 @@ fn not_a_number_and_infinity_are_errors_that_name_the_vertex() {
                     let rings = [square(), ring.clone()];
                     let expected = Error::NonFinite { ring: 1, vertex };
                     assert_eq!(Region::from_rings(&rings, rule), Err(expected));
-                    assert_eq!(Csg::rings(&rings, rule).err(), Some(expected));
+                    assert_eq!(Csg::from_rings(&rings, rule).err(), Some(expected));
                     assert!(expected.to_string().contains(&format!("ring 1, vertex {vertex}")));
                 }
             }
@@ -71,7 +71,7 @@ fn operands_that_bound_nothing_change_nothing() {
     let region = Region::from_rings([square()], FillRule::NonZero).expect("a square");
     let flat = vec![DVec2::new(-1.0, 0.5), DVec2::new(2.0, 0.5)];
     for rule in RULES {
-        let line = || Csg::rings([&flat], rule).expect("finite points");
+        let line = || Csg::from_rings([&flat], rule).expect("finite points");
         assert_eq!((Csg::from(&region) | line()).evaluate(), region);
         assert_eq!((Csg::from(&region) - line()).evaluate(), region);
         assert!((Csg::from(&region) & line()).evaluate().is_empty());

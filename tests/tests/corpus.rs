@@ -84,7 +84,7 @@ fn is_alike_in(company: Company, pair: &Pair, operation: Operation) -> bool {
     let size = size(pair);
     let expression = csg(operation, leaf(&pair.a), leaf(&pair.b));
     let Some(rings) = company.rings(size) else { return true };
-    let others = Csg::rings(&rings, FillRule::NonZero).expect("finite");
+    let others = Csg::from_rings(&rings, FillRule::NonZero).expect("finite");
     let together: Region = (expression.clone() | others).evaluate();
     let alone = expression.evaluate();
     together.polygons().count() == alone.polygons().count() + rings.len()

@@ -141,7 +141,9 @@ fn any_number_of_threads() {
     let jobs: Vec<Csg<'_>> = pairs
         .iter()
         .flat_map(|pair| [leaf(&pair.a) | leaf(&pair.b), leaf(&pair.a) ^ leaf(&pair.b)])
-        .chain((10..14).map(|seed| Csg::rings(crowd(seed, 300), FillRule::NonZero).expect("finite rings")))
+        .chain(
+            (10..14).map(|seed| Csg::from_rings(crowd(seed, 300), FillRule::NonZero).expect("finite rings")),
+        )
         .collect();
     let serial: Vec<Region> = jobs.iter().map(Csg::evaluate).collect();
     for threads in [1, 2, 5] {

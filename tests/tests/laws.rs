@@ -113,7 +113,7 @@ fn stairs(ring: &Ring) -> Ring {
 fn de_morgan_within_a_frame() {
     for pair in inputs() {
         let frame = [[-1e16, -1e16], [1e16, -1e16], [1e16, 1e16], [-1e16, 1e16]];
-        let frame = || Csg::rings([frame], polycsg::FillRule::NonZero).expect("a finite frame");
+        let frame = || Csg::from_rings([frame], polycsg::FillRule::NonZero).expect("a finite frame");
         let [a, b] = [&pair.a, &pair.b];
         let left = (frame() - (leaf(a) | leaf(b))).evaluate();
         let right = ((frame() - leaf(a)) & (frame() - leaf(b))).evaluate();
@@ -210,7 +210,7 @@ fn a_scratch_remembers_nothing() {
     let mut scratch = polycsg::Scratch::default();
     for pair in all_inputs() {
         for operation in Operation::ALL {
-            let reused = csg(operation, leaf(&pair.a), leaf(&pair.b)).evaluate_in(&mut scratch);
+            let reused = csg(operation, leaf(&pair.a), leaf(&pair.b)).evaluate_with(&mut scratch);
             assert_eq!(reused, evaluate(operation, &pair), "{} {operation:?}", pair.name);
         }
     }

@@ -138,8 +138,8 @@ fn too_many(n: usize, limit: usize) {
     let level: Vec<Ring> =
         bars().map(|(x, y)| ring([[-2.0, x], [end, y], [end, y + 1.0], [-2.0, x + 1.0]])).collect();
     let [upright, level] =
-        [upright, level].map(|bars| Csg::rings(&bars, FillRule::NonZero).expect("finite points"));
-    let refused = (upright & level).evaluate_within(&mut Scratch::default(), limit);
+        [upright, level].map(|bars| Csg::from_rings(&bars, FillRule::NonZero).expect("finite points"));
+    let refused = (upright & level).try_evaluate_with(&mut Scratch::default(), limit);
     assert_eq!(refused, Err(Error::TooManyContacts { limit }));
 }
 

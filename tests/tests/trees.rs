@@ -31,7 +31,7 @@ fn any_expression_is_the_set_that_the_table_makes() {
         let mut random = Random::new(seed);
         for depth in 1..5 {
             let tree = Tree::grow(&mut |n| random.below(n), operands.len(), depth);
-            let found = tree.csg(&operands, &regions).evaluate_in(&mut scratch);
+            let found = tree.csg(&operands, &regions).evaluate_with(&mut scratch);
             let checked = validity::check(&shapes(&found))
                 .and_then(|()| check_set(&found, &operands, |classes| tree.class(classes)));
             checked.unwrap_or_else(|e| panic!("lattices {seed}: {tree:?}: {e}"));

@@ -44,8 +44,8 @@ fn a_large_perforated_disk() {
     };
     let squares =
         (0..40).flat_map(|i| (0..40).filter(move |j| (i + j) % 2 == 0 || j % 3 == 0).map(move |j| (i, j)));
-    let squares = Csg::rings(squares.map(|(i, j)| square(i, j)), FillRule::NonZero).expect("finite");
-    let disk = Csg::rings([circle(3000, 9.7)], FillRule::NonZero).expect("finite");
+    let squares = Csg::from_rings(squares.map(|(i, j)| square(i, j)), FillRule::NonZero).expect("finite");
+    let disk = Csg::from_rings([circle(3000, 9.7)], FillRule::NonZero).expect("finite");
     let region = (disk - squares).evaluate();
     check_cover(&region).unwrap_or_else(|e| panic!("{e}"));
 }

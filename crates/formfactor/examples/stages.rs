@@ -124,7 +124,7 @@ fn visible(scene: &Scene) -> String {
 fn terms(scene: &Scene) -> Result<String, polycsg::Error> {
     let visible = visible_part(&scene.from, &scene.to, &scene.hiding);
     let rings: Vec<Vec<DVec3>> = visible.rings().collect();
-    let set = Csg::rings(visible.region().rings(), FillRule::EvenOdd)?;
+    let set = Csg::from_rings(visible.region().rings(), FillRule::EvenOdd)?;
     let boundary = set.evaluate();
     let mut svg = region(&boundary, "ray");
     for ring in &rings {

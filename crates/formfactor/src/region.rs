@@ -10,7 +10,7 @@ pub(crate) fn area(loops: &[Vec<DVec2>]) -> f64 {
 
 /// The set inside an odd number of loops, which are finite.
 pub(crate) fn leaf(loops: &[Vec<DVec2>]) -> Csg<'_> {
-    Csg::rings(loops, FillRule::EvenOdd).expect("coordinates are kept within finite bounds")
+    Csg::from_rings(loops, FillRule::EvenOdd).expect("coordinates are kept within finite bounds")
 }
 
 /// Whether a counter-clockwise loop is convex and has an area; decided exactly, and never said of a loop that is not.

@@ -43,7 +43,7 @@ fn square_and_rectangles(count: u32) -> (Region, Vec<Region>, Scratch) {
 
 /// Buffers as they are from the second call on.
 fn warm((square, rectangles, mut scratch): (Region, Vec<Region>, Scratch)) -> (Region, Vec<Region>, Scratch) {
-    (Csg::from(&square) - Csg::union(&rectangles)).evaluate_in(&mut scratch);
+    (Csg::from(&square) - Csg::union(&rectangles)).evaluate_with(&mut scratch);
     (square, rectangles, scratch)
 }
 
@@ -51,7 +51,7 @@ fn square_and_triangle() -> (Region, Region, Scratch) {
     let square = rectangle(DVec2::ZERO, DVec2::ONE);
     let triangle = region([[0.5, 0.5], [1.5, 0.25], [1.5, 0.75]].map(DVec2::from));
     let mut scratch = Scratch::default();
-    (Csg::from(&square) - Csg::from(&triangle)).evaluate_in(&mut scratch);
+    (Csg::from(&square) - Csg::from(&triangle)).evaluate_with(&mut scratch);
     (square, triangle, scratch)
 }
 
@@ -72,7 +72,7 @@ fn lattice(side: u32) -> Vec<Region> {
 
 fn perforated() -> Region {
     let (square, rectangles, mut scratch) = square_and_rectangles(300);
-    (Csg::from(&square) - Csg::union(&rectangles)).evaluate_in(&mut scratch)
+    (Csg::from(&square) - Csg::union(&rectangles)).evaluate_with(&mut scratch)
 }
 
 /// Needles through nearly one point: nearly all crossings round to the same few points, and most results are repaired.
@@ -98,7 +98,7 @@ type Difference = (Region, Vec<Region>, Scratch);
 fn square_minus_triangle(
     (a, b, mut scratch): (Region, Region, Scratch),
 ) -> (Region, Region, Region, Scratch) {
-    let rest = (Csg::from(&a) - Csg::from(&b)).evaluate_in(&mut scratch);
+    let rest = (Csg::from(&a) - Csg::from(&b)).evaluate_with(&mut scratch);
     (rest, a, b, scratch)
 }
 
@@ -107,7 +107,7 @@ fn square_minus_triangle(
 #[bench::of_100(square_and_rectangles(100))]
 #[bench::of_1000(square_and_rectangles(1000))]
 fn square_minus_rectangles((square, rectangles, mut scratch): Difference) -> (Region, Difference) {
-    let rest = (Csg::from(&square) - Csg::union(&rectangles)).evaluate_in(&mut scratch);
+    let rest = (Csg::from(&square) - Csg::union(&rectangles)).evaluate_with(&mut scratch);
     (rest, (square, rectangles, scratch))
 }
 

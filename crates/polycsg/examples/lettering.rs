@@ -12,12 +12,12 @@ use std::f64::consts::TAU;
 fn disk(center: DVec2, radius: f64) -> Csg<'static> {
     let corner = |i: u32| center + radius * DVec2::from_angle(f64::from(i) / 96.0 * TAU);
     let ring: Vec<DVec2> = (0..96).map(corner).collect();
-    Csg::rings([ring], FillRule::NonZero).expect("finite coordinates")
+    Csg::from_rings([ring], FillRule::NonZero).expect("finite coordinates")
 }
 
 fn bar(low: DVec2, high: DVec2) -> Csg<'static> {
     let ring = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    Csg::rings([ring], FillRule::NonZero).expect("finite coordinates")
+    Csg::from_rings([ring], FillRule::NonZero).expect("finite coordinates")
 }
 
 fn hoop(center: DVec2, radius: f64) -> Csg<'static> {

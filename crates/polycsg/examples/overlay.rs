@@ -61,7 +61,7 @@ fn svg() -> Result<String, Error> {
     let mut sum = 0.0;
     for (index, (name, colour)) in (0..).zip(SOILS) {
         let soil = soil(index)?;
-        let part = (Csg::from(&land) & Csg::from(&soil)).evaluate_in(&mut scratch);
+        let part = (Csg::from(&land) & Csg::from(&soil)).evaluate_with(&mut scratch);
         sheet.region(&part, &format!("fill:{colour};stroke:#555;stroke-width:.5"));
         sheet.text(DVec2::new(0.2, 0.9 - 0.2 * f64::from(index)), &format!("{name} {:.3}", part.area()));
         sum += part.area();
@@ -69,7 +69,7 @@ fn svg() -> Result<String, Error> {
     sheet.text(DVec2::new(2.0, 0.9), &format!("sum {sum:.12}, land {:.12}", land.area()));
     for index in 0..8 {
         let parcel = parcel(index)?;
-        let part = (Csg::from(&land) & Csg::from(&parcel)).evaluate_in(&mut scratch);
+        let part = (Csg::from(&land) & Csg::from(&parcel)).evaluate_with(&mut scratch);
         sheet.region(&part, "fill:none;stroke:#222;stroke-width:1.5");
     }
     Ok(sheet.svg())

@@ -41,7 +41,7 @@ impl Case {
     }
 
     fn operand(&self, index: usize) -> Csg<'_> {
-        Csg::rings(&self.operands[index], FillRule::EvenOdd).expect("finite coordinates")
+        Csg::from_rings(&self.operands[index], FillRule::EvenOdd).expect("finite coordinates")
     }
 
     fn csg(&self) -> Csg<'_> {

@@ -32,6 +32,6 @@ impl Region {
     pub fn map_affine(&self, map: DAffine2) -> Result<Region, Error> {
         let mapped = |ring: &[DVec2]| ring.iter().map(|&p| map.transform_point2(p)).collect::<Vec<_>>();
         // Rings of a region bound it whichever way they run: mirrors need no case of their own.
-        Ok(Csg::rings(self.rings().map(mapped), FillRule::EvenOdd)?.evaluate())
+        Ok(Csg::from_rings(self.rings().map(mapped), FillRule::EvenOdd)?.evaluate())
     }
 }

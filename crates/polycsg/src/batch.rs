@@ -20,6 +20,6 @@ impl Csg<'_> {
     /// # Ok::<(), polycsg::Error>(())
     /// ```
     pub fn evaluate_all(jobs: &[Csg<'_>]) -> Vec<Region> {
-        jobs.par_iter().map_init(Scratch::default, |scratch, job| job.evaluate_in(scratch)).collect()
+        jobs.par_iter().map_init(Scratch::default, |scratch, job| job.evaluate_with(scratch)).collect()
     }
 }

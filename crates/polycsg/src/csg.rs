@@ -128,7 +128,7 @@ impl<'a> Csg<'a> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] names the first ring and vertex with a NaN or an infinity.
-    pub fn rings<R, P>(rings: R, rule: FillRule) -> Result<Csg<'a>, Error>
+    pub fn from_rings<R, P>(rings: R, rule: FillRule) -> Result<Csg<'a>, Error>
     where
         R: IntoIterator,
         R::Item: AsRef<[P]>,
@@ -219,15 +219,15 @@ impl<'a> Csg<'a> {
     /// # Panics
     /// Beyond 2^32 − 2 edges and contacts, which take hundreds of gigabytes; nothing else panics.
     pub fn evaluate(&self) -> Region {
-        self.evaluate_in(&mut Scratch::default())
+        self.evaluate_with(&mut Scratch::default())
     }
 
     /// As [`evaluate`](Csg::evaluate), in buffers that the caller keeps from call to call: for many small jobs.
-    pub fn evaluate_in(&self, scratch: &mut Scratch) -> Region {
+    pub fn evaluate_with(&self, scratch: &mut Scratch) -> Region {
         pipeline::region(self, scratch).expect("a scratch has no limit of its own")
     }
 
-    /// As [`evaluate_in`](Csg::evaluate_in), unless edges meet more than `contacts` times: for operands from strangers, as n
+    /// As [`evaluate_with`](Csg::evaluate_with), unless edges meet more than `contacts` times: for operands from strangers, as n
     /// edges can have n² crossings, and memory goes with them (about 600 bytes for each).
     ///
     /// A crossing counts as two contacts, one on each of its edges, a vertex that touches an edge as one. Where many edges
@@ -242,14 +242,14 @@ impl<'a> Csg<'a> {
     /// let bars = |n: usize| (0..n).map(|i| 2.0 * i as f64);
     /// let upright = bars(50).map(|x| vec![[x, -1.0], [x + 1.0, -1.0], [x + 1.0, 100.0], [x, 100.0]]);
     /// let level = bars(50).map(|y| vec![[-1.0, y], [100.0, y], [100.0, y + 1.0], [-1.0, y + 1.0]]);
-    /// let both = Csg::rings(upright, FillRule::NonZero)? & Csg::rings(level, FillRule::NonZero)?;
+    /// let both = Csg::from_rings(upright, FillRule::NonZero)? & Csg::from_rings(level, FillRule::NonZero)?;
     /// let mut scratch = Scratch::default();
     /// let limit = 10_000; // 100 by 100 edges cross, and each crossing is a contact of both
-    /// assert_eq!(both.evaluate_within(&mut scratch, limit), Err(Error::TooManyContacts { limit }));
-    /// assert_eq!(both.evaluate_within(&mut scratch, 2 * limit)?.area(), 2500.0);
+    /// assert_eq!(both.try_evaluate_with(&mut scratch, limit), Err(Error::TooManyContacts { limit }));
+    /// assert_eq!(both.try_evaluate_with(&mut scratch, 2 * limit)?.area(), 2500.0);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn evaluate_within(&self, scratch: &mut Scratch, contacts: usize) -> Result<Region, Error> {
+    pub fn try_evaluate_with(&self, scratch: &mut Scratch, contacts: usize) -> Result<Region, Error> {
         let patience = scratch.patience;
         scratch.patience.contacts = contacts;
         let region = pipeline::region(self, scratch);

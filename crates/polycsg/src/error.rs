@@ -12,7 +12,7 @@ pub enum Error {
         /// Index of the vertex within that ring.
         vertex: usize,
     },
-    /// The operands' edges meet more often than [`Csg::evaluate_within`](crate::Csg::evaluate_within) may count.
+    /// The operands' edges meet more often than [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with) may count.
     TooManyContacts {
         /// The limit that the call gave.
         limit: usize,

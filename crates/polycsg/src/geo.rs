@@ -47,7 +47,7 @@ impl TryFrom<&MultiPolygon<f64>> for Region {
         let all: Vec<Vec<Vec<DVec2>>> = polygons.iter().map(rings).collect();
         Rings::read(all.iter().flatten())?;
         let operands: Result<Vec<Csg<'_>>, Error> =
-            all.iter().map(|rings| Csg::rings(rings, FillRule::EvenOdd)).collect();
+            all.iter().map(|rings| Csg::from_rings(rings, FillRule::EvenOdd)).collect();
         Ok(Csg::union(operands?).evaluate())
     }
 }

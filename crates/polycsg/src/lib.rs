@@ -43,8 +43,8 @@
 //! | raw rings, made valid | [`Region::from_rings`] |
 //! | two regions | [`Region::union`], [`intersection`](Region::intersection), [`difference`](Region::difference), [`symmetric_difference`](Region::symmetric_difference) |
 //! | many operands, nested expressions, raw rings as operands | [`Csg`], then [`evaluate`](Csg::evaluate) |
-//! | many small jobs | [`Csg::evaluate_in`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
-//! | operands from strangers, who may send more crossings than fit in memory | [`Csg::evaluate_within`] |
+//! | many small jobs | [`Csg::evaluate_with`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
+//! | operands from strangers, who may send more crossings than fit in memory | [`Csg::try_evaluate_with`] |
 //! | the area alone, or whether anything is left; which operand an edge comes from | [`Csg::boundary`] |
 //! | where a point lies, how a segment lies | [`Region::locate`], [`classify`] |
 //! | moved, turned, scaled, mirrored | [`Region::map_affine`] |

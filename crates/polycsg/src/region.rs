@@ -114,7 +114,7 @@ impl Region {
         R::Item: AsRef<[P]>,
         P: Copy + Into<DVec2>,
     {
-        Ok(Csg::rings(rings, rule)?.evaluate())
+        Ok(Csg::from_rings(rings, rule)?.evaluate())
     }
 
     /// A ∪ B. For more than two, see [`Csg::union`]: one call is faster than a chain, and rounds once.
@@ -233,7 +233,7 @@ impl Region {
 
     /// The region that these rings bound by their direction, evaluated anew.
     pub(crate) fn evaluated_again(&self) -> Region {
-        Csg::positive(self.rings.clone()).evaluate_in(&mut Scratch::default())
+        Csg::positive(self.rings.clone()).evaluate_with(&mut Scratch::default())
     }
 }
 

@@ -20,7 +20,7 @@ use crate::window::Window;
 
 /// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
 ///
-/// They grow with the operands and with how often their edges meet: [`Csg::evaluate_within`](crate::Csg::evaluate_within)
+/// They grow with the operands and with how often their edges meet: [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with)
 /// sets a limit to that.
 ///
 /// ```
@@ -29,7 +29,7 @@ use crate::window::Window;
 /// let b = Region::from_rings([[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]], FillRule::NonZero)?;
 /// let mut scratch = Scratch::default();
 /// let common = Csg::from(&a) & Csg::from(&b);
-/// assert_eq!(common.evaluate_in(&mut scratch).area(), 1.0);
+/// assert_eq!(common.evaluate_with(&mut scratch).area(), 1.0);
 /// assert_eq!(common.boundary(&mut scratch).area(), 1.0); // without rings
 /// # Ok::<(), polycsg::Error>(())
 /// ```
@@ -67,13 +67,13 @@ impl Scratch {
     /// // Needles within a few units in the last place of one another: hardly a double is near where they cross.
     /// let height = |i: u32| 0.7 + f64::from(i * i % 23) * 1e-15;
     /// let needles = (0..20).map(|i| [[0.0, height(i)], [1.0, height(i + 7)], [1.0, height(i + 9)]]);
-    /// Csg::rings(needles, FillRule::EvenOdd)?.evaluate_in(&mut scratch).validate().expect("valid as always");
-    /// assert!(scratch.mended() > 0);
-    /// Csg::rings([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]], FillRule::EvenOdd)?.evaluate_in(&mut scratch);
-    /// assert_eq!(scratch.mended(), 0);
+    /// Csg::from_rings(needles, FillRule::EvenOdd)?.evaluate_with(&mut scratch).validate().expect("valid as always");
+    /// assert!(scratch.repaired_vertices() > 0);
+    /// Csg::from_rings([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]], FillRule::EvenOdd)?.evaluate_with(&mut scratch);
+    /// assert_eq!(scratch.repaired_vertices(), 0);
     /// # Ok::<(), polycsg::Error>(())
     /// ```
-    pub fn mended(&self) -> usize {
+    pub fn repaired_vertices(&self) -> usize {
         self.mending.mended
     }
 }

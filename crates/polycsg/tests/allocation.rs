@@ -13,8 +13,8 @@ fn saw(count: u32) -> Csg<'static> {
         let (x, width) = (f64::from(i) / f64::from(count), 0.7 / f64::from(count));
         [DVec2::new(x, -0.1), DVec2::new(x + width, -0.1), DVec2::new(x + width / 3.0, 0.5)]
     };
-    Csg::rings([square], FillRule::NonZero).expect("finite")
-        - Csg::rings((0..count).map(tooth), FillRule::NonZero).expect("finite")
+    Csg::from_rings([square], FillRule::NonZero).expect("finite")
+        - Csg::from_rings((0..count).map(tooth), FillRule::NonZero).expect("finite")
 }
 
 #[test]

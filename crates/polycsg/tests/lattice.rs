@@ -42,7 +42,7 @@ proptest! {
 
     #[test]
     fn boundary_and_region_enclose_the_same(a in rings(), b in rings(), rule in rule()) {
-        let csg = Csg::rings(&a, rule).expect("finite") - Csg::rings(&b, rule).expect("finite");
+        let csg = Csg::from_rings(&a, rule).expect("finite") - Csg::from_rings(&b, rule).expect("finite");
         let mut scratch = Scratch::default();
         let area = csg.boundary(&mut scratch).area();
         prop_assert!((csg.evaluate().area() - area).abs() < 1e-11);

@@ -20,7 +20,7 @@ fn a_limit_is_named() {
 fn what_bounds_nothing_has_no_boundary() {
     let mut scratch = Scratch::default();
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let all = Csg::rings([square], FillRule::NonZero).expect("finite");
+    let all = Csg::from_rings([square], FillRule::NonZero).expect("finite");
     assert!(!all.boundary(&mut scratch).is_empty());
     assert!((all.clone() - all).boundary(&mut scratch).is_empty());
 }

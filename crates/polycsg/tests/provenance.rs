@@ -27,7 +27,7 @@ fn off([a, b]: [DVec2; 2], p: DVec2) -> f64 {
 }
 
 fn check(operands: &[Vec<Vec<DVec2>>]) -> Result<(), TestCaseError> {
-    let leaf = |rings: &Vec<Vec<DVec2>>| Csg::rings(rings, FillRule::EvenOdd).expect("finite");
+    let leaf = |rings: &Vec<Vec<DVec2>>| Csg::from_rings(rings, FillRule::EvenOdd).expect("finite");
     let (first, others) = operands.split_first().expect("an operand");
     let expressions = [
         Csg::union(operands.iter().map(leaf)),

@@ -26,8 +26,8 @@ fn bundle() -> impl Strategy<Value = Vec<Vec<DVec2>>> {
 
 fn check(a: &[Vec<DVec2>], b: &[Vec<DVec2>], slack: f64) -> Result<(), TestCaseError> {
     let (csg_a, csg_b) = (
-        || Csg::rings(a, FillRule::EvenOdd).expect("finite"),
-        || Csg::rings(b, FillRule::EvenOdd).expect("finite"),
+        || Csg::from_rings(a, FillRule::EvenOdd).expect("finite"),
+        || Csg::from_rings(b, FillRule::EvenOdd).expect("finite"),
     );
     let region =
         [csg_a() | csg_b(), csg_a() & csg_b(), csg_a() - csg_b(), csg_a() ^ csg_b()].map(|c| c.evaluate());

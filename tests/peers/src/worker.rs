@@ -86,7 +86,8 @@ fn growth(task: &mut dyn Task) -> Result<Reply, String> {
 fn crossings(job: &Job) -> usize {
     let rings = job.subject.iter().chain(&job.clip).flatten();
     let mut scratch = Scratch::default();
-    let pieces = Csg::rings(rings, FillRule::EvenOdd).map(|csg| csg.boundary(&mut scratch).edges().count());
+    let pieces =
+        Csg::from_rings(rings, FillRule::EvenOdd).map(|csg| csg.boundary(&mut scratch).edges().count());
     pieces.map_or(0, |pieces| pieces.saturating_sub(job.edges()) / 2)
 }
 

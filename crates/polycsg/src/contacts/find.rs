@@ -22,7 +22,7 @@ pub(crate) struct Patience {
     pub(crate) pairs_per_edge: usize,
     pub(crate) pairs_per_node: usize,
     pub(crate) blocks_per_edge: usize,
-    /// The most contacts to be found at all, counted as [`Csg::evaluate_within`](crate::Csg::evaluate_within) does.
+    /// The most contacts to be found at all, counted as [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with) does.
     pub(crate) contacts: usize,
 }
 

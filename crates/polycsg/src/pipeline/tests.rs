@@ -18,13 +18,13 @@ fn whole() -> impl Strategy<Value = DVec2> {
 
 fn check(rings: &[Vec<DVec2>], rule: FillRule) {
     let (a, b) = rings.split_at(rings.len() / 2);
-    let operand = |rings: &[Vec<DVec2>]| Csg::rings(rings, rule).expect("finite");
+    let operand = |rings: &[Vec<DVec2>]| Csg::from_rings(rings, rule).expect("finite");
     for csg in
         [operand(a) | operand(b), operand(a) & operand(b), operand(a) - operand(b), operand(a) ^ operand(b)]
     {
         let (region, pieces): (Region, usize) =
             (csg.evaluate(), csg.boundary(&mut Scratch::default()).edges().count());
-        assert_eq!(csg.evaluate_in(&mut hasty()), region);
+        assert_eq!(csg.evaluate_with(&mut hasty()), region);
         assert_eq!(csg.boundary(&mut hasty()).edges().count(), pieces);
         assert_eq!(region.validate(), Ok(()));
     }
@@ -156,7 +156,7 @@ proptest! {
         };
         let leaves: Vec<Region> = leaves.iter().map(region).collect();
         let csg = expression(&leaves, &operators);
-        prop_assert_eq!(csg.evaluate(), csg.evaluate_in(&mut boundless()));
+        prop_assert_eq!(csg.evaluate(), csg.evaluate_with(&mut boundless()));
         let edges = |scratch: &mut Scratch| csg.boundary(scratch).edges().collect::<Vec<_>>();
         prop_assert_eq!(edges(&mut Scratch::default()), edges(&mut boundless()));
     }
@@ -171,12 +171,12 @@ fn what_lies_elsewhere_is_not_arranged() {
     let (a, far) =
         (region(vec![square(0.0)]), region((2..100).map(|i| square(2.0 * f64::from(i))).collect()));
     let mut scratch = Scratch::default();
-    assert_eq!((Csg::from(&a) - Csg::from(&far)).evaluate_in(&mut scratch), a);
+    assert_eq!((Csg::from(&a) - Csg::from(&far)).evaluate_with(&mut scratch), a);
     assert_eq!(scratch.edges.rings().len(), 1);
-    assert!((Csg::from(&a) & Csg::from(&far)).evaluate_in(&mut scratch).is_empty());
+    assert!((Csg::from(&a) & Csg::from(&far)).evaluate_with(&mut scratch).is_empty());
     assert_eq!(scratch.edges.rings().len(), 0);
     let near = region((0..100).map(|i| square(0.5 + 2.0 * f64::from(i))).collect());
-    assert_eq!((Csg::from(&a) - Csg::from(&near)).evaluate_in(&mut scratch).area(), 0.5);
+    assert_eq!((Csg::from(&a) - Csg::from(&near)).evaluate_with(&mut scratch).area(), 0.5);
     assert_eq!(scratch.edges.rings().len(), 2);
 }
 
@@ -186,8 +186,8 @@ fn comb(n: u32, slant: f64) -> Csg<'static> {
     let end = 2.0 * f64::from(n);
     let upright = bars().map(|x| [[x, -1.0], [x + 1.0, -1.0], [x + slant + 1.0, end], [x + slant, end]]);
     let level = bars().map(|y| [[-1.0, y], [end + slant, y], [end + slant, y + 1.0], [-1.0, y + 1.0]]);
-    Csg::rings(upright, FillRule::NonZero).expect("finite")
-        & Csg::rings(level, FillRule::NonZero).expect("finite")
+    Csg::from_rings(upright, FillRule::NonZero).expect("finite")
+        & Csg::from_rings(level, FillRule::NonZero).expect("finite")
 }
 
 /// Each of 4 n² crossings is a contact of two edges: by boxes and by slabs, one less than that is too little, and what is
@@ -198,12 +198,12 @@ fn contacts_are_counted() {
         let csg = comb(n, slant);
         let needed = 8 * n as usize * n as usize;
         for mut scratch in [Scratch::default(), hasty()] {
-            let refused = csg.evaluate_within(&mut scratch, needed - 1);
+            let refused = csg.try_evaluate_with(&mut scratch, needed - 1);
             assert_eq!(refused, Err(Error::TooManyContacts { limit: needed - 1 }));
             let small = comb(2, 0.5);
-            assert_eq!(small.evaluate_in(&mut scratch), small.evaluate());
-            assert_eq!(csg.evaluate_within(&mut scratch, needed), Ok(csg.evaluate()));
-            assert_eq!(csg.evaluate_in(&mut scratch), csg.evaluate());
+            assert_eq!(small.evaluate_with(&mut scratch), small.evaluate());
+            assert_eq!(csg.try_evaluate_with(&mut scratch, needed), Ok(csg.evaluate()));
+            assert_eq!(csg.evaluate_with(&mut scratch), csg.evaluate());
         }
     }
 }
@@ -217,12 +217,12 @@ proptest! {
         rings in rings((0.0..1.0, 0.0..1.0).prop_map(DVec2::from)),
         limit in 0_usize..200,
     ) {
-        let csg = Csg::rings(&rings, FillRule::EvenOdd).expect("finite");
+        let csg = Csg::from_rings(&rings, FillRule::EvenOdd).expect("finite");
         for mut scratch in [Scratch::default(), hasty()] {
-            match csg.evaluate_within(&mut scratch, limit) {
+            match csg.try_evaluate_with(&mut scratch, limit) {
                 Ok(region) => {
                     prop_assert_eq!(&region, &csg.evaluate());
-                    prop_assert_eq!(csg.evaluate_within(&mut scratch, limit + 1), Ok(region));
+                    prop_assert_eq!(csg.try_evaluate_with(&mut scratch, limit + 1), Ok(region));
                 }
                 Err(refused) => prop_assert_eq!(refused, Error::TooManyContacts { limit }),
             }

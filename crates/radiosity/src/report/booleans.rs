@@ -60,7 +60,7 @@ fn axis(plan: &Plan, name: &str, cases: impl Iterator<Item = Case>) -> Vec<Measu
 }
 
 fn region(rings: &[Vec<DVec2>]) -> Region {
-    Csg::rings(rings, FillRule::NonZero).expect("the cases are finite").evaluate()
+    Csg::from_rings(rings, FillRule::NonZero).expect("the cases are finite").evaluate()
 }
 
 fn ring(corners: impl IntoIterator<Item = [f64; 2]>) -> Vec<DVec2> {

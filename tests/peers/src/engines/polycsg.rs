@@ -12,7 +12,7 @@ fn rings(polygons: &[Polygon]) -> Vec<Ring> {
 pub(super) fn from_rings(job: &Job) -> Result<Box<dyn Task>, String> {
     let (op, subject, clip) = (job.op, rings(&job.subject), rings(&job.clip));
     let mut scratch = Scratch::default();
-    let call = move |()| Ok(raw(op, &subject, &clip)?.evaluate_in(&mut scratch));
+    let call = move |()| Ok(raw(op, &subject, &clip)?.evaluate_with(&mut scratch));
     Ok(task((), call, measure))
 }
 
@@ -28,7 +28,7 @@ pub(super) fn boundary(job: &Job) -> Result<Box<dyn Task>, String> {
 pub(super) fn from_regions(job: &Job) -> Result<Box<dyn Task>, String> {
     let (op, subject, clip) = (job.op, regions(&job.subject)?, regions(&job.clip)?);
     let mut scratch = Scratch::default();
-    let call = move |()| Ok(expression(op, &subject, &clip).evaluate_in(&mut scratch));
+    let call = move |()| Ok(expression(op, &subject, &clip).evaluate_with(&mut scratch));
     Ok(task((), call, measure))
 }
 
@@ -41,7 +41,7 @@ pub(super) fn boundary_of_regions(job: &Job) -> Result<Box<dyn Task>, String> {
 }
 
 fn raw(op: Op, subject: &[Ring], clip: &[Ring]) -> Result<Csg<'static>, String> {
-    let read = |rings: &[Ring]| Csg::rings(rings, FillRule::NonZero);
+    let read = |rings: &[Ring]| Csg::from_rings(rings, FillRule::NonZero);
     let joined = |join: fn(Csg<'static>, Csg<'static>) -> Csg<'static>| Ok(join(read(subject)?, read(clip)?));
     let csg: Result<Csg<'static>, Error> = match op {
         Op::UnionOfAll => read(subject),

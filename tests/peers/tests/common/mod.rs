@@ -85,10 +85,10 @@ fn major(version: &str) -> u32 {
 /// polycsg's result.
 pub(crate) fn evaluate(op: Op, subject: &[Ring], clip: &[Ring], rule: Rule) -> Region {
     let read = |rings: &[Ring]| match rule {
-        Rule::EvenOdd => Csg::rings(rings, FillRule::EvenOdd).unwrap(),
-        Rule::NonZero => Csg::rings(rings, FillRule::NonZero).unwrap(),
-        Rule::Positive => Csg::rings(rings, FillRule::Positive).unwrap(),
-        Rule::Negative => Csg::rings(turned(rings), FillRule::Positive).unwrap(),
+        Rule::EvenOdd => Csg::from_rings(rings, FillRule::EvenOdd).unwrap(),
+        Rule::NonZero => Csg::from_rings(rings, FillRule::NonZero).unwrap(),
+        Rule::Positive => Csg::from_rings(rings, FillRule::Positive).unwrap(),
+        Rule::Negative => Csg::from_rings(turned(rings), FillRule::Positive).unwrap(),
     };
     let (a, b) = (read(subject), read(clip));
     let csg = match op {
