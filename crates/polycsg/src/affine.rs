@@ -1,6 +1,8 @@
 //! Regions mapped by affine maps.
 
-use crate::{Csg, Error, FillRule, Region};
+use crate::error::Error;
+use crate::expression::csg::{Csg, FillRule};
+use crate::region::Region;
 use glam::{DAffine2, DVec2};
 
 impl Region {

@@ -1,6 +1,8 @@
 //! Many expressions on many threads.
 
-use crate::{Csg, Region, Scratch};
+use crate::expression::csg::Csg;
+use crate::pipeline::scratch::Scratch;
+use crate::region::Region;
 use rayon::prelude::*;
 
 impl Csg<'_> {

@@ -1,9 +1,15 @@
 //! How a directed segment lies in a region.
 
+use crate::arrangement::labels::LabelledArrangement;
+use crate::base::id::index;
 use crate::contacts::Place;
+use crate::error::Error;
+use crate::expression::csg::Csg;
+use crate::pipeline;
+use crate::pipeline::scratch::Scratch;
 use crate::predicates::crossing_point;
-use crate::truth::index;
-use crate::{Csg, Error, Membership, Region, Scratch, pipeline};
+use crate::region::Region;
+use crate::region::membership::Membership;
 use glam::DVec2;
 
 /// A piece of a classified segment between neighbouring contacts with the region's boundary.
@@ -42,8 +48,9 @@ pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, E
         return Ok(Vec::new());
     }
     let mut scratch = Scratch::default();
-    pipeline::arrange(&Csg::edge_beside(segment, region), &mut scratch)?;
-    let Scratch { edges, contacts, arrangement, labels, .. } = &scratch;
+    let csg = Csg::edge_beside(segment, region);
+    let LabelledArrangement { edges, contacts, arrangement, labels, .. } =
+        pipeline::memberships(&csg, &mut scratch)?;
     let point = |arc: u32| match contacts.place(arrangement.node(arc)) {
         Place::Vertex(vertex) => edges.point(vertex),
         Place::Crossing(e, f) => crossing_point(edges.segment(e), edges.segment(f)),

@@ -1,7 +1,7 @@
 //! What fuzz targets need to see and users do not. Exists in builds by cargo-fuzz only.
 
-use crate::Scratch;
-use crate::contacts::Patience;
+use crate::contacts::budget::WorkBudget;
+use crate::pipeline::scratch::Scratch;
 
 /// Asks every predicate about one configuration of points, made of a stream of words.
 ///
@@ -13,5 +13,5 @@ pub fn check_predicates(word: impl FnMut() -> u64) -> Result<(), String> {
 
 /// Finds what meets by slabs, without looking at boxes first.
 pub fn hasty() -> Scratch {
-    Scratch { patience: Patience::NONE, ..Scratch::default() }
+    Scratch { budget: WorkBudget::NONE, ..Scratch::default() }
 }

@@ -1,7 +1,9 @@
 //! Conversions from and to `geo-types`.
 
-use crate::rings::Rings;
-use crate::{Csg, Error, FillRule, Region};
+use crate::error::Error;
+use crate::expression::csg::{Csg, FillRule};
+use crate::region::rings::Rings;
+use crate::region::{self, Region};
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -10,8 +12,8 @@ fn line_string(ring: &[DVec2]) -> LineString<f64> {
     ring.iter().chain(ring.first()).map(|p| Coord { x: p.x, y: p.y }).collect()
 }
 
-impl From<crate::Polygon<'_>> for Polygon<f64> {
-    fn from(polygon: crate::Polygon<'_>) -> Self {
+impl From<region::Polygon<'_>> for Polygon<f64> {
+    fn from(polygon: region::Polygon<'_>) -> Self {
         Polygon::new(line_string(polygon.outer()), polygon.holes().map(line_string).collect())
     }
 }

@@ -79,57 +79,38 @@ pub use glam;
 pub use glam::DVec2;
 
 mod affine;
-mod area;
 mod arrangement;
+mod assemble;
+mod base;
 #[cfg(feature = "rayon")]
 mod batch;
-mod below;
 mod boundary;
-mod cancel;
-mod chains;
 mod classify;
 mod contacts;
-mod copies;
-mod csg;
 mod double;
 mod edges;
 mod error;
+mod evaluate;
+mod expression;
 #[cfg(fuzzing)]
 #[doc(hidden)]
 pub mod fuzzing;
-mod gates;
 #[cfg(feature = "geo-types")]
 mod geo;
-mod labels;
-mod link;
-mod membership;
-mod nest;
-mod outline;
 mod pipeline;
 mod predicates;
 mod region;
-mod repair;
-mod rings;
-mod scratch;
-mod select;
 #[cfg(feature = "serde")]
 mod serde;
-mod slabs;
-mod strips;
-mod survey;
-mod suspects;
-mod threads;
+mod spatial;
 #[cfg(feature = "triangulate")]
 mod triangulate;
-mod truth;
-mod union_find;
 mod validate;
-mod window;
 
 pub use boundary::{Boundary, BoundaryEdge};
 pub use classify::{Interval, classify};
-pub use csg::{Csg, FillRule};
 pub use error::Error;
-pub use membership::Membership;
+pub use expression::csg::{Csg, FillRule};
+pub use pipeline::scratch::Scratch;
+pub use region::membership::Membership;
 pub use region::{Invalid, Location, Polygon, Region};
-pub use scratch::Scratch;

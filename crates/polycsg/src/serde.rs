@@ -4,14 +4,14 @@
 //! without repeating the first: GeoJSON's coordinates of a MultiPolygon, but for the closing points. The depth of a polygon
 //! follows from the rest.
 
-use crate::rings::Rings;
-use crate::{Invalid, Polygon, Region};
+use crate::region::rings::Rings;
+use crate::region::{Invalid, Polygon, Region};
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-struct Ring<'r>(&'r [DVec2]);
+struct RingPoints<'r>(&'r [DVec2]);
 
-impl Serialize for Ring<'_> {
+impl Serialize for RingPoints<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.0.iter().map(DVec2::to_array))
     }
@@ -20,7 +20,8 @@ impl Serialize for Ring<'_> {
 /// The outer ring, then the holes.
 impl Serialize for Polygon<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let rings: Vec<Ring<'_>> = std::iter::once(self.outer()).chain(self.holes()).map(Ring).collect();
+        let rings: Vec<RingPoints<'_>> =
+            std::iter::once(self.outer()).chain(self.holes()).map(RingPoints).collect();
         rings.serialize(serializer)
     }
 }

@@ -1,37 +1,43 @@
 //! The promises of a region, checked exactly.
 
+use crate::base::id::index;
 use crate::predicates::{Segment, Side, is_inside, side};
+use crate::region::rings::ring_edges;
 use crate::region::{Invalid, Region};
-use crate::rings::ring_edges;
-use crate::slabs::Slabs;
-use crate::truth::index;
+use crate::spatial::slabs::SlabDecomposition;
 
-/// See [`Region::validate`].
-pub(crate) fn validate(region: &Region) -> Result<(), Invalid> {
-    let edges: Vec<Segment> = region.rings().flat_map(ring_edges).collect();
-    let mut slabs = Slabs::default();
-    slabs.build(
-        edges.iter().flatten().copied(),
-        (0..index(edges.len())).map(|edge| (edge, [2 * edge, 2 * edge + 1])),
-    );
-    let contact = |[i, j]: [u32; 2]| Invalid::Contact { edge: i.min(j) as usize, other: i.max(j) as usize };
-    // An edge without length lies in the end of the one before it or behind it.
-    let is_empty = |edge: u32| edges[edge as usize][0] == edges[edge as usize][1];
-    let meets_next =
-        |&[i, j]: &[u32; 2]| edges[i as usize][1] == edges[j as usize][0] && (is_empty(i) || is_empty(j));
-    let neighbours = (1..index(edges.len())).map(|j| [j - 1, j]);
-    let mut found = neighbours.into_iter().find(meets_next).map(contact);
-    found = found.or_else(|| slabs.copies().next().map(contact));
-    slabs.pairs(|i, j| {
-        if found.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
-            found = Some(contact([i, j]));
+impl Region {
+    /// Checks the promises of this type independently of how the value came about, exactly. Expected O(n log n).
+    ///
+    /// # Errors
+    /// The first broken promise: [`Invalid`].
+    pub fn validate(&self) -> Result<(), Invalid> {
+        let edges: Vec<Segment> = self.rings().flat_map(ring_edges).collect();
+        let mut slabs = SlabDecomposition::default();
+        slabs.build(
+            edges.iter().flatten().copied(),
+            (0..index(edges.len())).map(|edge| (edge, [2 * edge, 2 * edge + 1])),
+        );
+        let contact =
+            |[i, j]: [u32; 2]| Invalid::Contact { edge: i.min(j) as usize, other: i.max(j) as usize };
+        // An edge without length lies in the end of the one before it or behind it.
+        let is_empty = |edge: u32| edges[edge as usize][0] == edges[edge as usize][1];
+        let meets_next =
+            |&[i, j]: &[u32; 2]| edges[i as usize][1] == edges[j as usize][0] && (is_empty(i) || is_empty(j));
+        let neighbours = (1..index(edges.len())).map(|j| [j - 1, j]);
+        let mut found = neighbours.into_iter().find(meets_next).map(contact);
+        found = found.or_else(|| slabs.copies().next().map(contact));
+        slabs.pairs(|i, j| {
+            if found.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
+                found = Some(contact([i, j]));
+            }
+        });
+        if let Some(contact) = found {
+            return Err(contact);
         }
-    });
-    if let Some(contact) = found {
-        return Err(contact);
+        // Without contacts nothing can be cut or rounded: evaluation can only find another structure.
+        if self.evaluated_again() == *self { Ok(()) } else { Err(Invalid::Structure) }
     }
-    // Without contacts nothing can be cut or rounded: evaluation can only find another structure.
-    if region.evaluated_again() == *region { Ok(()) } else { Err(Invalid::Structure) }
 }
 
 /// Whether two edges have any point in common but one end of each.

@@ -1,7 +1,47 @@
-//! `ARCHITECTURE.md` names files that exist, and what it says does not exist does not.
+//! `ARCHITECTURE.md` names files that exist, what it says does not exist does not, and imports run one way.
+
+#[path = "../../../tests/src/imports.rs"]
+mod imports;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// The folders and files of `src` from the top down: each imports only from itself and from those below it.
+const ORDER: [&str; 33] = [
+    "fuzzing",
+    "batch",
+    "serde",
+    "geo",
+    "affine",
+    "validate",
+    "classify",
+    "triangulate",
+    "evaluate",
+    "pipeline",
+    "pipeline/scratch",
+    "assemble/nest",
+    "assemble/link",
+    "assemble",
+    "boundary/repair",
+    "boundary/outline",
+    "boundary",
+    "boundary/select",
+    "arrangement/labels",
+    "arrangement",
+    "contacts",
+    "edges",
+    "expression/bounds",
+    "expression/winding",
+    "expression/circuit",
+    "expression",
+    "spatial/ray_shooting",
+    "spatial",
+    "region",
+    "predicates",
+    "double",
+    "base",
+    "error",
+];
 
 fn crate_file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -31,6 +71,33 @@ fn every_file_that_the_page_names_exists() {
     for name in named {
         assert!(crate_file(name).is_file(), "there is no {name}");
     }
+}
+
+#[test]
+fn imports_run_one_way() {
+    assert_eq!(imports::complaints(&crate_file("src"), &ORDER), Vec::<String>::new());
+}
+
+/// The reader sees every way to write an import that runs up.
+#[test]
+fn an_import_that_runs_up_is_seen() {
+    let complaints = |text: &str| imports::upward(text, &["contacts".into(), "pair".into()], &ORDER).len();
+    for forbidden in [
+        "use crate::pipeline::scratch::Scratch;",
+        "use crate::{\n    base::id::index,\n    boundary::{self, select},\n};",
+        "use super::super::arrangement::{\n    Arrangement, Node as Kind,\n};",
+        "fn f() -> crate::evaluate::Answer {}",
+        "use crate::Region;",
+        "use super::pair;\n#[cfg(test)]\nmod tests {\n    use super::super::super::arrangement::Node;\n}",
+    ] {
+        assert!(complaints(forbidden) >= 1, "{forbidden}");
+    }
+    assert_eq!(
+        complaints("/// See [`crate::Region`].\nuse crate::{base::id, edges::Edges};\nuse super::*;"),
+        0
+    );
+    assert_eq!(imports::upward("", &["attic".into()], &ORDER).len(), 1);
+    assert_eq!(imports::complaints(&crate_file("src"), &[&ORDER[..], &["attic"]].concat()).len(), 1);
 }
 
 #[test]
@@ -65,7 +132,7 @@ fn what_must_not_exist_does_not() {
 /// Selecting, linking and nesting compare and copy points; a vector operation would be arithmetic on coordinates.
 #[test]
 fn three_stages_leave_coordinates_alone() {
-    for stage in ["src/select.rs", "src/link.rs", "src/nest.rs"] {
+    for stage in ["src/boundary/select.rs", "src/assemble/link.rs", "src/assemble/nest.rs"] {
         let text = fs::read_to_string(crate_file(stage)).expect("a stage");
         for arithmetic in [".x", ".y", "perp_dot", ".dot(", ".length", ".distance", "f64"] {
             assert!(!text.contains(arithmetic), "{stage} contains {arithmetic}");

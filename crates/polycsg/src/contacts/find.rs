@@ -1,78 +1,20 @@
 //! Which pairs of edges are compared: those whose chains' boxes meet, or those that slabs find.
 
 use super::Contacts;
-use super::meeting::{Crossing, Meeting, meeting};
-use crate::Error;
-use crate::chains::Chains;
+use super::candidates::Candidates;
+use super::close_pairs::ClosePairs;
+use super::pair::{Crossing, Meeting, meeting};
+use crate::base::threads::Threads;
 use crate::edges::Edges;
+use crate::error::Error;
 use crate::predicates::Margins;
-use crate::slabs::Slabs;
-use crate::survey::Boxes;
-use crate::suspects::Suspects;
-use crate::threads::Threads;
+use crate::spatial::chains::MonotoneChains;
+use crate::spatial::slabs::SlabDecomposition;
 use std::ops::Range;
-
-/// How long boxes of chains are looked at before [`Slabs`] are built: up to so many pairs of edges for each edge and for
-/// each node found, and up to so many blocks of boxes for each edge.
-///
-/// Where edges do cross, boxes are quicker: among many long edges in all directions about 4 pairs make a node.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Patience {
-    pub(crate) pairs: usize,
-    pub(crate) pairs_per_edge: usize,
-    pub(crate) pairs_per_node: usize,
-    pub(crate) blocks_per_edge: usize,
-    /// The most contacts to be found at all, counted as [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with) does.
-    pub(crate) contacts: usize,
-}
-
-#[cfg(any(test, fuzzing))]
-impl Patience {
-    /// Slabs at once.
-    pub(crate) const NONE: Patience =
-        Patience { pairs: 0, pairs_per_edge: 0, pairs_per_node: 0, blocks_per_edge: 0, contacts: usize::MAX };
-}
-
-impl Default for Patience {
-    fn default() -> Patience {
-        Patience {
-            pairs: 1000,
-            pairs_per_edge: 48,
-            pairs_per_node: 8,
-            blocks_per_edge: 32,
-            contacts: usize::MAX,
-        }
-    }
-}
-
-impl Patience {
-    /// How many blocks of boxes may be looked at.
-    pub(crate) fn blocks(self, edges: usize) -> usize {
-        self.pairs + self.blocks_per_edge * edges
-    }
-
-    /// Twice as much, for those who were told that it would last.
-    pub(super) fn doubled(self) -> Patience {
-        let twice = |n: usize| n.saturating_mul(2);
-        Patience {
-            pairs: twice(self.pairs),
-            pairs_per_edge: twice(self.pairs_per_edge),
-            pairs_per_node: twice(self.pairs_per_node),
-            blocks_per_edge: twice(self.blocks_per_edge),
-            ..self
-        }
-    }
-
-    /// Whether to go on when so many pairs of edges, nodes and contacts were found.
-    pub(crate) fn lasts(self, edges: usize, pairs: usize, nodes: usize, contacts: usize) -> bool {
-        let most = self.pairs + self.pairs_per_edge * edges;
-        pairs < most + self.pairs_per_node * nodes && contacts <= self.contacts
-    }
-}
 
 /// What was found in some strips.
 #[derive(Default)]
-struct Met {
+struct Compared {
     pairs: usize,
     crossings: usize,
     /// The crossings, and the pairs to be looked at closely, in order.
@@ -80,7 +22,7 @@ struct Met {
     in_time: bool,
 }
 
-impl Met {
+impl Compared {
     #[inline]
     fn add(&mut self, edges: &Edges, pair: [u32; 2], margins: Margins) {
         self.pairs += 1;
@@ -103,38 +45,43 @@ fn parts(strips: usize) -> impl Iterator<Item = Range<usize>> {
 }
 
 impl Contacts {
-    /// Returns false, with some contacts found, when it would take too long or they are too many.
+    /// Returns false, with some contacts found, when it would take too long or they are more than `most`.
     pub(super) fn find_by_boxes(
         &mut self,
-        boxes: Boxes<'_>,
-        suspects: &mut Suspects,
-        patience: Patience,
+        candidates: Candidates<'_>,
+        suspects: &mut ClosePairs,
+        most: usize,
     ) -> bool {
-        let Boxes { edges, chains, strips } = boxes;
+        let Candidates { edges, chains, strips, budget, .. } = candidates;
         if Threads::for_edges(edges.len()).are_many() {
-            return self.find_on_threads(boxes, suspects, patience);
+            return self.find_on_threads(candidates, suspects, most);
         }
         let mut met = 0;
-        strips.pairs_within(0..strips.len(), patience.blocks(edges.len()), |a, b| {
+        strips.pairs_within(0..strips.len(), budget.blocks(edges.len()), |a, b| {
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                 met += 1;
                 self.meet(edges, e.min(f), e.max(f), suspects);
             });
-            patience.lasts(edges.len(), met, self.nodes.len(), self.found.len())
+            budget.lasts(edges.len(), met, self.nodes.len()) && self.found.len() <= most
         })
     }
 
     /// The same: pairs of edges are compared strip by strip on all threads, and what was found is noted strip by strip.
-    fn find_on_threads(&mut self, boxes: Boxes<'_>, suspects: &mut Suspects, patience: Patience) -> bool {
-        let Boxes { edges, chains, strips } = boxes;
+    fn find_on_threads(
+        &mut self,
+        candidates: Candidates<'_>,
+        suspects: &mut ClosePairs,
+        most: usize,
+    ) -> bool {
+        let Candidates { edges, chains, strips, budget, .. } = candidates;
         let margins = suspects.margins();
         let compared = |strips_at: Range<usize>| {
-            let mut met = Met::default();
-            met.in_time = strips.pairs_within(strips_at, patience.blocks(edges.len()), |a, b| {
+            let mut met = Compared::default();
+            met.in_time = strips.pairs_within(strips_at, budget.blocks(edges.len()), |a, b| {
                 chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                     met.add(edges, [e.min(f), e.max(f)], margins);
                 });
-                patience.lasts(edges.len(), met.pairs, met.meetings.len(), 2 * met.crossings)
+                budget.lasts(edges.len(), met.pairs, met.meetings.len()) && 2 * met.crossings <= most
             });
             met
         };
@@ -145,16 +92,16 @@ impl Contacts {
                 Ok(crossing) => self.cross(edges, crossing),
                 Err([e, f]) => self.meet(edges, e, f, suspects),
             });
-            met.in_time && patience.lasts(edges.len(), pairs, self.nodes.len(), self.found.len())
+            met.in_time && budget.lasts(edges.len(), pairs, self.nodes.len()) && self.found.len() <= most
         })
     }
 
     pub(super) fn find_by_slabs(
         &mut self,
         edges: &Edges,
-        chains: &Chains,
-        slabs: &mut Slabs,
-        suspects: &mut Suspects,
+        chains: &MonotoneChains,
+        slabs: &mut SlabDecomposition,
+        suspects: &mut ClosePairs,
         most: usize,
     ) -> Result<(), Error> {
         slabs.build(edges.points().iter().copied(), chains.edges().map(|edge| (edge, [edge, edge + 1])));

@@ -1,22 +1,16 @@
-//! How two edges meet, and the nodes and contacts that follow.
-//!
-//! ```text
-//!  crossing          touch             shared end       overlap = two touches or shared ends
-//!      \ f            f                  |f              ____f____
-//!   ----x---- e   ----+---- e        e---+              e----+====+
-//!        \
-//! ```
+//! What follows from how two edges meet: nodes and contacts.
 
-use super::partner::{Contact, Partner};
+use super::close_pairs::ClosePairs;
+use super::contact::{Contact, Partner};
+use super::pair::{Crossing, Meeting, SharedEnd, meeting};
 use super::{Contacts, NONE};
 use crate::edges::Edges;
-use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, is_inside, side_of};
-use crate::suspects::Suspects;
+use crate::predicates::{Area, Parameter, Segment, Side, doubled_area, is_inside, side_of};
 
 impl Contacts {
     /// Compares two edges and notes how they meet.
     #[inline]
-    pub(super) fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut Suspects) {
+    pub(super) fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut ClosePairs) {
         match meeting(edges, [e, f], suspects.margins()) {
             Meeting::Apart => {}
             Meeting::Crossing(crossing) => self.cross(edges, crossing),
@@ -42,10 +36,10 @@ impl Contacts {
         [e, f]: [u32; 2],
         ends_of_f: [Area; 2],
         ends_of_e: [Area; 2],
-        suspects: &mut Suspects,
+        suspects: &mut ClosePairs,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        if let Some(corner) = Corner::of(s, t) {
+        if let Some(corner) = SharedEnd::of(s, t) {
             let area = doubled_area(corner.common, corner.end_of_s, corner.end_of_t);
             if side_of(area, corner.common, corner.end_of_s, corner.end_of_t) != Side::On
                 || corner.is_straight()
@@ -80,9 +74,9 @@ impl Contacts {
         &mut self,
         edges: &Edges,
         [e, f]: [u32; 2],
-        corner: &Corner,
+        corner: &SharedEnd,
         area: Area,
-        suspects: &mut Suspects,
+        suspects: &mut ClosePairs,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
         if !corner.is_straight() && !suspects.margins().are_steep([s, t], area) {
@@ -140,86 +134,5 @@ impl Contacts {
             self.found.push(Contact::new(Parameter::START, vertex, node, Partner::START));
         }
         self.node_of_vertex[vertex as usize]
-    }
-}
-
-/// How two edges meet, as far as that is clear whatever rounding does.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Meeting {
-    Apart,
-    Crossing(Crossing),
-    /// Not clear, by the areas of each one's ends against the other.
-    Close {
-        ends_of_f: [Area; 2],
-        ends_of_e: [Area; 2],
-    },
-}
-
-/// Two edges that cross, and where along each.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Crossing {
-    edges: [u32; 2],
-    at: [Parameter; 2],
-    /// Whether the second one comes from the left of the first.
-    from_left: bool,
-}
-
-impl Crossing {
-    fn new(edges: [u32; 2], ends_of_f: [Area; 2], ends_of_e: [Area; 2], from_left: bool) -> Crossing {
-        let at = [ends_of_e, ends_of_f].map(|ends| Parameter::of_crossing(ends[0], ends[1]));
-        Crossing { edges, at, from_left }
-    }
-}
-
-/// Compares edge `e` with a later one.
-#[inline]
-pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
-    let (s, t) = (edges.segment(e), edges.segment(f));
-    if f == e + 1 && margins.are_steep([s, t], doubled_area(s[0], s[1], t[1])) {
-        return Meeting::Apart; // neighbours that meet in their common end alone
-    }
-    let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
-    if margins.are_apart(s, ends_of_f) {
-        return Meeting::Apart;
-    }
-    let ends_of_e = [doubled_area(t[0], t[1], s[0]), doubled_area(t[0], t[1], s[1])];
-    let crossing = |from_left| Meeting::Crossing(Crossing::new([e, f], ends_of_f, ends_of_e, from_left));
-    match margins.relation([s, t], ends_of_f, ends_of_e) {
-        Clear::Apart => Meeting::Apart,
-        Clear::CrossFromLeft => crossing(true),
-        Clear::CrossFromRight => crossing(false),
-        Clear::Unclear => Meeting::Close { ends_of_f, ends_of_e },
-    }
-}
-
-/// Whether two edges cross, whatever rounding does.
-pub(crate) fn cross_clearly(edges: &Edges, pair: [u32; 2], margins: Margins) -> bool {
-    matches!(meeting(edges, pair, margins), Meeting::Crossing(_))
-}
-
-/// Two edges with one end in common.
-struct Corner {
-    common: glam::DVec2,
-    end_of_s: glam::DVec2,
-    end_of_t: glam::DVec2,
-}
-
-impl Corner {
-    fn of(s: Segment, t: Segment) -> Option<Corner> {
-        let corner = |i: usize, j: usize| Corner { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
-        let mut corners = [(1, 0), (0, 1), (0, 0), (1, 1)]
-            .into_iter()
-            .filter(|&(i, j)| s[i] == t[j])
-            .map(|(i, j)| corner(i, j));
-        let first = corners.next()?;
-        corners.next().is_none().then_some(first)
-    }
-
-    /// Whether the other ends lie in opposite quadrants from the common one: then the edges do not overlap, and are
-    /// not flat to one another.
-    fn is_straight(&self) -> bool {
-        let opposite = |a: f64, c: f64, b: f64| (a <= c && c <= b) || (b <= c && c <= a);
-        let (c, p, q) = (self.common, self.end_of_s, self.end_of_t);
-        opposite(p.x, c.x, q.x) && opposite(p.y, c.y, q.y)
     }
 }

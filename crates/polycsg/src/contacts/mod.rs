@@ -6,25 +6,25 @@
 //! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
 //! that equality along each edge is all that is needed to unify them.
 
-mod close;
+pub(crate) mod budget;
+pub(crate) mod candidates;
+pub(crate) mod close_pairs;
+mod close_places;
+pub(crate) mod contact;
 mod find;
 mod meeting;
-mod partner;
+mod pair;
 
-pub(crate) use find::Patience;
-pub(crate) use meeting::cross_clearly;
-pub(crate) use partner::{Contact, Met, Partner};
-
-use crate::Error;
-use crate::chains::Chains;
+use crate::base::id::index;
+use crate::base::threads::Threads;
+use crate::base::union_find::UnionFind;
 use crate::edges::Edges;
-use crate::slabs::Slabs;
-use crate::survey::{Boxes, Survey};
-use crate::suspects::Suspects;
-use crate::threads::Threads;
-use crate::truth::index;
-use crate::union_find::UnionFind;
-use partner::order;
+use crate::error::Error;
+use crate::spatial::slabs::SlabDecomposition;
+use budget::WorkBudget;
+use candidates::{BroadPhase, Candidates};
+use close_pairs::{CloseGroups, ClosePairs};
+use contact::{Contact, order};
 use std::cmp::Ordering;
 
 /// No edge, no node.
@@ -36,6 +36,17 @@ const FEW: usize = 24;
 /// More contacts than that, and buckets of so many bits of edges, are for the caches' sake.
 const MANY: usize = 1 << 16;
 const PART: u32 = 8;
+
+/// What a caller asks for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Request {
+    /// The most contacts that there may be.
+    pub(crate) limit: usize,
+    /// Whether close pairs of edges are noted.
+    pub(crate) close_pairs: bool,
+    /// What comparing boxes may cost.
+    pub(crate) budget: WorkBudget,
+}
 
 /// All contacts, sorted by edge and along it, and the nodes.
 #[derive(Debug, Default)]
@@ -51,32 +62,34 @@ pub(crate) struct Contacts {
     /// Per vertex its node; empty as long as no vertex has one.
     node_of_vertex: Vec<u32>,
     rings: UnionFind,
-    meeting: close::Meeting,
+    close_groups: CloseGroups,
     /// Whether any two nodes lie in one point, or any node is a vertex.
     degenerate: bool,
 }
 
 impl Contacts {
-    /// Finds the contacts of all pairs of edges: of those whose chains' boxes meet, or, where that turns out to be far
-    /// more than what meets, of those that [`Slabs`] finds.
+    /// Finds the contacts of all pairs of edges: of the candidates by boxes, or, where these turn out to be far more than
+    /// what meets, of those that [`SlabDecomposition`] finds.
     ///
     /// # Errors
-    /// [`Error::TooManyContacts`], by the limit that `patience` has.
+    /// [`Error::TooManyContacts`], by the limit of the request.
     pub(crate) fn find(
         &mut self,
-        boxes: Boxes<'_>,
-        slabs: &mut Slabs,
-        suspects: &mut Suspects,
-        survey: Survey,
-        patience: Patience,
+        candidates: Candidates<'_>,
+        slabs: &mut SlabDecomposition,
+        suspects: &mut ClosePairs,
+        request: Request,
     ) -> Result<(), Error> {
-        let Boxes { edges, chains, .. } = boxes;
-        let most = patience.contacts;
-        self.start(edges, chains, suspects);
+        let Candidates { edges, chains, phase, .. } = candidates;
+        let Request { limit: most, close_pairs: wanted, .. } = request;
+        let size = chains.size();
+        self.start(edges);
+        suspects.start(size, wanted);
         let is_done =
-            survey.asks_for_boxes(patience) && self.find_by_boxes(boxes, suspects, patience.doubled());
+            phase != BroadPhase::SlabDecomposition && self.find_by_boxes(candidates, suspects, most);
         if !is_done && self.found.len() <= most {
-            self.start(edges, chains, suspects);
+            self.start(edges);
+            suspects.start(size, wanted);
             self.find_by_slabs(edges, chains, slabs, suspects, most)?;
         }
         if self.found.len() > most {
@@ -90,14 +103,13 @@ impl Contacts {
         Ok(())
     }
 
-    fn start(&mut self, edges: &Edges, chains: &Chains, suspects: &mut Suspects) {
+    fn start(&mut self, edges: &Edges) {
         self.found.clear();
         self.nodes.clear();
         self.classes.reset(0);
         self.node_of_vertex.clear();
         self.rings.reset(edges.rings().len());
         self.degenerate = false;
-        suspects.start(chains.size());
     }
 
     /// The contacts by edge and in order along it, each node once on each edge.
@@ -191,7 +203,7 @@ impl Contacts {
     }
 
     /// Unifies what lies in one place of an edge.
-    fn unify(&mut self, edges: &Edges, suspects: &mut Suspects) {
+    fn unify(&mut self, edges: &Edges, suspects: &mut ClosePairs) {
         let mut kept = 0;
         for i in 0..self.found.len() {
             let contact = self.found[i];

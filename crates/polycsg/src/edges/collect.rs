@@ -1,10 +1,11 @@
 //! Reads the operands' rings, near ones one after the other.
 
-use super::{END, Edges, Origin, Ring};
-use crate::csg::Csg;
-use crate::rings::Rings;
-use crate::truth::{Truth, index};
-use crate::window::Window;
+use super::{END, EdgeRing, Edges, Origin};
+use crate::base::id::index;
+use crate::expression::bounds::ResultBounds;
+use crate::expression::csg::Csg;
+use crate::expression::winding::WindingNumbers;
+use crate::region::rings::Rings;
 use glam::DVec2;
 
 /// Up to so many rings keep their order; more are sorted so that what lies close in the plane lies close in memory.
@@ -12,7 +13,7 @@ const FEW_RINGS: usize = 64;
 
 /// A ring by its first point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(crate) struct RingKey {
     point: DVec2,
     /// The operand, and where it stands in the expression.
     operand: u32,
@@ -21,35 +22,35 @@ pub(super) struct Place {
 }
 
 /// The rings of all operands.
-fn places<'a>(csg: &'a Csg<'_>) -> impl Iterator<Item = Place> + 'a {
+fn ring_keys<'a>(csg: &'a Csg<'_>) -> impl Iterator<Item = RingKey> + 'a {
     let leaves =
         (0..).zip(csg.postfix()).filter_map(|(token, leaf)| leaf.rings().map(|rings| (token, rings)));
     leaves.zip(0..).flat_map(|((token, rings), operand)| {
-        let place = move |(ring, points): (u32, &[DVec2])| Place { point: points[0], operand, token, ring };
+        let place = move |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
         (0..).zip(rings.iter()).map(place)
     })
 }
 
 /// Whether each ring lies about as near to the one before it as it would when sorted by columns.
-fn are_near(places: &[Place]) -> bool {
+fn are_near(rings: &[RingKey]) -> bool {
     let (mut low, mut high, mut way) = (DVec2::MAX, DVec2::MIN, DVec2::ZERO);
-    for (a, b) in places.iter().zip(&places[1..]) {
+    for (a, b) in rings.iter().zip(&rings[1..]) {
         low = low.min(b.point);
         high = high.max(b.point);
         way += (b.point - a.point).abs();
     }
-    let columns = DVec2::splat(places.len() as f64).powf(0.5);
+    let columns = DVec2::splat(rings.len() as f64).powf(0.5);
     way.cmple(4.0 * columns * (high - low)).all()
 }
 
 /// Sorts by columns of about as many rings as there are columns, up and down in turn.
-fn sort_by_place(places: &mut [Place]) {
-    places.sort_unstable_by(|a, b| {
+fn sort_by_place(rings: &mut [RingKey]) {
+    rings.sort_unstable_by(|a, b| {
         a.point.x.total_cmp(&b.point.x).then((a.operand, a.ring).cmp(&(b.operand, b.ring)))
     });
-    let column = places.len().isqrt().max(1);
-    for (i, places) in places.chunks_mut(column).enumerate() {
-        places.sort_unstable_by(|a, b| {
+    let column = rings.len().isqrt().max(1);
+    for (i, rings) in rings.chunks_mut(column).enumerate() {
+        rings.sort_unstable_by(|a, b| {
             let upward = a.point.y.total_cmp(&b.point.y).then((a.operand, a.ring).cmp(&(b.operand, b.ring)));
             if i % 2 == 0 { upward } else { upward.reverse() }
         });
@@ -59,23 +60,27 @@ fn sort_by_place(places: &mut [Place]) {
 impl Edges {
     /// Reads the operands, without the rings that miss the window. Repeated points are dropped, and rings that have
     /// fewer than three others left.
-    pub(crate) fn collect(&mut self, csg: &Csg<'_>, truth: &Truth, window: &Window) {
+    pub(crate) fn collect(
+        &mut self,
+        csg: &Csg<'_>,
+        truth: &WindingNumbers,
+        window: &ResultBounds,
+        all: &mut Vec<RingKey>,
+    ) {
         self.clear();
-        let mut all = std::mem::take(&mut self.places);
         all.clear();
-        all.extend(places(csg));
-        if all.len() > FEW_RINGS && !are_near(&all) {
-            sort_by_place(&mut all);
+        all.extend(ring_keys(csg));
+        if all.len() > FEW_RINGS && !are_near(all) {
+            sort_by_place(all);
         }
-        for &place in &all {
+        for &place in &*all {
             if let Some(rings) = csg.postfix()[place.token as usize].rings() {
                 self.add_ring(rings, place, truth, window);
             }
         }
-        self.places = all;
     }
 
-    fn add_ring(&mut self, rings: &Rings, place: Place, truth: &Truth, window: &Window) {
+    fn add_ring(&mut self, rings: &Rings, place: RingKey, truth: &WindingNumbers, window: &ResultBounds) {
         let (operand, ring) = (place.operand, place.ring as usize);
         let (start, points) = (index(self.points.len()), rings.closed(ring));
         if !window.meets(points) {
@@ -100,7 +105,7 @@ impl Edges {
                 .extend(slots.clone().map(|slot| Origin { operand, edge: origin.edge + slot - start }));
         }
         self.ring.resize(self.points.len(), index(self.rings.len()));
-        self.rings.push(Ring { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
+        self.rings.push(EdgeRing { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
     }
 
     /// The points of a ring that differ from the next one, and the first of them again.

@@ -1,10 +1,12 @@
 //! Stage 1: all operands' rings as one array of directed edges.
 
-mod collect;
+pub(crate) mod collect;
+pub(crate) mod duplicate_rings;
+pub(crate) mod opposite_edges;
 
-use crate::copies::Copy;
+use crate::base::id::index;
+use crate::expression::winding::WindingNumbers;
 use crate::predicates::Segment;
-use crate::truth::{Truth, index};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -17,16 +19,15 @@ pub(crate) struct Edges {
     points: Vec<DVec2>,
     /// Per slot.
     ring: Vec<u32>,
-    rings: Vec<Ring>,
+    rings: Vec<EdgeRing>,
     /// Per slot where the edge comes from; empty while all of each ring's points are there.
     origins: Vec<Origin>,
     also: Vec<Also>,
-    places: Vec<collect::Place>,
 }
 
 /// A ring: its edges are `start..end`, in slot `end` its first point stands again.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ring {
+pub(crate) struct EdgeRing {
     pub(crate) start: u32,
     pub(crate) end: u32,
     /// The counter that its edges change, none for an open edge, and by how much.
@@ -49,7 +50,7 @@ struct Also {
 /// Nothing more in a list.
 const END: u32 = u32::MAX;
 
-impl Ring {
+impl EdgeRing {
     /// Whether it bounds anything: an open edge does not.
     pub(crate) fn is_closed(self) -> bool {
         self.counter.is_some()
@@ -114,7 +115,7 @@ impl Edges {
         self.origins.push(origin);
         self.ring.resize(self.points.len(), index(self.rings.len()));
         let end = index(self.points.len()) - 1;
-        self.rings.push(Ring { start, end, counter, winds: 1, also: END, origin });
+        self.rings.push(EdgeRing { start, end, counter, winds: 1, also: END, origin });
     }
 
     /// The number of slots: more than any edge's id.
@@ -157,7 +158,7 @@ impl Edges {
     }
 
     #[inline]
-    pub(crate) fn ring(&self, edge: u32) -> Ring {
+    pub(crate) fn ring(&self, edge: u32) -> EdgeRing {
         self.rings[self.ring[edge as usize] as usize]
     }
 
@@ -166,59 +167,20 @@ impl Edges {
         self.rings.iter().map(|ring| ring.start..ring.end + 1)
     }
 
-    pub(crate) fn rings(&self) -> &[Ring] {
+    pub(crate) fn rings(&self) -> &[EdgeRing] {
         &self.rings
     }
 
     pub(crate) fn origin(&self, edge: u32) -> Origin {
         self.origins.get(edge as usize).copied().unwrap_or_else(|| {
-            let Ring { start, origin, .. } = self.ring(edge);
+            let EdgeRing { start, origin, .. } = self.ring(edge);
             Origin { operand: origin.operand, edge: origin.edge + edge - start }
         })
     }
 
-    /// Lets rings stand for their copies too, and drops these; where they cancel, a ring that changes nothing is left, as its
-    /// vertices count.
-    pub(crate) fn unite(&mut self, copies: &[Copy]) {
-        let mut dropped = vec![false; self.rings.len()];
-        for copy in copies {
-            dropped[copy.ring as usize] = true;
-            let Ring { counter, winds, .. } = self.rings[copy.ring as usize];
-            let winds = if copy.along { winds } else { -winds };
-            let of = &mut self.rings[copy.of as usize];
-            match counter {
-                Some(counter) if Some(counter) != of.counter => {
-                    let next = std::mem::replace(&mut of.also, index(self.also.len()));
-                    self.also.push(Also { counter, winds, next });
-                }
-                _ => of.winds += winds,
-            }
-        }
-        self.drop_rings(&dropped);
-    }
-
-    fn drop_rings(&mut self, dropped: &[bool]) {
-        let rings = std::mem::take(&mut self.rings);
-        let mut end = 0;
-        self.ring.clear();
-        for (ring, _) in rings.iter().zip(dropped).filter(|(_, dropped)| !**dropped) {
-            let slots = ring.start as usize..ring.end as usize + 1;
-            self.points.copy_within(slots.clone(), end);
-            if !self.origins.is_empty() {
-                self.origins.copy_within(slots.clone(), end);
-            }
-            let start = index(end);
-            end += slots.len();
-            self.ring.resize(end, index(self.rings.len()));
-            self.rings.push(Ring { start, end: index(end - 1), ..*ring });
-        }
-        self.points.truncate(end);
-        self.origins.truncate(end);
-    }
-
     /// Moves the walk over an edge of a ring, from its right to its left, or `back`.
     #[inline]
-    pub(crate) fn cross(&self, edge: u32, back: bool, truth: &mut Truth) {
+    pub(crate) fn cross(&self, edge: u32, back: bool, truth: &mut WindingNumbers) {
         let ring = self.ring(edge);
         if let Some(counter) = ring.counter {
             truth.cross(counter, if back { -ring.winds } else { ring.winds });
@@ -230,7 +192,7 @@ impl Edges {
 
     /// Whether the expression holds to the right of an edge, from the left of which the walk looks.
     #[inline]
-    pub(crate) fn holds_behind(&self, edge: u32, truth: &mut Truth) -> bool {
+    pub(crate) fn holds_behind(&self, edge: u32, truth: &mut WindingNumbers) -> bool {
         let ring = self.ring(edge);
         match ring.counter {
             Some(counter) if ring.also == END => truth.would_hold(counter, -ring.winds),
@@ -244,7 +206,7 @@ impl Edges {
     }
 
     #[cold]
-    fn cross_also(&self, mut place: u32, back: bool, truth: &mut Truth) {
+    fn cross_also(&self, mut place: u32, back: bool, truth: &mut WindingNumbers) {
         while place != END {
             let also = self.also[place as usize];
             truth.cross(also.counter, if back { -also.winds } else { also.winds });

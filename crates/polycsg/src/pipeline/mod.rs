@@ -1,131 +1,122 @@
 //! The stages in a row.
+//!
+//! [`region`] is the whole way from an expression to its region. [`boundary`] and [`memberships`] leave it earlier.
 
+pub(crate) mod scratch;
 #[cfg(test)]
 mod tests;
 
-use crate::csg::Csg;
-use crate::labels::Map;
-use crate::repair::{self, Rounded};
-use crate::survey::{Boxes, Survey};
-use crate::{Boundary, Error, Region, Scratch, nest};
+use crate::arrangement::labels::LabelledArrangement;
+use crate::arrangement::labels::map::Map;
+use crate::assemble::nest::{Misnested, nest};
+use crate::boundary::Boundary;
+use crate::boundary::repair::fragments::Rounded;
+use crate::contacts::Request;
+use crate::contacts::candidates::Candidates;
+use crate::edges::Edges;
+use crate::error::Error;
+use crate::expression::csg::{Csg, Token};
+use crate::expression::winding::WindingNumbers;
+use crate::region::Region;
+use scratch::{ArrangementBuffers, ContactBuffers, EdgeBuffers, ExpressionBuffers, Scratch, SpatialBuffers};
 
-/// The expression's truth, and the edges that matter.
-fn collect(csg: &Csg<'_>, scratch: &mut Scratch) {
-    let Scratch { truth, window, edges, .. } = scratch;
-    truth.compile(csg);
-    window.find(csg, truth);
-    edges.collect(csg, truth, window);
-}
-
-/// Their chains, contacts, arrangement, memberships, and if wanted which of them rounding may make meet. All stages
-/// behind the contacts take memory in proportion to these.
-///
-/// # Errors
-/// [`Error::TooManyContacts`] by the limit in `scratch`, here and below.
-fn label(scratch: &mut Scratch, suspect: bool) -> Result<(), Error> {
-    let Scratch {
-        truth,
-        edges,
-        cancel,
-        chains,
-        copies,
-        strips,
-        slabs,
-        patience,
-        suspects,
-        contacts,
-        arrangement,
-        labels,
-        ..
-    } = scratch;
-    cancel.cancel(edges);
-    chains.build(edges.points(), edges.spans());
-    let copies = copies.find(edges, chains);
-    if !copies.is_empty() {
-        edges.unite(copies);
-        chains.build(edges.points(), edges.spans());
-    }
-    strips.build(chains.boxes());
-    let survey = Survey::of(Boxes { edges, chains, strips });
-    if survey.asks_for_boxes(*patience) && survey.asks_for_single_edges() {
-        chains.cut_to_edges(edges.points(), edges.spans());
-        strips.build(chains.boxes());
-    }
-    suspects.want(suspect);
-    contacts.find(Boxes { edges, chains, strips }, slabs, suspects, survey, *patience)?;
-    arrangement.split(edges, contacts);
-    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, truth);
-    Ok(())
-}
-
-/// The pieces whose sides differ, rounded.
-fn select(scratch: &mut Scratch) {
-    let Scratch { edges, contacts, arrangement, labels, selection, .. } = scratch;
-    selection.select(edges, contacts, arrangement, labels);
-}
-
-/// All edges with their memberships.
-pub(crate) fn arrange(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<(), Error> {
-    collect(csg, scratch);
-    label(scratch, false)
-}
-
-/// … and of these the boundary.
-pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
-    arrange(csg, scratch)?;
-    select(scratch);
-    Ok(Boundary::new(&scratch.selection, &scratch.edges, &scratch.contacts))
-}
-
-/// … repaired where rounding broke something, linked to rings and nested.
+/// The expression as a region.
 ///
 /// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
-pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch) -> Result<Region, Error> {
-    scratch.mending.mended = 0;
-    collect(csg, scratch);
-    if let Some(region) = untouched(csg, scratch) {
+///
+/// # Errors
+/// [`Error::TooManyContacts`] when edges meet more than `limit` times.
+pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Result<Region, Error> {
+    let Scratch { expression, edges, spatial, contacts, arrangement, boundary, assembly, budget } = scratch;
+    boundary.repair.start();
+    let winding = collect(csg, expression, edges);
+    if let Some(region) = untouched(csg, winding, &edges.edges) {
         return Ok(region);
     }
-    label(scratch, true)?;
-    select(scratch);
-    let Scratch {
-        edges,
-        contacts,
-        chains,
-        strips,
-        slabs,
-        suspects,
-        selection,
-        mending,
-        outline,
-        cycles,
-        nesting,
-        ..
-    } = scratch;
-
-    let rounded = Rounded { edges, contacts, selection };
-    if repair::is_sound(rounded, suspects, slabs, mending) {
-        outline.take(edges, contacts, selection);
-    } else {
-        repair::mend(rounded, suspects, slabs, mending, outline);
-    }
-    cycles.link(outline);
-    match nest::nest(outline, cycles, chains, strips, slabs, nesting) {
+    let edges = reduce(edges);
+    let request = Request { limit, close_pairs: true, budget: *budget };
+    let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
+    let selection = boundary.selection.select(arranged);
+    let rounded = Rounded { edges, contacts: arranged.contacts, selection };
+    let SpatialBuffers { chains, strips, slabs } = spatial;
+    let outline = boundary.repair.outline(rounded, arranged.close_pairs, slabs, &mut boundary.outline);
+    let cycles = assembly.cycles.link(outline);
+    match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting) {
         Ok(region) => Ok(region),
-        Err(nest::Misnested) => {
-            let (rings, mended) = (cycles.rings().clone(), mending.mended);
-            let region = region(&Csg::positive(rings), scratch);
-            scratch.mending.mended += mended;
+        Err(Misnested) => {
+            let (rings, repaired) = (cycles.rings().clone(), boundary.repair.vertices);
+            let region = region(&Csg::positive(rings), scratch, limit);
+            scratch.boundary.repair.vertices += repaired;
             region
         }
     }
 }
 
+/// The pieces of edges whose two sides differ, rounded: not checked, and without rings.
+pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
+    let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
+    let winding = collect(csg, expression, edges);
+    let edges = reduce(edges);
+    let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
+    let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
+    let selection = boundary.selection.select(arranged);
+    Ok(Boundary::new(selection, edges, arranged.contacts))
+}
+
+/// All edges with the membership of each of their sub-edges.
+pub(crate) fn memberships<'s>(
+    csg: &Csg<'_>,
+    scratch: &'s mut Scratch,
+) -> Result<LabelledArrangement<'s>, Error> {
+    let Scratch { expression, edges, spatial, contacts, arrangement, budget, .. } = scratch;
+    let winding = collect(csg, expression, edges);
+    let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
+    arrange(reduce(edges), winding, spatial, contacts, arrangement, request)
+}
+
+/// Stage 1: the state of a walk, outside of everything, and the edges that matter.
+fn collect<'s>(
+    csg: &Csg<'_>,
+    ExpressionBuffers { winding, bounds }: &'s mut ExpressionBuffers,
+    EdgeBuffers { edges, keys, .. }: &mut EdgeBuffers,
+) -> &'s mut WindingNumbers {
+    winding.compile(csg);
+    bounds.find(csg, winding);
+    edges.collect(csg, winding, bounds, keys);
+    winding
+}
+
+/// Without opposite edges, where many cancel, and of rings with the same points with one.
+fn reduce(EdgeBuffers { edges, opposite, duplicates, .. }: &mut EdgeBuffers) -> &Edges {
+    opposite.cancel(edges);
+    duplicates.unite(edges);
+    edges
+}
+
+/// Stages 2 to 5: where edges meet, how this cuts them into sub-edges, and the membership of each.
+///
+/// All stages behind the contacts take memory in proportion to these.
+fn arrange<'s>(
+    edges: &'s Edges,
+    winding: &mut WindingNumbers,
+    SpatialBuffers { chains, strips, slabs }: &mut SpatialBuffers,
+    ContactBuffers { contacts, close_pairs }: &'s mut ContactBuffers,
+    ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
+    request: Request,
+) -> Result<LabelledArrangement<'s>, Error> {
+    let candidates = Candidates::index(edges, chains, strips, request.budget);
+    contacts.find(candidates, slabs, close_pairs, request)?;
+    arrangement.split(edges, contacts);
+    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, winding);
+    Ok(LabelledArrangement { edges, contacts, close_pairs, arrangement, labels })
+}
+
 /// The set, where by the boxes one region alone matters: all of it, or nothing.
-fn untouched(csg: &Csg<'_>, Scratch { truth, edges, .. }: &Scratch) -> Option<Region> {
+fn untouched(csg: &Csg<'_>, winding: &WindingNumbers, edges: &Edges) -> Option<Region> {
     let operand = edges.only_operand()? as usize;
-    let region = csg.postfix().iter().filter(|token| token.rings().is_some()).nth(operand)?.region()?;
-    let counter = truth.counter(operand)?;
-    Some(if truth.would_hold(counter, 1) { region.clone() } else { Region::default() })
+    let leaf = csg.postfix().iter().filter(|token| token.rings().is_some()).nth(operand)?;
+    let Token::Region(region) = leaf else { return None };
+    let counter = winding.counter(operand)?;
+    Some(if winding.would_hold(counter, 1) { (*region).clone() } else { Region::default() })
 }

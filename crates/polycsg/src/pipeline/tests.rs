@@ -1,11 +1,14 @@
 //! Boxes and slabs are two ways to one result.
-use crate::contacts::Patience;
-use crate::{Csg, Error, FillRule, Region, Scratch};
+use super::scratch::Scratch;
+use crate::contacts::budget::WorkBudget;
+use crate::error::Error;
+use crate::expression::csg::{Csg, FillRule};
+use crate::region::Region;
 use glam::DVec2;
 use proptest::prelude::*;
 
 fn hasty() -> Scratch {
-    Scratch { patience: Patience::NONE, ..Scratch::default() }
+    Scratch { budget: WorkBudget::NONE, ..Scratch::default() }
 }
 
 fn rings(points: impl Strategy<Value = DVec2>) -> impl Strategy<Value = Vec<Vec<DVec2>>> {
@@ -119,7 +122,7 @@ proptest! {
 /// Without the boxes' shortcut.
 fn boundless() -> Scratch {
     let mut scratch = Scratch::default();
-    scratch.window.off = true;
+    scratch.expression.bounds.off = true;
     scratch
 }
 
@@ -172,12 +175,12 @@ fn what_lies_elsewhere_is_not_arranged() {
         (region(vec![square(0.0)]), region((2..100).map(|i| square(2.0 * f64::from(i))).collect()));
     let mut scratch = Scratch::default();
     assert_eq!((Csg::from(&a) - Csg::from(&far)).evaluate_with(&mut scratch), a);
-    assert_eq!(scratch.edges.rings().len(), 1);
+    assert_eq!(scratch.edges.edges.rings().len(), 1);
     assert!((Csg::from(&a) & Csg::from(&far)).evaluate_with(&mut scratch).is_empty());
-    assert_eq!(scratch.edges.rings().len(), 0);
+    assert_eq!(scratch.edges.edges.rings().len(), 0);
     let near = region((0..100).map(|i| square(0.5 + 2.0 * f64::from(i))).collect());
     assert_eq!((Csg::from(&a) - Csg::from(&near)).evaluate_with(&mut scratch).area(), 0.5);
-    assert_eq!(scratch.edges.rings().len(), 2);
+    assert_eq!(scratch.edges.edges.rings().len(), 2);
 }
 
 /// Uprights across levels, some of them slanted so that slabs have work: 4 n² crossings.

@@ -1,7 +1,7 @@
 //! The constrained Delaunay triangulation of a region, by spade.
 
-use super::Outline;
-use crate::truth::index;
+use super::indexed::IndexedRegion;
+use crate::base::id::index;
 use glam::DVec2;
 use spade::handles::{DirectedEdgeHandle, FaceHandle, InnerTag};
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation, validate_coordinate};
@@ -11,7 +11,7 @@ type Face<'t> = FaceHandle<'t, InnerTag, Point2<f64>, (), CdtEdge<()>, ()>;
 type Edge<'t> = DirectedEdgeHandle<'t, Point2<f64>, (), CdtEdge<()>, ()>;
 
 /// The triangles, or none where no scale brings the coordinates into the range in which spade is exact.
-pub(super) fn triangles(outline: &Outline) -> Option<Vec<[u32; 3]>> {
+pub(super) fn triangles(outline: &IndexedRegion) -> Option<Vec<[u32; 3]>> {
     let vertices = in_range(&outline.points)?;
     let edges = outline.edges.iter().map(|edge| edge.map(|id| id as usize)).collect();
     let mut refused = false;

@@ -1,35 +1,14 @@
 //! Triangles that cover a region.
 
 mod delaunay;
+mod indexed;
 mod sweep;
 #[cfg(test)]
 mod tests;
 
-use crate::Region;
-use crate::predicates::lexicographic;
-use crate::rings::ring_edges;
-use crate::truth::index;
+use crate::region::Region;
 use glam::DVec2;
-use std::cmp::Ordering;
-
-/// A region's distinct points in lexicographic order, and its directed edges between them, sorted.
-#[derive(Debug)]
-struct Outline {
-    points: Vec<DVec2>,
-    edges: Vec<[u32; 2]>,
-}
-
-impl Outline {
-    fn of(region: &Region) -> Outline {
-        let mut points: Vec<DVec2> = region.rings().flatten().copied().collect();
-        points.sort_unstable_by(|&a, &b| lexicographic(a, b));
-        points.dedup();
-        let id = |p: DVec2| index(points.partition_point(|&q| lexicographic(q, p) == Ordering::Less));
-        let mut edges: Vec<[u32; 2]> = region.rings().flat_map(ring_edges).map(|edge| edge.map(id)).collect();
-        edges.sort_unstable();
-        Outline { points, edges }
-    }
-}
+use indexed::IndexedRegion;
 
 impl Region {
     /// Triangles that cover the region and nothing else, without overlap, each counter-clockwise.
@@ -54,7 +33,7 @@ impl Region {
     /// # Ok::<(), polycsg::Error>(())
     /// ```
     pub fn triangulate(&self) -> Vec<[DVec2; 3]> {
-        let outline = Outline::of(self);
+        let outline = IndexedRegion::of(self);
         let triangles = delaunay::triangles(&outline).unwrap_or_else(|| sweep::triangles(&outline));
         triangles.into_iter().map(|ids| ids.map(|id| outline.points[id as usize])).collect()
     }

@@ -12,33 +12,33 @@
 //!     lower edge  o───────
 //! ```
 
-use super::Outline;
+use super::indexed::IndexedRegion;
+use crate::base::id::index;
 use crate::predicates::{Side, side};
-use crate::truth::index;
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 use std::ops::Range;
 
 /// Vertices from the lower edge to the upper one.
-type Chain = VecDeque<u32>;
+type OpenChain = VecDeque<u32>;
 
 /// An edge that the sweep line crosses, from left to right.
 #[derive(Debug)]
 struct Crossed {
     ends: [u32; 2],
     /// What is open above the edge, if the interior lies there.
-    above: Option<Chain>,
+    above: Option<OpenChain>,
 }
 
 struct Sweep<'a> {
-    outline: &'a Outline,
+    outline: &'a IndexedRegion,
     /// From bottom to top.
     crossed: Vec<Crossed>,
     triangles: Vec<[u32; 3]>,
 }
 
 /// The triangles. O(n log n), and for each vertex a move of what lies above it on the sweep line.
-pub(super) fn triangles(outline: &Outline) -> Vec<[u32; 3]> {
+pub(super) fn triangles(outline: &IndexedRegion) -> Vec<[u32; 3]> {
     let mut starting: Vec<(u32, u32, bool)> = outline
         .edges
         .iter()
@@ -104,7 +104,7 @@ impl Sweep<'_> {
     }
 
     /// Adds a vertex of the upper edge, above all others.
-    fn join_top(&mut self, chain: &mut Chain, vertex: u32) {
+    fn join_top(&mut self, chain: &mut OpenChain, vertex: u32) {
         while let [Some(&before), Some(&last)] =
             [2, 1].map(|back| chain.len().checked_sub(back).and_then(|i| chain.get(i)))
         {
@@ -118,7 +118,7 @@ impl Sweep<'_> {
     }
 
     /// Adds a vertex of the lower edge, below all others.
-    fn join_bottom(&mut self, chain: &mut Chain, vertex: u32) {
+    fn join_bottom(&mut self, chain: &mut OpenChain, vertex: u32) {
         while let [Some(&first), Some(&after)] = [0, 1].map(|i| chain.get(i)) {
             if self.side(after, first, vertex) != Side::Left {
                 break;
@@ -135,8 +135,8 @@ impl Sweep<'_> {
         vertex: u32,
         ending: Range<usize>,
         starting: &[(u32, bool)],
-        below: Option<Chain>,
-        mut above: Option<Chain>,
+        below: Option<OpenChain>,
+        mut above: Option<OpenChain>,
     ) {
         let below = if starting.is_empty() { merged(below, above.take()) } else { below };
         if let Some(edge) = ending.start.checked_sub(1) {
@@ -144,7 +144,7 @@ impl Sweep<'_> {
         }
         let last = starting.len().saturating_sub(1);
         let edges = starting.iter().enumerate().map(|(i, &(right, opens))| {
-            let chain = if i == last { above.take() } else { Some(Chain::from([vertex])) };
+            let chain = if i == last { above.take() } else { Some(OpenChain::from([vertex])) };
             Crossed { ends: [vertex, right], above: chain.filter(|_| opens) }
         });
         self.crossed.splice(ending, edges);
@@ -152,7 +152,7 @@ impl Sweep<'_> {
 }
 
 /// Cuts a chain in two at its rightmost vertex, which both keep: the lower part stays, the upper one is returned.
-fn split_at_rightmost(chain: &mut Chain) -> Chain {
+fn split_at_rightmost(chain: &mut OpenChain) -> OpenChain {
     let rightmost = chain.iter().enumerate().max_by_key(|&(_, id)| id).map_or(0, |(i, _)| i);
     let upper = chain.split_off(rightmost);
     chain.extend(upper.front());
@@ -160,7 +160,7 @@ fn split_at_rightmost(chain: &mut Chain) -> Chain {
 }
 
 /// Two chains that meet in a vertex as one.
-fn merged(below: Option<Chain>, above: Option<Chain>) -> Option<Chain> {
+fn merged(below: Option<OpenChain>, above: Option<OpenChain>) -> Option<OpenChain> {
     let mut chain = below?;
     chain.extend(above?.iter().skip(1));
     Some(chain)

@@ -1,14 +1,16 @@
 //! Both triangulations against the laws of a cover: no predicate but the orientation of one triangle.
 
-use super::{Outline, delaunay, sweep};
+use super::indexed::IndexedRegion;
+use super::{delaunay, sweep};
+use crate::expression::csg::FillRule;
 use crate::predicates::{Side, side};
-use crate::{FillRule, Region};
+use crate::region::Region;
 use glam::DVec2;
 use proptest::prelude::*;
 
 /// Counter-clockwise triangles whose edges cancel but for the region's own: so each point is covered once inside, and
 /// nowhere else, for the winding number of a sum of boundaries is the sum of the winding numbers.
-fn assert_covers(outline: &Outline, triangles: &[[u32; 3]]) {
+fn assert_covers(outline: &IndexedRegion, triangles: &[[u32; 3]]) {
     let point = |id: u32| outline.points[id as usize];
     let mut open: Vec<[u32; 2]> = Vec::new();
     for &[a, b, c] in triangles {
@@ -23,7 +25,7 @@ fn assert_covers(outline: &Outline, triangles: &[[u32; 3]]) {
 }
 
 fn check(region: &Region) {
-    let outline = Outline::of(region);
+    let outline = IndexedRegion::of(region);
     let swept = sweep::triangles(&outline);
     assert_covers(&outline, &swept);
     if let Some(triangles) = delaunay::triangles(&outline) {
@@ -63,10 +65,10 @@ proptest! {
 fn scales_reach_both_ends_of_the_range() {
     for size in [5e-324, f64::MIN_POSITIVE, 1e-200, 1.0, 1e200, f64::MAX] {
         let square = [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]];
-        let outline = Outline::of(&Region::from_rings([square], FillRule::NonZero).expect("finite"));
+        let outline = IndexedRegion::of(&Region::from_rings([square], FillRule::NonZero).expect("finite"));
         assert!(delaunay::triangles(&outline).is_some(), "{size:e}");
         let tall = square.map(|[x, y]| [x, if y > 0.0 { 5e-324 } else { 0.0 }]);
-        let outline = Outline::of(&Region::from_rings([tall], FillRule::NonZero).expect("finite"));
+        let outline = IndexedRegion::of(&Region::from_rings([tall], FillRule::NonZero).expect("finite"));
         assert!(delaunay::triangles(&outline).is_some(), "{size:e} x 5e-324");
     }
 }
@@ -76,7 +78,7 @@ fn what_fits_no_range_is_swept() {
     let (tiny, huge) = (5e-324, f64::MAX);
     let square = |s: f64| [[0.0, 0.0], [s, 0.0], [s, s], [0.0, s]];
     let region = Region::from_rings([square(tiny), square(huge)], FillRule::EvenOdd).expect("finite");
-    let outline = Outline::of(&region);
+    let outline = IndexedRegion::of(&region);
     assert!(delaunay::triangles(&outline).is_none());
     assert_covers(&outline, &sweep::triangles(&outline));
 }

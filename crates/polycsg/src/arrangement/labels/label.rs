@@ -1,0 +1,26 @@
+//! What the walk knows: the labels of arcs, and which component lies in which face.
+
+/// What is known of an arc, in bits: the truth on its left and on its right, whether these are known, and whether
+/// any component hangs on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Label(pub(super) u8);
+
+impl Label {
+    pub(super) const LEFT: u8 = 1;
+    pub(super) const RIGHT: u8 = 2;
+    pub(super) const KNOWN: u8 = 4;
+    pub(super) const HUNG: u8 = 8;
+
+    #[inline]
+    pub(super) fn is(self, bit: u8) -> bool {
+        self.0 & bit != 0
+    }
+}
+
+/// A component, by its leftmost vertex, that lies in the face left or right of an arc.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct NestedComponent {
+    pub(super) arc: u32,
+    pub(super) left: bool,
+    pub(super) vertex: u32,
+}

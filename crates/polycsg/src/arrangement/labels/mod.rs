@@ -1,0 +1,158 @@
+//! Stage 5: which sides of each arc lie inside the set.
+//!
+//! One walk over the arrangement with one state, the winding numbers of all operands (see [`WindingNumbers`]), which always
+//! is that of the place just left of the arc being walked on:
+//!
+//! ```text
+//!            |               Over a crossing the state changes by the edge that crosses, and whichever of the
+//!     left   ^  g-           crossing ring's arcs has the same place on its left is walked next, if it is not known.
+//!   of e     |               A walk around a ring comes back with the state that it left with.
+//!   ---g---->+------         At a junction the walk goes around the node, over one bundle after the other, and
+//!            |               walks each of its arcs on to their far ends and back.
+//!            ^ e
+//! ```
+//!
+//! A component that lies inside a face of another one hangs on an arc of that face.
+
+mod label;
+pub(crate) mod map;
+mod step;
+mod walk;
+
+use crate::arrangement::{Arrangement, Node};
+use crate::base::id::index;
+use crate::contacts::Contacts;
+use crate::contacts::close_pairs::ClosePairs;
+use crate::edges::Edges;
+use crate::expression::winding::WindingNumbers;
+use crate::predicates::lexicographic;
+use crate::region::membership::Membership;
+use crate::spatial::ray_shooting::VerticalRays;
+use crate::spatial::slabs::SlabDecomposition;
+use label::{Label, NestedComponent};
+use map::Map;
+use std::cmp::Ordering;
+use step::Step;
+
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+/// The membership of every arc that stands for itself; rings that nothing meets count behind the arcs.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    labels: Vec<Label>,
+    /// Per arc its strand, a run of arcs of one ring between junctions, and of these which were walked.
+    strand: Vec<u32>,
+    walked: Vec<bool>,
+    /// The junctions that were gone around.
+    seen: Vec<bool>,
+    steps: Vec<Step>,
+    /// The lexicographically smallest vertex of each component.
+    leftmost: Vec<u32>,
+    below: VerticalRays,
+    /// Sorted by arc.
+    hung: Vec<NestedComponent>,
+    outermost: Vec<u32>,
+}
+
+/// What the stages up to here hand on: all edges with the memberships of their sub-edges.
+#[derive(Clone, Copy)]
+pub(crate) struct LabelledArrangement<'a> {
+    pub(crate) edges: &'a Edges,
+    pub(crate) contacts: &'a Contacts,
+    pub(crate) close_pairs: &'a ClosePairs,
+    pub(crate) arrangement: &'a Arrangement,
+    pub(crate) labels: &'a Labels,
+}
+
+impl Labels {
+    /// Labels every arc with the sides of it on which `truth` holds.
+    pub(crate) fn classify(
+        &mut self,
+        map: Map<'_>,
+        slabs: &mut SlabDecomposition,
+        truth: &mut WindingNumbers,
+    ) {
+        self.labels.clear();
+        self.labels.resize(map.arrangement.len() + map.edges.rings().len(), Label::default());
+        self.seen.clear();
+        self.seen.resize(map.arrangement.junction_count(), false);
+        self.find_strands(map);
+        self.find_leftmost(map);
+        self.hang(map, slabs);
+        while let Some(vertex) = self.outermost.pop() {
+            self.steps.push(Step::Component { vertex });
+            while let Some(step) = self.steps.pop() {
+                self.take(step, map, truth);
+            }
+            debug_assert!(truth.is_outside());
+        }
+    }
+
+    /// The membership of an arc that stands for itself, in that arc's direction.
+    #[inline]
+    pub(crate) fn of(&self, arc: u32) -> Membership {
+        let label = self.labels[arc as usize];
+        Membership::from_sides(label.is(Label::LEFT), label.is(Label::RIGHT))
+    }
+
+    fn find_strands(&mut self, map: Map<'_>) {
+        let mut count = 0;
+        self.strand.clear();
+        for ring in 0..index(map.edges.rings().len()) {
+            let arcs = map.arrangement.of_ring(ring);
+            for arc in arcs.clone() {
+                let starts = arc == arcs.start || matches!(map.arrangement.met(arc), Node::Junction(_));
+                count += u32::from(starts);
+                self.strand.push(count - 1);
+            }
+            // What ends where the ring starts goes on there, unless that is a junction.
+            if !arcs.is_empty() && matches!(map.arrangement.met(arcs.start), Node::Crossing(_)) {
+                let (first, last) = (self.strand[arcs.start as usize], count - 1);
+                let strands = &mut self.strand[arcs.start as usize..arcs.end as usize];
+                strands
+                    .iter_mut()
+                    .rev()
+                    .take_while(|strand| **strand == last)
+                    .for_each(|strand| *strand = first);
+            }
+        }
+        self.walked.clear();
+        self.walked.resize(count as usize, false);
+    }
+
+    fn find_leftmost(&mut self, map: Map<'_>) {
+        self.leftmost.clear();
+        self.leftmost.resize(map.edges.rings().len(), NONE);
+        for ring in 0..index(map.edges.rings().len()) {
+            let vertex = map.chains.leftmost(ring);
+            let best = &mut self.leftmost[map.contacts.component(ring) as usize];
+            if *best == NONE
+                || lexicographic(map.edges.point(vertex), map.edges.point(*best)) == Ordering::Less
+            {
+                *best = vertex;
+            }
+        }
+        self.leftmost.retain(|&vertex| vertex != NONE);
+    }
+
+    /// Hangs each component on the arc below it, or finds that there is none.
+    fn hang(&mut self, map: Map<'_>, slabs: &mut SlabDecomposition) {
+        self.hung.clear();
+        self.outermost.clear();
+        if let [single] = self.leftmost[..] {
+            return self.outermost.push(single);
+        }
+        self.below.look(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost);
+        for (i, &vertex) in self.leftmost.iter().enumerate() {
+            match self.below.edge(i).map(|edge| map.arc_of(edge, vertex)) {
+                None => self.outermost.push(vertex),
+                Some((arc, left)) => {
+                    self.labels[arc as usize].0 |= Label::HUNG;
+                    self.hung.push(NestedComponent { arc, left, vertex });
+                }
+            }
+        }
+        self.hung.sort_unstable();
+    }
+}

@@ -1,0 +1,348 @@
+//! Stage 4: the arrangement: the rings cut into arcs at the nodes, and around each junction the half-edges by angle.
+//!
+//! ```text
+//!            h1                  An arc runs along one ring from one contact to the next; arc i starts in contact i.
+//!             |   h0             Half-edges leave their node: half-edge 2a runs along arc a, 2a + 1 against it.
+//!             |  /               The sector between h[k] and h[k + 1], counter-clockwise, lies to the left of h[k]
+//!     h2 -----v                  and to the right of h[k + 1]. Sorted by angle from just above straight down, so that
+//!              \                 at the lexicographically smallest point of a component the outer sector lies right
+//!               h3               of h[0].
+//! ```
+//!
+//! A node where just two edges cross needs no list: the two arcs that start there tell everything. All other nodes are
+//! junctions. Arcs that coincide leave a junction in one direction and are a bundle: the one with the smallest id
+//! stands for all.
+
+pub(crate) mod labels;
+
+use crate::base::id::index;
+use crate::contacts::contact::{Contact, Partner, PartnerKind};
+use crate::contacts::{Contacts, Place};
+use crate::edges::Edges;
+use crate::predicates::{Segment, Side, lexicographic, turn};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// No arc, no node.
+const NONE: u32 = u32::MAX;
+
+/// What is found at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Node {
+    /// Two edges cross: the other of the two arcs that start there.
+    Crossing(u32),
+    /// Anything else, by its number.
+    Junction(u32),
+}
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(crate) struct Arrangement {
+    arcs: Vec<SubEdge>,
+    /// Per ring its first arc.
+    first: Vec<u32>,
+    /// Per node the two arcs that start there, or `NONE` and a junction.
+    starting: Vec<[u32; 2]>,
+    /// Per junction where its half-edges start in `around`.
+    starts: Vec<u32>,
+    around: Vec<u32>,
+    /// Per arc the one that stands for it and the next that coincides; empty when there are no junctions.
+    stands: Vec<u32>,
+    next: Vec<u32>,
+    /// The half-edges that leave one junction.
+    leaving: Vec<(Segment, u32)>,
+}
+
+/// Where an arc starts.
+#[derive(Clone, Copy, Debug)]
+struct SubEdge {
+    edge: u32,
+    node: u32,
+    partner: Partner,
+}
+
+impl Arrangement {
+    /// Cuts all rings at their contacts.
+    pub(crate) fn split(&mut self, edges: &Edges, contacts: &Contacts) {
+        self.cut(edges, contacts);
+        self.find_starting(contacts);
+        self.gather(edges);
+        debug_assert!(self.check(edges));
+    }
+
+    fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
+        self.arcs.clear();
+        self.arcs.extend(contacts.sorted().iter().map(|&Contact { edge, node, partner, .. }| SubEdge {
+            edge,
+            node: contacts.node(node),
+            partner,
+        }));
+        self.first.clear();
+        let mut arc = 0;
+        for ring in edges.rings() {
+            self.first.push(index(arc));
+            arc += self.arcs[arc..].partition_point(|arc| arc.edge < ring.end);
+        }
+        self.first.push(index(arc));
+    }
+
+    /// Finds the arcs that start in each node, and counts them where that is a junction.
+    fn find_starting(&mut self, contacts: &Contacts) {
+        let junctions = self.number_junctions(contacts);
+        self.starts.clear();
+        self.starts.resize(junctions + 2, 0);
+        for (i, arc) in (0..).zip(&self.arcs) {
+            let starting = &mut self.starting[arc.node as usize];
+            match *starting {
+                [NONE, NONE] => starting[0] = i,
+                [NONE, junction] => self.starts[junction as usize + 2] += 2,
+                [_, _] => starting[1] = i,
+            }
+        }
+        for junction in 2..self.starts.len() {
+            self.starts[junction] += self.starts[junction - 1];
+        }
+    }
+
+    /// Numbers the nodes that are vertices or several crossings in one point; returns how many there are.
+    fn number_junctions(&mut self, contacts: &Contacts) -> usize {
+        self.starting.clear();
+        self.starting.resize(contacts.node_count(), [NONE; 2]);
+        if !contacts.degenerate() {
+            return 0;
+        }
+        for node in 0..index(contacts.node_count()) {
+            let stands = contacts.node(node);
+            if stands != node || matches!(contacts.place(node), Place::Vertex(_)) {
+                self.starting[stands as usize][1] = 0;
+            }
+        }
+        let junctions = self.starting.iter_mut().filter(|starting| starting[1] != NONE);
+        (0..).zip(junctions).map(|(junction, starting)| starting[1] = junction).count()
+    }
+
+    /// Lists the half-edges of each junction by angle, and unites those that leave it in one direction.
+    fn gather(&mut self, edges: &Edges) {
+        self.list_half_edges(edges);
+        self.stands.clear();
+        self.next.clear();
+        if self.around.is_empty() {
+            return;
+        }
+        self.stands.extend(0..index(self.arcs.len()));
+        self.next.resize(self.arcs.len(), NONE);
+        let mut leaving = std::mem::take(&mut self.leaving);
+        for junction in 0..index(self.junction_count()) {
+            let span = self.span(junction);
+            let half_edges = span.clone().map(|place| self.around(place));
+            leaving.clear();
+            leaving.extend(half_edges.map(|half_edge| (self.direction(edges, half_edge), half_edge)));
+            leaving.sort_unstable_by(|g, h| by_angle(g.0, h.0).then(g.1.cmp(&h.1)));
+            for (place, (_, half_edge)) in span.zip(&leaving) {
+                self.around[place as usize] = *half_edge;
+            }
+            leaving
+                .chunk_by(|g, h| by_angle(g.0, h.0) == Ordering::Equal)
+                .for_each(|bundle| self.unite(bundle));
+        }
+        self.leaving = leaving;
+    }
+
+    /// Lists the half-edges junction by junction; afterwards `starts[j]..starts[j + 1]` are those of junction j.
+    fn list_half_edges(&mut self, edges: &Edges) {
+        let mut around = std::mem::take(&mut self.around);
+        around.clear();
+        around.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
+        for arc in 0..index(self.arcs.len()) {
+            if let [NONE, junction] = self.starting[self.node(arc) as usize] {
+                let previous = self.previous(edges, arc);
+                let at = &mut self.starts[junction as usize + 1];
+                around[*at as usize] = 2 * arc;
+                around[*at as usize + 1] = 2 * previous + 1;
+                *at += 2;
+            }
+        }
+        self.starts.pop();
+        self.around = around;
+    }
+
+    /// Bundles arcs by half-edges in order that leave a junction in one direction; at the arcs' other ends it was or will
+    /// be done alike.
+    fn unite(&mut self, bundle: &[(Segment, u32)]) {
+        let stands = bundle[0].1 >> 1;
+        for pair in bundle.windows(2) {
+            let [arc, next] = [pair[0].1 >> 1, pair[1].1 >> 1];
+            self.next[arc as usize] = next;
+            self.stands[next as usize] = stands;
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.arcs.len()
+    }
+
+    /// The arcs of a ring; none if nothing meets it.
+    #[inline]
+    pub(crate) fn of_ring(&self, ring: u32) -> Range<u32> {
+        self.first[ring as usize]..self.first[ring as usize + 1]
+    }
+
+    /// The arc that starts where this one ends.
+    #[inline]
+    pub(crate) fn following(&self, edges: &Edges, arc: u32) -> u32 {
+        let ring = edges.ring_of(self.edge(arc));
+        if arc + 1 == self.first[ring as usize + 1] { self.first[ring as usize] } else { arc + 1 }
+    }
+
+    /// The arc that ends where this one starts.
+    #[inline]
+    pub(crate) fn previous(&self, edges: &Edges, arc: u32) -> u32 {
+        let ring = edges.ring_of(self.edge(arc));
+        if arc == self.first[ring as usize] { self.first[ring as usize + 1] - 1 } else { arc - 1 }
+    }
+
+    /// The edge on which an arc starts.
+    #[inline]
+    pub(crate) fn edge(&self, arc: u32) -> u32 {
+        self.arcs[arc as usize].edge
+    }
+
+    /// The node in which an arc starts.
+    #[inline]
+    pub(crate) fn node(&self, arc: u32) -> u32 {
+        self.arcs[arc as usize].node
+    }
+
+    /// Whether an arc starts in the start of its edge.
+    #[inline]
+    pub(crate) fn starts_edge(&self, arc: u32) -> bool {
+        self.arcs[arc as usize].partner.met() == PartnerKind::Start
+    }
+
+    /// Whether the edge that crosses where an arc starts comes from the left.
+    #[inline]
+    pub(crate) fn crossed_from_left(&self, arc: u32) -> bool {
+        matches!(self.arcs[arc as usize].partner.met(), PartnerKind::FromLeft(_))
+    }
+
+    /// What is found where an arc starts.
+    #[inline]
+    pub(crate) fn met(&self, arc: u32) -> Node {
+        match self.starting[self.node(arc) as usize] {
+            [NONE, junction] => Node::Junction(junction),
+            [a, b] => Node::Crossing(if a == arc { b } else { a }),
+        }
+    }
+
+    /// What is found at a node, and one of the arcs that start there.
+    pub(crate) fn junction_at(&self, node: u32) -> Option<u32> {
+        match self.starting[node as usize] {
+            [NONE, junction] => Some(junction),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn junction_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The arc that contains a vertex of a ring, or starts in it: the last that starts at or before it.
+    pub(crate) fn arc_at(&self, edges: &Edges, vertex: u32) -> Option<u32> {
+        let arcs = self.of_ring(edges.ring_of(vertex));
+        let after =
+            |arc: u32| self.edge(arc) > vertex || (self.edge(arc) == vertex && !self.starts_edge(arc));
+        self.last_before(arcs, after)
+    }
+
+    /// Of a ring's arcs the last before the first for which `after` holds, going round.
+    pub(crate) fn last_before(&self, arcs: Range<u32>, after: impl Fn(u32) -> bool) -> Option<u32> {
+        let slice = &self.arcs[arcs.start as usize..arcs.end as usize];
+        let mut low = 0;
+        let mut high = slice.len();
+        while low < high {
+            let middle = (low + high) / 2;
+            if after(arcs.start + index(middle)) { high = middle } else { low = middle + 1 }
+        }
+        if slice.is_empty() {
+            None
+        } else {
+            Some(if low == 0 { arcs.end - 1 } else { arcs.start + index(low) - 1 })
+        }
+    }
+
+    /// The arc that stands for all that coincide with this one.
+    #[inline]
+    pub(crate) fn stand_in(&self, arc: u32) -> u32 {
+        self.stands.get(arc as usize).copied().unwrap_or(arc)
+    }
+
+    /// An arc that stands for itself, and all that coincide with it.
+    #[inline]
+    pub(crate) fn bundle(&self, arc: u32) -> impl Iterator<Item = u32> + '_ {
+        let next = |&a: &u32| self.next.get(a as usize).copied().filter(|&n| n != NONE);
+        std::iter::successors(Some(arc), next)
+    }
+
+    /// Whether an arc of a bundle runs in the direction of another: whether they start in one node, or for loops, leave
+    /// it in one direction.
+    #[inline]
+    pub(crate) fn is_along(&self, edges: &Edges, arc: u32, other: u32) -> bool {
+        arc == other || {
+            let forward = |arc: u32| {
+                let [a, b] = self.direction(edges, 2 * arc);
+                lexicographic(a, b) == Ordering::Less
+            };
+            forward(arc) == forward(other)
+        }
+    }
+
+    /// The places in [`around`](Arrangement::around) of a junction's half-edges.
+    #[inline]
+    pub(crate) fn span(&self, junction: u32) -> Range<u32> {
+        self.starts[junction as usize]..self.starts[junction as usize + 1]
+    }
+
+    #[inline]
+    pub(crate) fn around(&self, place: u32) -> u32 {
+        self.around[place as usize]
+    }
+
+    /// The edge along which a half-edge leaves its node, directed as it.
+    #[inline]
+    pub(crate) fn direction(&self, edges: &Edges, half_edge: u32) -> Segment {
+        let arc = half_edge >> 1;
+        if half_edge & 1 == 0 {
+            return edges.segment(self.edge(arc));
+        }
+        let end = self.following(edges, arc);
+        let edge = self.edge(end);
+        let edge = if self.starts_edge(end) { edges.ring(edge).previous(edge) } else { edge };
+        let [a, b] = edges.segment(edge);
+        [b, a]
+    }
+
+    /// The laws: arcs of a crossing know one another, and angles increase around each junction.
+    fn check(&self, edges: &Edges) -> bool {
+        let crossings = (0..index(self.len())).all(|arc| match self.met(arc) {
+            Node::Crossing(other) => other != NONE && self.met(other) == Node::Crossing(arc),
+            Node::Junction(_) => true,
+        });
+        let junctions = (0..index(self.junction_count())).all(|junction| {
+            let directions: Vec<Segment> =
+                self.span(junction).map(|place| self.direction(edges, self.around(place))).collect();
+            directions.windows(2).all(|pair| by_angle(pair[0], pair[1]) != Ordering::Greater)
+        });
+        crossings && junctions
+    }
+}
+
+/// By angle in (-90°, 270°].
+#[inline]
+fn by_angle(g: Segment, h: Segment) -> Ordering {
+    let leftward = |s: Segment| lexicographic(s[0], s[1]) == Ordering::Greater;
+    leftward(g).cmp(&leftward(h)).then_with(|| match turn(g, h) {
+        Side::Left => Ordering::Less,
+        Side::On => Ordering::Equal,
+        Side::Right => Ordering::Greater,
+    })
+}

@@ -1,0 +1,4 @@
+//! From the boundary to the region: rings, and which ring lies in which.
+
+pub(crate) mod link;
+pub(crate) mod nest;

@@ -1,0 +1,6 @@
+//! What every stage uses: ids, a hash of points, threads, classes of ids.
+
+pub(crate) mod hash;
+pub(crate) mod id;
+pub(crate) mod threads;
+pub(crate) mod union_find;

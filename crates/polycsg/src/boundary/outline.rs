@@ -1,0 +1,128 @@
+//! The rounded boundary: directed strokes from node to node.
+
+use super::select::{Piece, Selection};
+use crate::base::id::index;
+use crate::contacts::Contacts;
+use crate::edges::Edges;
+use crate::predicates::{Segment, lexicographic};
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// A directed chain of points between two nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BoundaryChain {
+    pub(crate) start: u32,
+    pub(crate) end: u32,
+    /// The place of its first point.
+    first: u32,
+}
+
+/// Strokes that meet in nodes only, as many arriving as leaving in each.
+#[derive(Debug, Default)]
+pub(crate) struct Outline {
+    /// Of all strokes in a row: the points without the last.
+    points: Vec<DVec2>,
+    strokes: Vec<BoundaryChain>,
+    node_count: usize,
+    /// For numbering points: every start of a segment and its place in the input.
+    starts: Vec<(DVec2, u32)>,
+    numbered: Vec<DVec2>,
+    unsorted: Vec<[u32; 2]>,
+}
+
+impl Outline {
+    /// Takes the pieces as they are: their nodes are distinct points.
+    pub(crate) fn take(&mut self, edges: &Edges, contacts: &Contacts, selection: &Selection) {
+        self.points.clear();
+        self.strokes.clear();
+        self.node_count = contacts.node_count();
+        for piece in selection.pieces() {
+            let first = index(self.points.len());
+            let [start, end] = piece.nodes.unwrap_or_else(|| {
+                self.node_count += 1;
+                [index(self.node_count - 1); 2]
+            });
+            let (from, to) = if piece.along { (start, end) } else { (end, start) };
+            self.strokes.push(BoundaryChain { start: from, end: to, first });
+            self.points.push(match piece.nodes {
+                Some(_) => selection.node_point(edges, contacts, from),
+                None => edges.point(piece.edge_spans()[0].start),
+            });
+            self.add_inner(edges, piece);
+        }
+    }
+
+    fn add_inner(&mut self, edges: &Edges, piece: &Piece) {
+        let spans = piece.inner();
+        if piece.along {
+            spans.into_iter().for_each(|span| self.points.extend_from_slice(&edges.points()[span]));
+        } else {
+            for span in spans.into_iter().rev() {
+                self.points.extend(edges.points()[span].iter().rev());
+            }
+        }
+    }
+
+    /// Numbers the points of closed walks, drops empty edges and, if any may coincide, cancels opposite ones: each
+    /// edge that is left is a stroke.
+    pub(crate) fn build(&mut self, segments: impl Iterator<Item = Segment> + Clone, may_coincide: bool) {
+        self.starts.clear();
+        self.starts.extend(segments.clone().zip(0..).map(|([start, _], i)| (start, i)));
+        self.starts.sort_unstable_by(|a, b| lexicographic(a.0, b.0));
+        self.numbered.clear();
+        self.unsorted.clear();
+        self.unsorted.resize(self.starts.len(), [0; 2]);
+        for &(point, segment) in &self.starts {
+            if self.numbered.last() != Some(&point) {
+                self.numbered.push(point);
+            }
+            self.unsorted[segment as usize][0] = index(self.numbered.len() - 1);
+        }
+        // Each point where a walk arrives is also left: the ends are found among the starts, most of them beside their own.
+        for (i, [_, end]) in segments.enumerate() {
+            let beside = [i + 1, i.wrapping_sub(1)].into_iter().filter_map(|j| self.unsorted.get(j));
+            let beside = beside.map(|edge| edge[0]).find(|&number| self.numbered[number as usize] == end);
+            let search =
+                || index(self.numbered.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
+            self.unsorted[i][1] = beside.unwrap_or_else(search);
+        }
+        self.unsorted.retain(|edge| edge[0] != edge[1]);
+        if may_coincide {
+            self.cancel();
+        }
+        self.node_count = self.numbered.len();
+        self.points.clear();
+        self.points.extend(self.unsorted.iter().map(|edge| self.numbered[edge[0] as usize]));
+        self.strokes.clear();
+        let stroke = |(&[start, end], first): (&[u32; 2], u32)| BoundaryChain { start, end, first };
+        self.strokes.extend(self.unsorted.iter().zip(0..).map(stroke));
+    }
+
+    /// Removes pairs of opposite edges.
+    fn cancel(&mut self) {
+        let ends = |e: &[u32; 2]| (e[0].min(e[1]), e[0].max(e[1]));
+        self.unsorted.sort_unstable_by_key(|e| (ends(e), e[0]));
+        let mut kept: Vec<[u32; 2]> = Vec::with_capacity(self.unsorted.len());
+        for group in self.unsorted.chunk_by(|a, b| ends(a) == ends(b)) {
+            let forward = group.iter().filter(|e| e[0] < e[1]).count();
+            let cancelled = forward.min(group.len() - forward);
+            kept.extend(&group[cancelled..group.len() - cancelled]);
+        }
+        self.unsorted = kept;
+    }
+
+    pub(crate) fn node_count(&self) -> usize {
+        self.node_count
+    }
+
+    pub(crate) fn strokes(&self) -> &[BoundaryChain] {
+        &self.strokes
+    }
+
+    /// The points of a stroke, without the last.
+    #[inline]
+    pub(crate) fn points(&self, stroke: u32) -> &[DVec2] {
+        let end = self.strokes.get(stroke as usize + 1).map_or(self.points.len(), |next| next.first as usize);
+        &self.points[self.strokes[stroke as usize].first as usize..end]
+    }
+}

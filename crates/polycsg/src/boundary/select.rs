@@ -1,0 +1,254 @@
+//! Stage 6: the arcs whose two sides differ, directed with the interior to the left, each vertex rounded once.
+
+use crate::arrangement::Node;
+use crate::arrangement::labels::LabelledArrangement;
+use crate::base::id::index;
+use crate::base::threads::Threads;
+use crate::contacts::{Contacts, Place};
+use crate::edges::{EdgeRing, Edges};
+use crate::predicates::crossing_point;
+use crate::region::membership::Membership;
+use glam::DVec2;
+use std::ops::Range;
+
+/// A directed piece of the boundary: a part of one ring, from node to node or all of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Piece {
+    pub(crate) ring: u32,
+    /// The nodes where it starts and ends in the ring's direction; none for a whole ring.
+    pub(crate) nodes: Option<[u32; 2]>,
+    /// The edge on which it starts, in the ring's direction; of a whole ring the last one.
+    first_edge: u32,
+    /// The ring's vertices inside the piece, in order: at most two spans of slots.
+    inner: [[u32; 2]; 2],
+    /// Whether the interior lies to the left of the ring; else the piece runs against it.
+    pub(crate) along: bool,
+}
+
+impl Piece {
+    fn whole(ring: u32, about: EdgeRing, along: bool) -> Piece {
+        let inner = [[about.start, about.end - 1], [0, 0]];
+        Piece { ring, nodes: None, first_edge: about.end - 1, inner, along }
+    }
+
+    /// The spans of slots of the vertices inside, in the ring's order.
+    pub(crate) fn inner(&self) -> [Range<usize>; 2] {
+        self.inner.map(|[start, end]| start as usize..end as usize)
+    }
+
+    /// Its edges, as spans.
+    pub(crate) fn edge_spans(&self) -> [Range<u32>; 3] {
+        let [a, b] = self.inner;
+        [self.first_edge..self.first_edge + 1, a[0]..a[1], b[0]..b[1]]
+    }
+
+    /// Where the part on an edge of one of its spans starts and ends, in the ring's direction.
+    pub(crate) fn ends_on(&self, span: usize, edge: u32, about: EdgeRing) -> [End; 2] {
+        let spans = self.edge_spans();
+        let is_last = edge + 1 == spans[span].end && spans[span + 1..].iter().all(Range::is_empty);
+        let (start, end) = (End::Vertex(edge), End::Vertex(about.next(edge)));
+        match self.nodes {
+            Some([from, to]) => {
+                [if span == 0 { End::Node(from) } else { start }, if is_last { End::Node(to) } else { end }]
+            }
+            None => [start, end],
+        }
+    }
+
+    /// Its edges, in the ring's order.
+    pub(crate) fn edges(&self) -> impl DoubleEndedIterator<Item = u32> + Clone + use<> {
+        let [a, b] = self.inner;
+        std::iter::once(self.first_edge).chain(a[0]..a[1]).chain(b[0]..b[1])
+    }
+}
+
+/// Where a piece's part on one edge ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum End {
+    Vertex(u32),
+    Node(u32),
+}
+
+/// The boundary's pieces and the rounded crossings.
+#[derive(Debug, Default)]
+pub(crate) struct Selection {
+    pieces: Vec<Piece>,
+    /// Per node its point if it is a crossing where a piece ends.
+    rounded: Vec<DVec2>,
+}
+
+/// A node that is no crossing where a piece ends, and one that is, before it is rounded.
+const UNUSED: DVec2 = DVec2::NEG_INFINITY;
+const WANTED: DVec2 = DVec2::INFINITY;
+
+/// So many nodes are a part of the work.
+const NODES: usize = 4096;
+
+/// A run of selected arcs, being built: from the start of one arc to that of another.
+#[derive(Clone, Copy)]
+struct SubEdgeRun {
+    start: u32,
+    end: u32,
+    along: bool,
+}
+
+impl Selection {
+    /// Selects the pieces of the set's boundary.
+    ///
+    /// Where a piece runs straight on through a crossing, and nothing else of the boundary meets it there, the
+    /// crossing is dropped; input vertices are kept.
+    pub(crate) fn select(&mut self, arranged: LabelledArrangement<'_>) -> &Selection {
+        self.pieces.clear();
+        for ring in 0..index(arranged.edges.rings().len()) {
+            arranged.select_along(ring, &mut self.pieces);
+        }
+        self.round(arranged.edges, arranged.contacts);
+        self
+    }
+
+    pub(crate) fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// Where a piece's node lies, rounded.
+    #[inline]
+    pub(crate) fn node_point(&self, edges: &Edges, contacts: &Contacts, node: u32) -> DVec2 {
+        match contacts.place(node) {
+            Place::Vertex(vertex) => edges.point(vertex),
+            Place::Crossing(..) => self.rounded[node as usize],
+        }
+    }
+
+    /// Of a piece the points of its edges, in its own direction.
+    pub(crate) fn points<'a>(
+        &'a self,
+        edges: &'a Edges,
+        contacts: &'a Contacts,
+        piece: Piece,
+    ) -> impl Iterator<Item = DVec2> + Clone + 'a {
+        let along = piece.along;
+        let ends = match piece.nodes {
+            Some(nodes) => nodes.map(|node| self.node_point(edges, contacts, node)),
+            None => [edges.point(piece.first_edge); 2],
+        };
+        let [a, b] = piece.inner();
+        let count = a.len() + b.len() + 1;
+        let inner =
+            move |i: usize| edges.points()[if i < a.len() { a.start + i } else { b.start + i - a.len() }];
+        (0..=count).map(move |i| {
+            let i = if along { i } else { count - i };
+            if i == 0 {
+                ends[0]
+            } else if i < count {
+                inner(i - 1)
+            } else {
+                ends[1]
+            }
+        })
+    }
+
+    fn round(&mut self, edges: &Edges, contacts: &Contacts) {
+        self.rounded.clear();
+        self.rounded.resize(contacts.node_count(), UNUSED);
+        for node in self.pieces.iter().filter_map(|piece| piece.nodes).flatten() {
+            if let Place::Crossing(..) = contacts.place(node) {
+                self.rounded[node as usize] = WANTED;
+            }
+        }
+        let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));
+        Threads::for_edges(edges.len()).for_each(parts, |(points, nodes)| {
+            for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| **point == WANTED) {
+                if let Place::Crossing(e, f) = Place::of(node) {
+                    *point = crossing_point(edges.segment(e), edges.segment(f));
+                }
+            }
+        });
+    }
+}
+
+impl LabelledArrangement<'_> {
+    fn select_along(&self, ring: u32, pieces: &mut Vec<Piece>) {
+        let arcs = self.arrangement.of_ring(ring);
+        let about = self.edges.rings()[ring as usize];
+        if arcs.is_empty() {
+            let whole = self.along(index(self.arrangement.len()) + ring);
+            pieces.extend(whole.map(|along| Piece::whole(ring, about, along)));
+            return;
+        }
+        let first = pieces.len();
+        let mut run: Option<SubEdgeRun> = None;
+        let mut first_run: Option<SubEdgeRun> = None;
+        let mut put = |run: SubEdgeRun| {
+            // The first run may yet be found to continue the last one.
+            if run.start == arcs.start && first_run.is_none() {
+                first_run = Some(run)
+            } else {
+                pieces.push(self.piece(ring, run))
+            }
+        };
+        for arc in arcs.clone() {
+            let next = if arc + 1 == arcs.end { arcs.start } else { arc + 1 };
+            let along = self.along(arc);
+            run = match (run, along) {
+                (Some(run), Some(along)) if run.along == along && self.passes_through(arc, arc - 1) => {
+                    Some(SubEdgeRun { end: next, ..run })
+                }
+                (before, along) => {
+                    before.into_iter().for_each(&mut put);
+                    along.map(|along| SubEdgeRun { start: arc, end: next, along })
+                }
+            };
+        }
+        match (first_run, run) {
+            (None, Some(run)) if run.start == arcs.start && run.end == arcs.start => {
+                let whole = self.passes_through(arcs.start, arcs.end - 1);
+                pieces.push(if whole { Piece::whole(ring, about, run.along) } else { self.piece(ring, run) });
+            }
+            (Some(a), Some(b)) if a.along == b.along && self.passes_through(arcs.start, arcs.end - 1) => {
+                pieces.push(self.piece(ring, SubEdgeRun { start: b.start, ..a }));
+            }
+            (a, b) => pieces.extend(a.into_iter().chain(b).map(|run| self.piece(ring, run))),
+        }
+        debug_assert!(pieces.len() >= first);
+    }
+
+    /// Whether an arc is selected, and its ring's direction then.
+    #[inline]
+    fn along(&self, arc: u32) -> Option<bool> {
+        match self.labels.of(arc) {
+            Membership::OnPlus => Some(true),
+            Membership::OnMinus => Some(false),
+            Membership::In | Membership::Out => None,
+        }
+    }
+
+    /// Whether between two selected arcs of a ring there is only a crossing, and nothing else selected.
+    fn passes_through(&self, arc: u32, before: u32) -> bool {
+        let selected = |arc: u32| self.along(arc).is_some();
+        match self.arrangement.met(arc) {
+            Node::Crossing(other) => {
+                !selected(other) && !selected(self.arrangement.previous(self.edges, other))
+            }
+            Node::Junction(junction) => {
+                let others = self.arrangement.span(junction).map(|place| self.arrangement.around(place));
+                let mut others =
+                    others.filter(|&half_edge| half_edge != 2 * arc && half_edge != 2 * before + 1);
+                matches!(self.contacts.place(self.arrangement.node(arc)), Place::Crossing(..))
+                    && !others.any(|half_edge| selected(half_edge >> 1))
+            }
+        }
+    }
+
+    fn piece(&self, ring: u32, run: SubEdgeRun) -> Piece {
+        let about = self.edges.rings()[ring as usize];
+        let (first_edge, last_edge) = (self.arrangement.edge(run.start), self.arrangement.edge(run.end));
+        let end = last_edge + u32::from(!self.arrangement.starts_edge(run.end));
+        let inner = if run.end > run.start {
+            [[first_edge + 1, end.max(first_edge + 1)], [0, 0]]
+        } else {
+            [[first_edge + 1, about.end.max(first_edge + 1)], [about.start, end]]
+        };
+        let nodes = Some([run.start, run.end].map(|arc| self.arrangement.node(arc)));
+        Piece { ring, nodes, first_edge, inner, along: run.along }
+    }
+}

@@ -1,0 +1,120 @@
+//! Stage 2, the broad phase: which pairs of edges are compared.
+//!
+//! | what boxes meet | broad phase |
+//! | --- | --- |
+//! | those of chains, few | [`BroadPhase::MonotoneChains`]: chains as long as they may be, so that smooth outlines are skipped over |
+//! | those of chains, many | [`BroadPhase::Edges`]: chains of single edges, which are more boxes, but smaller ones |
+//! | those of edges, many, that do not cross | [`BroadPhase::SlabDecomposition`]: long edges beside one another |
+//!
+//! A sample of the pairs of boxes decides. All three lead to one result. A sample may mislead, so boxes are given up later
+//! where they exceed their budget even so.
+
+use super::budget::WorkBudget;
+use super::pair::cross_clearly;
+use crate::edges::Edges;
+use crate::predicates::Margins;
+use crate::spatial::chains::MonotoneChains;
+use crate::spatial::strips::Strips;
+
+/// Fewer boxes are not worth a sample.
+const FEW: usize = 256;
+
+/// Of so many boxes one is compared with all others.
+const STEP: usize = 16;
+
+/// So many pairs and blocks of the sample for each edge are enough.
+const PAIRS: usize = 8;
+
+/// One more box costs as much as so many pairs of chains do.
+const PAIRS_PER_BOX: usize = 4;
+
+/// How the pairs of edges are found that may meet; see the module's page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BroadPhase {
+    /// Those in chains whose boxes meet.
+    MonotoneChains,
+    /// Those whose own boxes meet.
+    Edges,
+    /// Those that share a slab and are not in one order there.
+    SlabDecomposition,
+}
+
+/// All edges, the chains they are in, the index over the chains' boxes, and how these are to be used.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidates<'a> {
+    pub(crate) edges: &'a Edges,
+    pub(crate) chains: &'a MonotoneChains,
+    pub(crate) strips: &'a Strips,
+    pub(crate) phase: BroadPhase,
+    /// What boxes may cost, as long as they are used.
+    pub(crate) budget: WorkBudget,
+}
+
+impl<'a> Candidates<'a> {
+    /// Indexes the edges, and decides by a sample how their pairs are found. Expected O(n log n).
+    pub(crate) fn index(
+        edges: &'a Edges,
+        chains: &'a mut MonotoneChains,
+        strips: &'a mut Strips,
+        budget: WorkBudget,
+    ) -> Candidates<'a> {
+        chains.build(edges.points(), edges.spans());
+        strips.build(chains.boxes());
+        let phase = Sample::of(edges, chains, strips).choice(budget);
+        if phase == BroadPhase::Edges {
+            chains.cut_to_edges(edges.points(), edges.spans());
+            strips.build(chains.boxes());
+        }
+        Candidates { edges, chains, strips, phase, budget: budget.doubled() }
+    }
+}
+
+/// What all boxes would yield, by a sample.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sample {
+    chains: usize,
+    edges: usize,
+    /// The pairs of chains and of edges whose boxes meet, and of the latter those that cross.
+    chain_pairs: usize,
+    pairs: usize,
+    crossings: usize,
+    /// The blocks of boxes to be looked at.
+    blocks: usize,
+}
+
+impl Sample {
+    /// O(n): the sample ends as soon as it tells that boxes are not quick.
+    fn of(edges: &Edges, chains: &MonotoneChains, strips: &Strips) -> Sample {
+        let mut sample = Sample { chains: chains.len(), edges: edges.len(), ..Sample::default() };
+        if chains.len() < FEW {
+            return sample;
+        }
+        let margins = Margins::for_size(chains.size());
+        let most = PAIRS * edges.len();
+        let (times, blocks) = strips.sample(STEP, most, |a, b| {
+            sample.chain_pairs += 1;
+            chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
+                sample.pairs += 1;
+                sample.crossings += usize::from(cross_clearly(edges, [e.min(f), e.max(f)], margins));
+            });
+            sample.chain_pairs + sample.pairs < most
+        });
+        sample.blocks = blocks;
+        for count in [&mut sample.chain_pairs, &mut sample.pairs, &mut sample.crossings, &mut sample.blocks] {
+            *count *= times;
+        }
+        sample
+    }
+
+    fn choice(&self, budget: WorkBudget) -> BroadPhase {
+        let boxes_are_quick =
+            self.blocks <= budget.blocks(self.edges) && budget.lasts(self.edges, self.pairs, self.crossings);
+        let single_edges_are_quicker =
+            self.chain_pairs > self.pairs + PAIRS_PER_BOX * (self.edges - self.chains);
+        match (boxes_are_quick, single_edges_are_quicker) {
+            (false, _) => BroadPhase::SlabDecomposition,
+            (true, false) => BroadPhase::MonotoneChains,
+            (true, true) => BroadPhase::Edges,
+        }
+    }
+}

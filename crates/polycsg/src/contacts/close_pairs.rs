@@ -1,0 +1,214 @@
+//! Pairs of edges so close, or so flat to one another, that rounding crossings may make their pieces meet.
+//!
+//! All pairs of edges whose boxes meet are looked at when contacts are found, and rounded pieces stay in their edges'
+//! boxes; pairs that are not clear of one another (see [`Margins`]) are noted here, by tests that err on the safe side. When
+//! no piece of theirs meets another after rounding, nothing on the whole boundary does. [`SlabDecomposition`] report fewer pairs than
+//! boxes; what else comes near an edge is looked for there.
+
+use super::contact::{Contact, PartnerKind};
+use crate::edges::{EdgeRing, Edges};
+use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
+use crate::spatial::chains::LONGEST;
+use crate::spatial::slabs::SlabDecomposition;
+use glam::DVec2;
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(crate) struct ClosePairs {
+    /// Whether all edges are suspected.
+    all: bool,
+    pairs: Vec<[u32; 2]>,
+    margins: Margins,
+    /// Things that happen close together.
+    pub(crate) close: Vec<ClosePlaces>,
+}
+
+/// Two places close together on an edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClosePlaces {
+    pub(crate) edge: u32,
+    pub(crate) places: [EdgePlace; 2],
+}
+
+/// Where something happens on an edge: at a node, or at a vertex that may be none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum EdgePlace {
+    Node(u32),
+    Vertex(u32),
+}
+
+/// What meets in some nodes.
+#[derive(Debug, Default)]
+pub(super) struct CloseGroups {
+    /// Per node that stands for all at its point whether it is one of these.
+    pub(super) is_close: Vec<bool>,
+    /// These nodes and the edges through them, sorted.
+    pub(super) edges: Vec<[u32; 2]>,
+    pub(super) group: Vec<u32>,
+}
+
+impl ClosePairs {
+    /// Starts over for coordinates up to a size; where pairs are not wanted, all edges are suspected.
+    pub(crate) fn start(&mut self, size: f64, wanted: bool) {
+        self.all = !wanted;
+        self.pairs.clear();
+        self.close.clear();
+        self.margins = Margins::for_size(size);
+    }
+
+    /// Whether all edges are suspected, not the listed pairs alone.
+    pub(crate) fn all(&self) -> bool {
+        self.all
+    }
+
+    pub(crate) fn margins(&self) -> Margins {
+        self.margins
+    }
+
+    pub(crate) fn pairs(&self) -> &[[u32; 2]] {
+        &self.pairs
+    }
+
+    pub(crate) fn add(&mut self, e: u32, f: u32) {
+        if !self.all {
+            self.pairs.push([e, f]);
+        }
+    }
+
+    /// Notes what comes near an edge where [`SlabDecomposition`] take the place of boxes, and lets them report the rest; suspects all
+    /// edges where these are too many.
+    pub(crate) fn look_beside(&mut self, edges: &Edges, slabs: &mut SlabDecomposition) {
+        let margins = self.margins;
+        self.all = self.all
+            || slabs.copies().next().is_some()
+            || !slabs.places().all(|place| self.look_at_place(edges, place))
+            || !slabs.ends_beside_ends(margins.close, |p, q| {
+                edges.at(p).into_iter().for_each(|e| edges.at(q).into_iter().for_each(|f| self.add(e, f)));
+            })
+            || !slabs.ends_beside_steep_edges(margins, |e, p| {
+                edges.at(p).into_iter().for_each(|f| self.add(e, f));
+            })
+            || !slabs.widen(margins.close);
+    }
+
+    /// ClosePairs all edges, and has [`SlabDecomposition`] report only what meets; false if they do.
+    pub(crate) fn look_no_more(&mut self, slabs: &mut SlabDecomposition) -> bool {
+        self.all = true;
+        slabs.narrow()
+    }
+
+    /// Notes edges of several rings that leave one point in nearly the same direction; false when they are too many for
+    /// that. Those of one ring are looked at by [`look_along`](ClosePairs::look_along).
+    fn look_at_place(&mut self, edges: &Edges, mut place: impl Iterator<Item = u32>) -> bool {
+        const MOST: usize = 32;
+        let Some(first) = place.next() else { return true };
+        let [a, b] = edges.at(first);
+        let mut leaving = [a; MOST];
+        leaving[1] = b;
+        for (count, edge) in (2..).zip(place.flat_map(|point| edges.at(point))) {
+            if count == MOST {
+                return false;
+            }
+            leaving[count] = edge;
+            for &other in leaving[..count].iter().filter(|&&other| other != edge) {
+                if self.are_flat(edges, edges.point(first), [edge, other]) {
+                    self.add(edge, other);
+                }
+            }
+        }
+        true
+    }
+
+    /// Whether two edges leave a common end in nearly the same direction.
+    fn are_flat(&self, edges: &Edges, corner: DVec2, pair: [u32; 2]) -> bool {
+        let [s, t] = pair.map(|edge| edges.segment(edge));
+        let [p, q] = [s, t].map(|[a, b]| if a == corner { b } else { a });
+        self.are_flat_at(corner, p, q)
+    }
+
+    /// The same by the common end and the two others.
+    #[inline]
+    fn are_flat_at(&self, corner: DVec2, p: DVec2, q: DVec2) -> bool {
+        (p - corner).dot(q - corner) > 0.0
+            && !self.margins.are_steep([[corner, p], [corner, q]], doubled_area(corner, p, q))
+    }
+
+    /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
+    pub(crate) fn look_along(&mut self, edges: &Edges, contacts: &[Contact]) {
+        let is_crossing = |contact: &Contact| {
+            matches!(contact.partner.met(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
+        };
+        if self.all || !contacts.iter().any(is_crossing) {
+            return;
+        }
+        let edge = contacts[0].edge;
+        let ring = edges.ring(edge);
+        let segment = edges.segment(edge);
+        let least = self.margins.gap / (segment[1] - segment[0]).abs().max_element();
+        let far = |a: Parameter, b: Parameter| b.distance_from(a) > least;
+        let node = |contact: Contact| EdgePlace::Node(contact.node);
+        for pair in contacts.windows(2).filter(|pair| !far(pair[0].at(), pair[1].at())) {
+            self.close.push(ClosePlaces { edge, places: [node(pair[0]), node(pair[1])] });
+        }
+        let (first, last) = (contacts[0], contacts[contacts.len() - 1]);
+        if !far(Parameter::START, first.at()) && first.partner.met() != PartnerKind::Start {
+            self.close.push(ClosePlaces { edge, places: [node(first), EdgePlace::Vertex(edge)] });
+        }
+        if !far(last.at(), Parameter::END) {
+            self.close.push(ClosePlaces { edge, places: [node(last), EdgePlace::Vertex(ring.next(edge))] });
+        }
+        self.look_around(edges, ring, edge);
+    }
+
+    /// Notes all pairs of edges that meet close together; suspects all edges where they are many.
+    pub(crate) fn add_group(&mut self, group: &[u32]) {
+        const MOST: usize = 64;
+        self.all |= group.len() > MOST;
+        for (i, &e) in group.iter().enumerate().take_while(|_| !self.all) {
+            self.pairs.extend(group[..i].iter().filter(|&&f| f != e).map(|&f| [e, f]));
+        }
+    }
+
+    /// Notes what is close to an edge on both sides along its ring: its neighbours where they turn back sharply, and those
+    /// beyond, where the neighbour is too narrow to keep them away.
+    fn look_around(&mut self, edges: &Edges, ring: EdgeRing, edge: u32) {
+        let [a, b] = edges.segment(edge);
+        let [before, after] = [ring.previous(edge), ring.next(edge)];
+        let [start, end] = [edges.point(before), edges.point(after + 1)];
+        if self.are_flat_at(a, b, start) {
+            self.add(edge, before);
+        }
+        if self.are_flat_at(b, a, end) {
+            self.add(edge, after);
+        }
+        if (start.x - a.x).abs() <= self.margins.close {
+            self.look_beyond(edges, edge, before, |other| ring.previous(other));
+        }
+        if (end.x - b.x).abs() <= self.margins.close {
+            self.look_beyond(edges, edge, after, |other| ring.next(other));
+        }
+    }
+
+    /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, and were not compared with it,
+    /// and are not apart from it.
+    fn look_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> u32) {
+        let s = edges.segment(edge);
+        let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
+        if !leads_on(edges.segment(neighbour)) {
+            return; // another chain, whose boxes were looked at
+        }
+        let mut other = neighbour;
+        for _ in 0..LONGEST {
+            other = step(other);
+            let t = edges.segment(other);
+            let gap = (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
+            if gap > self.margins.close || !leads_on(t) {
+                break;
+            }
+            let areas = |line: Segment, ends: Segment| ends.map(|p| doubled_area(line[0], line[1], p));
+            if !self.margins.are_apart(s, areas(s, t)) && !self.margins.are_apart(t, areas(t, s)) {
+                self.add(edge, other);
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What meets an edge, and where on it.
+
+use crate::edges::Edges;
+use crate::predicates::{Parameter, crossing_order, lexicographic, point_crossing_order};
+use std::cmp::Ordering;
+
+/// What meets an edge in a contact: a kind in the top bits, and the id of an edge or vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Partner(u32);
+
+/// The kinds of [`Partner`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PartnerKind {
+    /// An edge that crosses from the left to the right.
+    FromLeft(u32),
+    /// An edge that crosses from the right to the left.
+    FromRight(u32),
+    /// A vertex inside the edge.
+    Vertex(u32),
+    /// The edge's own start.
+    Start,
+}
+
+impl Partner {
+    const ID: u32 = (1 << 30) - 1;
+    const FROM_RIGHT: u32 = 1 << 30;
+    const VERTEX: u32 = 2 << 30;
+    pub(super) const START: Partner = Partner(3 << 30);
+
+    pub(super) fn crossing(edge: u32, from_left: bool) -> Partner {
+        Partner(edge | if from_left { 0 } else { Partner::FROM_RIGHT })
+    }
+
+    pub(crate) fn vertex(vertex: u32) -> Partner {
+        Partner(vertex | Partner::VERTEX)
+    }
+
+    #[inline]
+    pub(crate) fn met(self) -> PartnerKind {
+        let id = self.0 & Partner::ID;
+        match self.0 >> 30 {
+            0 => PartnerKind::FromLeft(id),
+            1 => PartnerKind::FromRight(id),
+            2 => PartnerKind::Vertex(id),
+            _ => PartnerKind::Start,
+        }
+    }
+}
+
+/// A node on an edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    // A parameter taken apart, as the whole has padding.
+    value: f64,
+    error: f32,
+    pub(crate) edge: u32,
+    pub(crate) node: u32,
+    pub(crate) partner: Partner,
+}
+
+impl Contact {
+    #[inline]
+    pub(super) fn new(at: Parameter, edge: u32, node: u32, partner: Partner) -> Contact {
+        let Parameter { value, error } = at;
+        Contact { value, error, edge, node, partner }
+    }
+
+    /// Where along the edge it is.
+    #[inline]
+    pub(crate) fn at(&self) -> Parameter {
+        Parameter { value: self.value, error: self.error }
+    }
+}
+
+/// The order of two contacts by edge and along it: by the parameters where their bounds allow, else exactly.
+#[inline]
+pub(super) fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
+    if a.edge != b.edge {
+        return a.edge.cmp(&b.edge);
+    }
+    a.at().certain_order(b.at()).unwrap_or_else(|| order_exactly(edges, a, b))
+}
+
+#[cold]
+fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
+    let e = edges.segment(a.edge);
+    match (a.partner.met(), b.partner.met()) {
+        (PartnerKind::Start, PartnerKind::Start) => Ordering::Equal,
+        (PartnerKind::Start, _) => Ordering::Less,
+        (_, PartnerKind::Start) => Ordering::Greater,
+        (PartnerKind::Vertex(v), PartnerKind::Vertex(w)) => {
+            let order = lexicographic(edges.point(v), edges.point(w));
+            if lexicographic(e[0], e[1]) == Ordering::Less { order } else { order.reverse() }
+        }
+        (PartnerKind::Vertex(v), PartnerKind::FromLeft(g) | PartnerKind::FromRight(g)) => {
+            point_crossing_order(e, edges.point(v), edges.segment(g))
+        }
+        (PartnerKind::FromLeft(g) | PartnerKind::FromRight(g), PartnerKind::Vertex(v)) => {
+            point_crossing_order(e, edges.point(v), edges.segment(g)).reverse()
+        }
+        (
+            PartnerKind::FromLeft(f) | PartnerKind::FromRight(f),
+            PartnerKind::FromLeft(g) | PartnerKind::FromRight(g),
+        ) => crossing_order(e, edges.segment(f), edges.segment(g)),
+    }
+}

@@ -1,0 +1,225 @@
+//! Vertices that are gone but touch an edge that is left: they are vertices of it from then on, as they are where nothing
+//! cancels.
+
+use super::cells::Cells;
+use crate::edges::Edges;
+use crate::predicates::{Side, is_inside, lexicographic, side};
+use glam::{BVec2, DVec2};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// So many edges are in a cell on the average: maps have far more at some places.
+const EDGES_PER_CELL: usize = 2;
+
+/// Edges that are left may touch so many cells each, on the average, and some more.
+const CELLS_PER_EDGE: usize = 4;
+const MORE: usize = 1000;
+
+/// So many pairs of a vertex and an edge in its cell are looked at for each edge: where one far point makes one cell of all
+/// others, they would be too many.
+const PAIRS_PER_EDGE: usize = 64;
+
+/// So many consecutive vertices are passed over at once where no edge is left nearby.
+const TOGETHER: u32 = 16;
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(super) struct Touched {
+    /// Edges that are left and points inside them, in order along each.
+    inside: Vec<(u32, DVec2)>,
+    left: Vec<u32>,
+    /// Per cell where its edges start in `near`: those that are left and whose boxes touch it.
+    starts: Vec<u32>,
+    near: Vec<u32>,
+    /// Of the cells in the columns and rows before each, how many the boxes of edges that are left touch.
+    near_before: Vec<u32>,
+}
+
+impl Touched {
+    /// Finds them; false where the edges that are left are too long, or all too close together, for that.
+    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool], cells: Cells) -> bool {
+        let cells = cells.with(gone.len() / EDGES_PER_CELL);
+        self.left.clear();
+        self.left.extend((0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge));
+        self.list(edges, cells) && {
+            self.count(cells.columns());
+            self.look(edges, cells, gone)
+        }
+    }
+
+    /// The points inside some edges, by edge and in order along each.
+    pub(super) fn inside(&self, span: Range<u32>) -> &[(u32, DVec2)] {
+        let first = self.inside.partition_point(|(edge, _)| *edge < span.start);
+        let count = self.inside[first..].partition_point(|(edge, _)| *edge < span.end);
+        &self.inside[first..first + count]
+    }
+
+    /// Lists the edges that are left cell by cell.
+    fn list(&mut self, edges: &Edges, cells: Cells) -> bool {
+        let touched = |edge: u32| {
+            let [a, b] = edges.segment(edge);
+            cells.within(a.min(b), a.max(b)).flatten().map(|cell| cell as usize)
+        };
+        self.starts.clear();
+        self.starts.resize(cells.len() + 2, 0);
+        let mut room = MORE + CELLS_PER_EDGE * edges.len();
+        for &edge in &self.left {
+            for cell in touched(edge) {
+                if room == 0 {
+                    return false;
+                }
+                room -= 1;
+                self.starts[cell + 2] += 1;
+            }
+        }
+        for cell in 2..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        self.near.clear();
+        self.near.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
+        for &edge in &self.left {
+            for cell in touched(edge) {
+                self.near[self.starts[cell + 1] as usize] = edge;
+                self.starts[cell + 1] += 1;
+            }
+        }
+        true
+    }
+
+    /// Counts the cells that edges which are left touch.
+    fn count(&mut self, columns: usize) {
+        let Touched { starts, near_before, .. } = self;
+        near_before.clear();
+        near_before.resize((columns + 1).pow(2), 0);
+        for (row, starts) in (1..).zip(starts[..=columns.pow(2)].windows(columns + 1).step_by(columns)) {
+            let (below, here) = near_before[(row - 1) * (columns + 1)..].split_at_mut(columns + 1);
+            let mut count = 0;
+            for column in 0..columns {
+                count += u32::from(starts[column] < starts[column + 1]);
+                here[column + 1] = below[column + 1] + count;
+            }
+        }
+    }
+
+    /// Looks at the vertices between two gone edges.
+    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
+        self.inside.clear();
+        let mut room = MORE + PAIRS_PER_EDGE * gone.len();
+        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+            for start in (ring.start..ring.end).step_by(TOGETHER as usize) {
+                let vertices = start..ring.end.min(start + TOGETHER);
+                if !self.are_near(cells, &edges.points()[vertices.start as usize..vertices.end as usize]) {
+                    continue;
+                }
+                for vertex in vertices {
+                    if gone[vertex as usize] & gone[ring.previous(vertex) as usize] {
+                        let p = edges.point(vertex);
+                        let looked_at = self.look_at(edges, cells.at(p) as usize, p);
+                        let Some(left) = room.checked_sub(looked_at) else { return false };
+                        room = left;
+                    }
+                }
+            }
+        }
+        self.sort(edges);
+        true
+    }
+
+    /// Whether the points' box touches cells with edges that are left.
+    #[inline]
+    fn are_near(&self, cells: Cells, points: &[DVec2]) -> bool {
+        let (low, high) =
+            points.iter().fold((points[0], points[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let ([left, bottom], [right, top]) = (cells.place(low), cells.place(high));
+        let before = |column, row| self.near_before[row as usize * (cells.columns() + 1) + column as usize];
+        before(right + 1, top + 1) + before(left, bottom) != before(left, top + 1) + before(right + 1, bottom)
+    }
+
+    fn sort(&mut self, edges: &Edges) {
+        self.inside.sort_unstable_by(|(e, p), (f, q)| {
+            let along = || if rises(edges, *e) { lexicographic(*p, *q) } else { lexicographic(*q, *p) };
+            e.cmp(f).then_with(along)
+        });
+        self.inside.dedup();
+    }
+
+    /// Returns at how many edges it looked.
+    #[inline]
+    fn look_at(&mut self, edges: &Edges, cell: usize, p: DVec2) -> usize {
+        let [start, end] = [self.starts[cell] as usize, self.starts[cell + 1] as usize];
+        for &edge in &self.near[start..end] {
+            let [a, b] = edges.segment(edge);
+            // Most are neither: one comparison of all four sides is quicker than one after the other.
+            let is_in_box = a.min(b).cmple(p) & a.max(b).cmpge(p) == BVec2::TRUE;
+            if is_in_box && is_inside([a, b], p) && side(a, b, p) == Side::On {
+                self.inside.push((edge, p));
+            }
+        }
+        end - start
+    }
+}
+
+/// Whether an edge starts in its smaller end.
+#[inline]
+fn rises(edges: &Edges, edge: u32) -> bool {
+    let [start, end] = edges.segment(edge);
+    lexicographic(start, end) == Ordering::Less
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Touched;
+    use crate::edges::opposite_edges::table::Table;
+    use crate::edges::{Edges, Origin};
+    use glam::DVec2;
+
+    fn add_square(edges: &mut Edges, low: DVec2) {
+        for corner in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y] {
+            edges.add_edge(low + corner, Origin { operand: 0, edge: 0 });
+        }
+        edges.close(Some(0));
+    }
+
+    /// What is found in a grid of squares and something else.
+    fn found(columns: u16, add: impl Fn(&mut Edges)) -> Option<Vec<(u32, DVec2)>> {
+        let (mut edges, mut table, mut gone, mut touched) =
+            (Edges::default(), Table::default(), Vec::new(), Touched::default());
+        add(&mut edges);
+        for cell in 0..columns * columns {
+            add_square(&mut edges, DVec2::new(f64::from(cell % columns), f64::from(cell / columns)));
+        }
+        table.find(&edges, &mut gone);
+        touched.find(&edges, &gone, table.cells()).then_some(touched.inside)
+    }
+
+    #[test]
+    fn a_grid_has_none() {
+        assert_eq!(found(40, |_| ()), Some(Vec::new()));
+    }
+
+    /// A triangle stands with two of its sides in corners of squares that have cancelled.
+    #[test]
+    fn in_order_along_both_directions() {
+        let triangle = [DVec2::new(2.0, 0.5), DVec2::new(8.0, 9.5), DVec2::new(8.0, 0.5)];
+        let slanted = [[3.0, 2.0], [5.0, 5.0], [7.0, 8.0]].map(DVec2::from);
+        let upright = (1..10).map(|y| DVec2::new(8.0, f64::from(y)));
+        let forward: Vec<(u32, DVec2)> =
+            slanted.into_iter().map(|p| (0, p)).chain(upright.clone().rev().map(|p| (1, p))).collect();
+        let backward: Vec<(u32, DVec2)> =
+            upright.map(|p| (0, p)).chain(slanted.into_iter().rev().map(|p| (1, p))).collect();
+        let with = |ring: [DVec2; 3]| {
+            found(10, |edges| {
+                ring.iter().for_each(|&p| edges.add_edge(p, Origin { operand: 0, edge: 0 }));
+                edges.close(Some(0));
+            })
+        };
+        assert_eq!(with(triangle), Some(forward));
+        assert_eq!(with([triangle[2], triangle[1], triangle[0]]), Some(backward));
+    }
+
+    /// One far square makes one cell of all others: every vertex would be looked at beside every edge of the outline.
+    #[test]
+    fn gives_up_where_all_are_in_one_cell() {
+        assert_eq!(found(100, |edges| add_square(edges, DVec2::splat(1e9))), None);
+    }
+}

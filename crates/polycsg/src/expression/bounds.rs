@@ -1,0 +1,111 @@
+//! Stage 0: which rings cannot matter, by their boxes alone.
+//!
+//! ```text
+//!   a & (b | c)   +---a---+       Outside of a's box the set is empty, whatever b and c are: the set lies in the
+//!        +--b--+  |   +---|--c-+  *window*, the box that the boxes of all operands leave it. A ring whose box misses
+//!        +-----+  +---+---+    |  the window winds around none of its points and touches nothing in it, so the
+//!                     +--------+  result without it is the same result.
+//! ```
+//!
+//! Rings that only touch the window stay: their vertices are put into the edges that they touch.
+
+use super::circuit::Kind;
+use super::csg::{Csg, Token};
+use super::winding::WindingNumbers;
+use glam::DVec2;
+
+/// An axis-parallel box with its sides; no point when it is turned inside out.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    low: DVec2,
+    high: DVec2,
+}
+
+impl Bounds {
+    const NOTHING: Bounds = Bounds { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
+    const PLANE: Bounds = Bounds { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
+
+    fn of(points: &[DVec2]) -> Bounds {
+        let grown = |b: Bounds, &p: &DVec2| Bounds { low: b.low.min(p), high: b.high.max(p) };
+        points.iter().fold(Bounds::NOTHING, grown)
+    }
+
+    fn joined(self, other: Bounds) -> Bounds {
+        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    fn common(self, other: Bounds) -> Bounds {
+        if self.misses(other) {
+            return Bounds::NOTHING;
+        }
+        Bounds { low: self.low.max(other.low), high: self.high.min(other.high) }
+    }
+
+    fn misses(self, other: Bounds) -> bool {
+        self.high.cmplt(other.low).any() || other.high.cmplt(self.low).any()
+    }
+
+    fn contains(self, p: DVec2) -> bool {
+        p.cmpge(self.low).all() && p.cmple(self.high).all()
+    }
+}
+
+/// The box that the set lies in.
+#[derive(Debug, Default)]
+pub(crate) struct ResultBounds {
+    /// Per gate the box outside of which it does not hold; none where no gate needs all of its members.
+    bounds: Vec<Bounds>,
+    /// Per gate whether the window depends on its box: not if its opposite is asked for.
+    tells: Vec<bool>,
+    /// Tests compare with the arrangement of all rings.
+    #[cfg(test)]
+    pub(crate) off: bool,
+}
+
+impl ResultBounds {
+    /// Finds the window of an expression. O(n) for n points of operands that bound it, if any do.
+    pub(crate) fn find(&mut self, csg: &Csg<'_>, truth: &WindingNumbers) {
+        self.bounds.clear();
+        #[cfg(test)]
+        if self.off {
+            return;
+        }
+        let gates = truth.gates();
+        if (0..gates.len()).all(|gate| gates.kind(gate) != Kind::All) {
+            return;
+        }
+        self.tells.clear();
+        for gate in 0..gates.len() {
+            let above = gates.above(gate);
+            self.tells.push(above.is_none_or(|(above, opposite)| !opposite && self.tells[above as usize]));
+        }
+        let start = |gate| if gates.kind(gate) == Kind::All { Bounds::PLANE } else { Bounds::NOTHING };
+        self.bounds.extend((0..gates.len()).map(start));
+        for (operand, rings) in csg.postfix().iter().filter_map(Token::rings).enumerate() {
+            if let Some(gate) = truth.gate_of(operand).filter(|&gate| self.tells[gate as usize]) {
+                self.bound(truth, gate, Bounds::of(rings.points()));
+            }
+        }
+        for gate in (1..gates.len()).rev() {
+            if let Some((above, false)) = gates.above(gate) {
+                self.bound(truth, above, self.bounds[gate as usize]);
+            }
+        }
+    }
+
+    /// Takes up the box of one of a gate's members.
+    fn bound(&mut self, truth: &WindingNumbers, gate: u32, member: Bounds) {
+        let bounds = &mut self.bounds[gate as usize];
+        *bounds = match truth.gates().kind(gate) {
+            Kind::All => bounds.common(member),
+            Kind::Any | Kind::Odd => bounds.joined(member),
+        };
+    }
+
+    /// Whether a ring may matter.
+    #[inline]
+    pub(crate) fn meets(&self, ring: &[DVec2]) -> bool {
+        let window = self.bounds.first();
+        window.is_none_or(|window| window.contains(ring[0]) || !window.misses(Bounds::of(ring)))
+    }
+}

@@ -1,0 +1,6 @@
+//! The expression: what the user states, and the state of a walk that tells where it holds.
+
+pub(crate) mod bounds;
+pub(crate) mod circuit;
+pub(crate) mod csg;
+pub(crate) mod winding;

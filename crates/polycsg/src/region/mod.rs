@@ -1,0 +1,251 @@
+//! The result: polygons with holes, islands in holes, and so on.
+
+pub(crate) mod area;
+pub(crate) mod membership;
+pub(crate) mod rings;
+
+use crate::predicates::{Segment, Side, is_inside, lexicographic, rightward, side};
+use area::enclosed_area;
+use glam::DVec2;
+use rings::{Rings, ring_edges};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// A regularised set of points of the plane: polygons with holes, islands in the holes, to any depth.
+///
+/// Always valid: rings are simple and meet one another in common vertices only; outer rings run counter-clockwise,
+/// holes clockwise, so that the interior is on the left of every edge; the interior of each polygon is connected.
+/// (With y upwards. Where y points downwards, as on screens, read clockwise for counter-clockwise; nothing else changes.)
+///
+/// Always canonical: each ring starts at its leftmost (then lowest) vertex, polygons are sorted by depth and then by
+/// that vertex, the holes of each by theirs. Equal sets with equal vertices are equal values.
+///
+/// Input vertices on the boundary are kept, also in the middle of a straight edge. Coordinates are in any unit; areas are in
+/// its square. The default is the empty set.
+///
+/// ```
+/// use polycsg::{FillRule, Location, Region, DVec2};
+/// let square = |low: f64, high: f64| vec![[low, low], [high, low], [high, high], [low, high]];
+/// // Even-odd: a square with a hole, and an island in the hole.
+/// let region = Region::from_rings([square(0.0, 9.0), square(2.0, 7.0), square(3.0, 5.0)], FillRule::EvenOdd)?;
+/// let polygons: Vec<_> = region.polygons().collect();
+/// assert_eq!(polygons.len(), 2);
+/// assert_eq!((polygons[0].holes().count(), polygons[0].depth()), (1, 0));
+/// assert_eq!((polygons[1].holes().count(), polygons[1].depth()), (0, 1));
+/// assert_eq!(region.area(), 81.0 - 25.0 + 4.0);
+/// assert_eq!(region.locate(DVec2::new(6.0, 6.0)), Location::Outside);
+/// # Ok::<(), polycsg::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Region {
+    rings: Rings,
+    polygons: Vec<PolygonSpan>,
+}
+
+/// A polygon's rings: from `first` to where the next polygon starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PolygonSpan {
+    first: usize,
+    depth: usize,
+}
+
+/// One polygon of a [`Region`]: an outer ring and its holes, borrowed.
+///
+/// Its holes may touch the outer ring and one another in single vertices; an island in a hole is a polygon of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Polygon<'r> {
+    rings: &'r Rings,
+    first: usize,
+    end: usize,
+    depth: usize,
+}
+
+impl<'r> Polygon<'r> {
+    /// The outer ring, counter-clockwise, three points or more, the first not repeated.
+    pub fn outer(&self) -> &'r [DVec2] {
+        self.rings.ring(self.first)
+    }
+
+    /// The holes, each clockwise, the first point not repeated.
+    pub fn holes(&self) -> impl Iterator<Item = &'r [DVec2]> + use<'r> {
+        let rings = self.rings;
+        (self.first + 1..self.end).map(move |ring| rings.ring(ring))
+    }
+
+    /// How many polygons surround it: 0 outermost, 1 for an island in a hole of such a one, and so on.
+    pub fn depth(&self) -> usize {
+        self.depth
+    }
+}
+
+/// Where a point lies; see [`Region::locate`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Location {
+    /// In the interior.
+    Inside,
+    /// In the exterior.
+    Outside,
+    /// On the boundary, exactly.
+    Boundary,
+}
+
+impl Region {
+    /// The polygons, outermost first: by depth, then from left to right.
+    pub fn polygons(&self) -> impl Iterator<Item = Polygon<'_>> {
+        (0..self.polygons.len()).map(|i| {
+            let rings = self.rings_of_polygon(i);
+            Polygon { rings: &self.rings, first: rings.start, end: rings.end, depth: self.polygons[i].depth }
+        })
+    }
+
+    /// All rings, each polygon's outer ring followed by its holes; the interior is on the left of each.
+    pub fn rings(&self) -> impl Iterator<Item = &[DVec2]> + Clone {
+        self.rings.iter()
+    }
+
+    /// Whether the set is empty.
+    pub fn is_empty(&self) -> bool {
+        self.polygons.is_empty()
+    }
+
+    /// The area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
+    ///
+    /// Summed with 106 bits from the rings as they are: the relative error stays below 2^-52 as long as no ring has more
+    /// vertices, times the area of the box around it, than 10^12 times the area.
+    pub fn area(&self) -> f64 {
+        enclosed_area(self.rings().map(ring_edges))
+    }
+
+    /// Where a point lies, exactly; a point that is not finite lies outside. O(n).
+    ///
+    /// ```
+    /// use polycsg::{DVec2, FillRule, Location, Region};
+    /// let triangle = Region::from_rings([[[0.0, 0.0], [3.0, 1.0], [0.0, 2.0]]], FillRule::NonZero)?;
+    /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5)), Location::Boundary);
+    /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5_f64.next_up())), Location::Inside);
+    /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5_f64.next_down())), Location::Outside);
+    /// # Ok::<(), polycsg::Error>(())
+    /// ```
+    pub fn locate(&self, point: DVec2) -> Location {
+        if !point.is_finite() {
+            return Location::Outside;
+        }
+        let mut above = false;
+        for edge in self.rings().flat_map(ring_edges) {
+            match look_down(edge, point) {
+                Look::On => return Location::Boundary,
+                Look::Hits => above = !above,
+                Look::Misses => {}
+            }
+        }
+        if above { Location::Inside } else { Location::Outside }
+    }
+
+    pub(crate) fn rings_of(&self) -> &Rings {
+        &self.rings
+    }
+
+    fn rings_of_polygon(&self, polygon: usize) -> Range<usize> {
+        let end = self.polygons.get(polygon + 1).map_or(self.rings.len(), |next| next.first);
+        self.polygons[polygon].first..end
+    }
+
+    /// Rings as somebody states them to be a region's, polygon by polygon; nothing is checked, depths are not known.
+    #[cfg(feature = "serde")]
+    pub(crate) fn as_given(rings: Rings, counts: impl Iterator<Item = usize>) -> Region {
+        let first = counts.scan(0, |end, count| Some(std::mem::replace(end, *end + count)));
+        let polygons = first.map(|first| PolygonSpan { first, depth: 0 }).collect();
+        Region { rings, polygons }
+    }
+
+    /// Whether two regions agree in everything but the depths of their polygons.
+    #[cfg(feature = "serde")]
+    pub(crate) fn has_rings_of(&self, other: &Region) -> bool {
+        let firsts = |region: &Region| region.polygons.iter().map(|span| span.first).collect::<Vec<_>>();
+        self.rings == other.rings && firsts(self) == firsts(other)
+    }
+}
+
+/// What is wrong with a region; no operation of this crate yields such a one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Invalid {
+    /// Two edges meet otherwise than in a common vertex; edges count through [`Region::rings`].
+    Contact {
+        /// One edge.
+        edge: usize,
+        /// The other.
+        other: usize,
+    },
+    /// Direction, nesting or order of the rings is not the one promised.
+    Structure,
+}
+
+impl std::fmt::Display for Invalid {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Invalid::Contact { edge, other } => {
+                write!(f, "edges {edge} and {other} meet otherwise than in a common vertex")
+            }
+            Invalid::Structure => write!(f, "the direction, nesting or order of the rings is not canonical"),
+        }
+    }
+}
+
+impl std::error::Error for Invalid {}
+
+enum Look {
+    On,
+    Hits,
+    Misses,
+}
+
+/// What a ray down from `p`, just right of it, does with an edge.
+fn look_down(edge: Segment, p: DVec2) -> Look {
+    let [a, b] = rightward(edge);
+    if p == a || p == b {
+        return Look::On;
+    }
+    let spans = a.x <= p.x && p.x <= b.x;
+    if !spans || p.y < a.y.min(b.y) {
+        return Look::Misses;
+    }
+    match side(a, b, p) {
+        Side::On if is_inside([a, b], p) => Look::On,
+        Side::Left if p.x < b.x => Look::Hits,
+        _ => Look::Misses,
+    }
+}
+
+/// Builds a region from rings that are valid and in order.
+#[derive(Debug)]
+pub(crate) struct RegionBuilder {
+    region: Region,
+}
+
+impl RegionBuilder {
+    pub(crate) fn with_capacity(points: usize, rings: usize) -> RegionBuilder {
+        RegionBuilder { region: Region { rings: Rings::with_capacity(points, rings), polygons: Vec::new() } }
+    }
+
+    /// Starts a polygon; its rings follow, the outer one first.
+    pub(crate) fn polygon(&mut self, depth: u32) {
+        self.region.polygons.push(PolygonSpan { first: self.region.rings.len(), depth: depth as usize });
+    }
+
+    /// Adds a ring, in two parts.
+    pub(crate) fn ring(&mut self, parts: [&[DVec2]; 2]) {
+        parts.iter().for_each(|part| self.region.rings.extend(part));
+        self.region.rings.close();
+    }
+
+    pub(crate) fn build(self) -> Region {
+        debug_assert!(
+            self.region
+                .rings()
+                .all(|ring| { ring.iter().skip(1).all(|&p| lexicographic(ring[0], p) == Ordering::Less) })
+        );
+        self.region
+    }
+}

@@ -1,0 +1,110 @@
+//! Rings in one flat array: the storage of raw input and of regions.
+
+use crate::error::Error;
+use glam::DVec2;
+use std::ops::Range;
+
+/// Closed chains of points. Stored with the first point once more behind the last, so that an edge is two points in a
+/// row; shown without.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Rings {
+    points: Vec<DVec2>,
+    /// Per ring the place behind its repeated point.
+    ends: Vec<usize>,
+}
+
+impl Rings {
+    /// Reads rings of finite points; `-0.0` becomes `0.0`. Rings of no points are left out.
+    pub(crate) fn read<R, P>(rings: R) -> Result<Rings, Error>
+    where
+        R: IntoIterator,
+        R::Item: AsRef<[P]>,
+        P: Copy + Into<DVec2>,
+    {
+        let mut read = Rings::default();
+        for (ring, points) in rings.into_iter().enumerate() {
+            let points = points.as_ref();
+            read.points.reserve(points.len() + 1);
+            for (vertex, &point) in points.iter().enumerate() {
+                let point: DVec2 = point.into();
+                if !point.is_finite() {
+                    return Err(Error::NonFinite { ring, vertex });
+                }
+                read.points.push(point + DVec2::ZERO);
+            }
+            read.close();
+        }
+        Ok(read)
+    }
+
+    pub(crate) fn with_capacity(points: usize, rings: usize) -> Rings {
+        Rings { points: Vec::with_capacity(points + rings), ends: Vec::with_capacity(rings) }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.points.clear();
+        self.ends.clear();
+    }
+
+    pub(crate) fn extend(&mut self, points: &[DVec2]) {
+        self.points.extend_from_slice(points);
+    }
+
+    /// Ends the ring whose points were pushed since the last call.
+    pub(crate) fn close(&mut self) {
+        let start = self.ends.last().copied().unwrap_or(0);
+        if let Some(&first) = self.points.get(start) {
+            self.points.push(first);
+            self.ends.push(self.points.len());
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The number of points of all rings.
+    pub(crate) fn point_count(&self) -> usize {
+        self.points.len() - self.ends.len()
+    }
+
+    /// The number of points of the rings before a ring.
+    pub(crate) fn start(&self, ring: usize) -> usize {
+        self.slots(ring).start - ring
+    }
+
+    /// All points in a row, each ring's first point once more behind it.
+    pub(crate) fn points(&self) -> &[DVec2] {
+        &self.points
+    }
+
+    /// Where a ring stands in [`points`](Rings::points), its repeated point included.
+    pub(crate) fn slots(&self, ring: usize) -> Range<usize> {
+        let start = if ring == 0 { 0 } else { self.ends[ring - 1] };
+        start..self.ends[ring]
+    }
+
+    /// The ring that a slot belongs to.
+    pub(crate) fn ring_at(&self, slot: usize) -> usize {
+        self.ends.partition_point(|&end| end <= slot)
+    }
+
+    pub(crate) fn ring(&self, ring: usize) -> &[DVec2] {
+        let slots = self.slots(ring);
+        &self.points[slots.start..slots.end - 1]
+    }
+
+    /// A ring with its first point once more at the end.
+    pub(crate) fn closed(&self, ring: usize) -> &[DVec2] {
+        &self.points[self.slots(ring)]
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &[DVec2]> + Clone {
+        (0..self.len()).map(|ring| self.ring(ring))
+    }
+}
+
+/// The directed edges of a ring.
+pub(crate) fn ring_edges(ring: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + Clone + '_ {
+    (0..ring.len()).map(|i| [ring[i], ring[if i + 1 == ring.len() { 0 } else { i + 1 }]])
+}

@@ -1,0 +1,214 @@
+//! Stage 2: runs of a ring's edges that lead from left to right or from right to left, with their boxes.
+//!
+//! ```text
+//!        ______            Lexicographically monotone: x never turns back (upright edges lead upward or downward,
+//!   ____/  |   \___        all of a chain the same way). So the edges of one chain meet in their common ends only,
+//!   chain 1|   chain 2     at every abscissa a chain has one edge, and of two chains only what lies in both boxes meets.
+//! ```
+
+use crate::predicates::{Segment, lexicographic};
+use glam::DVec2;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// More edges make a chain's box too large to tell anything.
+pub(crate) const LONGEST: u32 = 16;
+
+/// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a
+/// rectangle. Among few points anything is quick.
+const WIDEST: f64 = 32.0;
+const FEW: usize = 64;
+
+/// A run of edges and its box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MonotoneChain {
+    /// The slots of its points, in the order of the ring.
+    first: u32,
+    last: u32,
+    rightward: bool,
+    pub(crate) low: DVec2,
+    pub(crate) high: DVec2,
+}
+
+impl MonotoneChain {
+    /// The number of its edges.
+    #[inline]
+    pub(crate) fn len(&self) -> u32 {
+        self.last - self.first
+    }
+
+    /// The i-th edge from the left.
+    #[inline]
+    pub(crate) fn edge(&self, i: u32) -> u32 {
+        if self.rightward { self.first + i } else { self.last - 1 - i }
+    }
+
+    /// The slot of the i-th point from the left.
+    #[inline]
+    pub(crate) fn slot(&self, i: u32) -> u32 {
+        if self.rightward { self.first + i } else { self.last - i }
+    }
+
+    #[inline]
+    fn point(&self, points: &[DVec2], i: u32) -> DVec2 {
+        points[self.slot(i) as usize]
+    }
+
+    /// The edge, as an index and directed to the right, whose leftmost end lies at or left of `x` and whose rightmost end lies right of it.
+    pub(crate) fn edge_at(&self, points: &[DVec2], x: f64) -> Option<(u32, Segment)> {
+        let right = (0..=self.len()).find(|&i| self.point(points, i).x > x)?;
+        let i = right.checked_sub(1)?;
+        Some((self.edge(i), [self.point(points, i), self.point(points, right)]))
+    }
+
+    /// Calls `visit` for each edge of this chain and each of another whose boxes meet; those of the chains do.
+    #[inline]
+    pub(crate) fn meet(&self, other: &MonotoneChain, points: &[DVec2], mut visit: impl FnMut(u32, u32)) {
+        if self.len() == 1 && other.len() == 1 {
+            return visit(self.first, other.first);
+        }
+        let (low, high) = (self.low.max(other.low), self.high.min(other.high));
+        let (mut these, those) =
+            (self.edges_within(points, low, high), other.edges_within(points, low, high));
+        while these != 0 {
+            let e = self.first + these.trailing_zeros();
+            these &= these - 1;
+            let (low, high) = bounds(points[e as usize], points[e as usize + 1]);
+            let mut left = those;
+            while left != 0 {
+                let f = other.first + left.trailing_zeros();
+                left &= left - 1;
+                if meets(points[f as usize], points[f as usize + 1], low, high) {
+                    visit(e, f);
+                }
+            }
+        }
+    }
+
+    /// The edges whose boxes meet a box, as bits in the order of the ring.
+    #[inline]
+    fn edges_within(&self, points: &[DVec2], low: DVec2, high: DVec2) -> u32 {
+        if self.len() == 1 {
+            return 1;
+        }
+        let ends = points[self.first as usize..=self.last as usize].windows(2);
+        (0..).zip(ends).fold(0, |edges, (i, ends)| edges | u32::from(meets(ends[0], ends[1], low, high)) << i)
+    }
+}
+
+/// The box around two points.
+#[inline]
+fn bounds(a: DVec2, b: DVec2) -> (DVec2, DVec2) {
+    (a.min(b), a.max(b))
+}
+
+/// Whether the box around two points meets another one.
+#[inline]
+fn meets(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> bool {
+    let (left, right) = if a.x < b.x { (a.x, b.x) } else { (b.x, a.x) };
+    let (bottom, top) = if a.y < b.y { (a.y, b.y) } else { (b.y, a.y) };
+    (left <= high.x) & (right >= low.x) & (bottom <= high.y) & (top >= low.y)
+}
+
+/// The chains of rings, ring by ring.
+#[derive(Debug, Default)]
+pub(crate) struct MonotoneChains {
+    chains: Vec<MonotoneChain>,
+    /// Per ring its lexicographically smallest vertex.
+    leftmost: Vec<u32>,
+}
+
+impl MonotoneChains {
+    /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
+    pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.cut(points, rings, LONGEST);
+    }
+
+    /// Makes each edge a chain.
+    pub(crate) fn cut_to_edges(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.cut(points, rings, 1);
+    }
+
+    fn cut(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>, longest: u32) {
+        self.chains.clear();
+        self.leftmost.clear();
+        for slots in rings {
+            self.add_ring(points, slots, longest);
+        }
+    }
+
+    /// The number of chains.
+    pub(crate) fn len(&self) -> usize {
+        self.chains.len()
+    }
+
+    /// The lower left and upper right corner of each chain's box.
+    pub(crate) fn boxes(&self) -> impl Iterator<Item = [DVec2; 2]> + Clone + '_ {
+        self.chains.iter().map(|chain| [chain.low, chain.high])
+    }
+
+    /// All edges.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = u32> + '_ {
+        self.chains.iter().flat_map(|chain| chain.first..chain.last)
+    }
+
+    #[inline]
+    pub(crate) fn chain(&self, chain: u32) -> &MonotoneChain {
+        &self.chains[chain as usize]
+    }
+
+    /// The lexicographically smallest vertex of a ring, the first if there are several.
+    pub(crate) fn leftmost(&self, ring: u32) -> u32 {
+        self.leftmost[ring as usize]
+    }
+
+    /// The largest absolute coordinate.
+    pub(crate) fn size(&self) -> f64 {
+        let largest = |size: f64, p: DVec2| p.abs().max_element().max(size);
+        self.chains.iter().flat_map(|chain| [chain.low, chain.high]).fold(0.0, largest)
+    }
+
+    fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
+        let last = slots.end - 1;
+        let mut leftmost = slots.start;
+        let mut start = slots.start;
+        while start < last {
+            let chain = longest_chain(points, start, last.min(start + longest));
+            let left = chain.slot(0);
+            if lexicographic(points[left as usize], points[leftmost as usize]) == Ordering::Less {
+                leftmost = left;
+            }
+            self.chains.push(chain);
+            start = chain.last;
+        }
+        self.leftmost.push(if leftmost == last { slots.start } else { leftmost });
+    }
+}
+
+/// The longest chain from a slot on that does not go beyond another slot.
+#[inline]
+fn longest_chain(points: &[DVec2], first: u32, end: u32) -> MonotoneChain {
+    let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
+    let (a, mut b) = (points[first as usize], points[first as usize + 1]);
+    let rightward = lexicographic(a, b) == Ordering::Less;
+    let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
+    let area = |a: DVec2, b: DVec2| ((b.x - a.x) * (b.y - a.y)).abs();
+    let mut areas = area(a, b);
+    let mut last = first + 1;
+    while last < end {
+        let c = points[last as usize + 1];
+        if (lexicographic(b, c) == Ordering::Less) != rightward {
+            break;
+        }
+        areas += area(b, c);
+        let around = area(DVec2::new(a.x, bottom.min(c.y)), DVec2::new(c.x, top.max(c.y)));
+        if around > widest * areas {
+            break;
+        }
+        (bottom, top) = (bottom.min(c.y), top.max(c.y));
+        b = c;
+        last += 1;
+    }
+    let (left, right) = if rightward { (a.x, b.x) } else { (b.x, a.x) };
+    MonotoneChain { first, last, rightward, low: DVec2::new(left, bottom), high: DVec2::new(right, top) }
+}

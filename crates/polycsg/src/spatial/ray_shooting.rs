@@ -1,0 +1,78 @@
+//! What lies right below a point: one vertical look.
+
+use super::chains::MonotoneChains;
+use super::slabs::SlabDecomposition;
+use super::strips::Strips;
+use crate::predicates::{Segment, Side, height_order, side};
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// Boxes are looked through up to so many for each edge; then slabs are built.
+const BOXES_PER_EDGE: usize = 32;
+
+/// For each of some vertices the edge right below it, as an index and directed to the right; none may run through them.
+#[derive(Debug, Default)]
+pub(crate) struct VerticalRays {
+    edges: Vec<Option<u32>>,
+}
+
+impl VerticalRays {
+    /// Looks down from vertices, of which none lies inside any edge of the chains.
+    ///
+    /// The look keeps right of the vertex, so that an edge counts from its leftmost end to just before its rightmost
+    /// one; of edges that meet below the vertex the one that is higher right of it is the nearer. Edges that start in
+    /// the vertex are passed over.
+    pub(crate) fn look(
+        &mut self,
+        chains: &MonotoneChains,
+        strips: &Strips,
+        slabs: &mut SlabDecomposition,
+        points: &[DVec2],
+        vertices: &[u32],
+    ) {
+        let mut left = BOXES_PER_EDGE * points.len();
+        self.edges.clear();
+        for &vertex in vertices {
+            self.edges.push(nearest_below(chains, strips, points, points[vertex as usize], &mut left));
+            if left == 0 {
+                let edges = chains.edges().map(|edge| (edge, [edge, edge + 1]));
+                slabs.build(points.iter().copied(), edges);
+                return slabs.below(vertices, &mut self.edges);
+            }
+        }
+    }
+
+    /// The edge below the i-th vertex.
+    pub(crate) fn edge(&self, i: usize) -> Option<u32> {
+        self.edges[i]
+    }
+}
+
+/// What is right below a point, looking at `left` boxes at most.
+fn nearest_below(
+    chains: &MonotoneChains,
+    strips: &Strips,
+    points: &[DVec2],
+    p: DVec2,
+    left: &mut usize,
+) -> Option<u32> {
+    let mut best: Option<(u32, Segment)> = None;
+    strips.below(p.x, p.y, left, |chain| {
+        let chain = chains.chain(chain);
+        if chain.low.x <= p.x && p.x < chain.high.x && chain.low.y <= p.y {
+            let found = chain.edge_at(points, p.x).filter(|&(_, [a, b])| side(a, b, p) == Side::Left);
+            best = higher(best, found, p.x);
+        }
+        best.map(|(_, [a, b])| a.y.min(b.y))
+    });
+    best.map(|(edge, _)| edge)
+}
+
+/// The higher of two edges just right of an abscissa; the first if they run together.
+fn higher(best: Option<(u32, Segment)>, other: Option<(u32, Segment)>, x: f64) -> Option<(u32, Segment)> {
+    match (best, other) {
+        (Some(a), Some(b)) if height_order(b.1, a.1, x) == Ordering::Greater => Some(b),
+        (None, other) => other,
+        (best, _) => best,
+    }
+}

@@ -1,0 +1,78 @@
+//! SlabDecomposition without width: parts of a vertical line, between two ends on it.
+//!
+//! Edges that are not vertical are in one point there. Where two of them meet, they do so in the next slab to the left or
+//! right that has a width, at its side; so only vertical edges are compared, with one another and with all others.
+
+use super::SlabDecomposition;
+use super::order::Order;
+use super::segments::{RankedSegment, Slab};
+use crate::base::id::index;
+use std::cmp::Ordering;
+
+impl SlabDecomposition {
+    /// Finds the pairs of the open edges from `start` on that may meet in a slab without width.
+    pub(super) fn look_into_column(&mut self, slab: Slab, start: usize) {
+        let SlabDecomposition { ends, open, .. } = self;
+        let is_vertical =
+            |bar: &RankedSegment| ends[bar.ranks[0] as usize].x == ends[bar.ranks[1] as usize].x;
+        let count = open[start..].iter().filter(|bar| is_vertical(bar)).count();
+        if count == 0 || self.found.is_over() {
+            return;
+        }
+        open[start..].sort_unstable_by_key(|bar| (!is_vertical(bar), bar.ranks, bar.id));
+        let others = start + count;
+        self.sort_keys(slab, others);
+        for i in start..others {
+            self.compare_vertical(i, others);
+        }
+    }
+
+    /// Sorts the open edges from a place on by their heights in a slab; then exactly what heights do not tell apart, unless
+    /// all that comes near is asked for.
+    fn sort_keys(&mut self, slab: Slab, start: usize) {
+        let mut keys = std::mem::take(&mut self.keys);
+        keys.clear();
+        keys.extend((start..self.open.len()).zip(index(start)..).map(|(i, place)| {
+            let bar = self.open[i];
+            let rank = slab[0].clamp(bar.ranks[0], bar.ranks[1]);
+            (self.height(bar.ranks, self.line(bar, slab), rank), place)
+        }));
+        keys.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let order = self.order();
+        if order.is_exact {
+            for tied in keys.chunk_by_mut(|a, b| b.0 - a.0 <= order.slack).filter(|tied| tied.len() > 1) {
+                tied.sort_by(|a, b| {
+                    let [e, f] = [a, b].map(|key| self.open[key.1 as usize]);
+                    if (a.0 - b.0).abs() > order.slack {
+                        a.0.total_cmp(&b.0)
+                    } else {
+                        order.at(e, f, slab[0])
+                    }
+                });
+            }
+        }
+        self.keys = keys;
+    }
+
+    /// Finds the vertical edges behind a vertical one, and the others, that it may meet.
+    fn compare_vertical(&mut self, i: usize, others: usize) {
+        let order = Order { ends: &self.ends, slack: self.slack, is_exact: self.reach == 0.0 };
+        let SlabDecomposition { open, keys, found, slack, .. } = self;
+        let bar = open[i];
+        let ends = bar.ranks.map(|rank| (rank, order.ends[rank as usize].y));
+        let to_end = |key: &(f64, u32), (rank, y): (u32, f64)| {
+            let is_tied = (key.0 - y).abs() <= *slack;
+            match (is_tied, order.is_exact) {
+                (false, _) => key.0.total_cmp(&y),
+                (true, false) => Ordering::Equal,
+                (true, true) => order.to_point(open[key.1 as usize], rank),
+            }
+        };
+        let upright = open[i + 1..others].iter().take_while(|other| other.ranks[0] < bar.ranks[1]);
+        let first = keys.partition_point(|key| to_end(key, ends[0]).is_lt());
+        let level = keys[first..].iter().take_while(|key| to_end(key, ends[1]).is_le());
+        let level = level.map(|key| &open[key.1 as usize]);
+        let level = level.filter(|other| other.ranks.iter().all(|rank| !bar.ranks.contains(rank)));
+        found.add(upright.chain(level).map(|other| [bar.id, other.id]), false);
+    }
+}

@@ -1,0 +1,282 @@
+//! An index over edges for inputs where boxes tell nothing: long edges beside one another.
+//!
+//! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), cut in three again
+//! and again. In the widest slabs that it crosses from side to side, an edge *spans*:
+//!
+//! ```text
+//!    slab            a, b, d, c span and do not meet: they are the slab's rungs, in one order at both sides.
+//!   |      d_|__     e spans and crosses: it is compared with the rungs that it has between its two heights,
+//!   |_c__----|-      and handed on to the parts of the slab for what else it may meet.
+//!  _|--  _f /|       f ends here: it is compared with the rungs between its heights where it enters and where it
+//!   |b__/__/_|__     ends, and handed on likewise.
+//!  _|__a__/__|__
+//!   |    e   |       So an edge costs O(log n) in each of O(log n) slabs, and each crossing O(log n) at most.
+//! ```
+//!
+//! Edges on the line of a rung *follow* it: whatever meets the rung is compared with them too, and like the rung they are
+//! not handed on. Otherwise edges that coincide would be compared in every slab.
+//!
+//! Heights are floats with a bound on their error. Where they do not tell two edges apart, the sides of their ends do, so
+//! that thousands of edges within a few roundings of one another still have an order. The index reports too much and never
+//! too little. Two edges with a common end are reported only if they may meet elsewhere too, so that a fan of edges costs
+//! no more than other edges.
+//!
+//! When asked for what comes near one another without meeting, there is no such order: edges within the error, which is
+//! widened then, are reported, and those that are as near to a rung from side to side follow it.
+
+mod beside;
+mod column;
+mod found;
+mod heights;
+mod order;
+mod ray_shooting;
+mod segments;
+mod spanning;
+#[cfg(test)]
+mod tests;
+
+use crate::base::id::index;
+use crate::predicates::{Segment, Side, lexicographic, side};
+use found::Found;
+use glam::DVec2;
+use segments::{RankedSegment, Slab, SpanningSegment, parts};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// So many edges are compared with one another, each with each.
+const FEW: usize = 8;
+
+/// So many pairs for each edge may come near one another without meeting.
+const NEAR: usize = 64;
+
+/// Coordinates between this and its inverse have slopes.
+const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
+
+/// `64u`, see [`SlabDecomposition::height`]: rungs keep their computed order between the slab's sides, too.
+const SLACK: f64 = 64.0 * (f64::EPSILON / 2.0);
+
+/// See the module's page.
+#[derive(Debug, Default)]
+pub(crate) struct SlabDecomposition {
+    /// The distinct ends in their order.
+    ends: Vec<DVec2>,
+    sorted: Vec<(DVec2, u32)>,
+    /// Per point its rank.
+    ranks: Vec<u32>,
+    /// The edges, those with the same ends one after the other; `bars` has the first of each kind.
+    all: Vec<RankedSegment>,
+    bars: Vec<RankedSegment>,
+    /// Two heights that differ by more differ.
+    error: f64,
+    /// The same, or more where edges are reported that come near one another.
+    slack: f64,
+    /// How far boxes are widened.
+    reach: f64,
+    /// Whether all coordinates lie where slopes neither overflow nor lose bits.
+    has_slopes: bool,
+    /// The edges of the slab at hand, of its half at hand, and so on, with their places in `bars` for ids.
+    open: Vec<RankedSegment>,
+    spans: Vec<SpanningSegment>,
+    rungs: Vec<SpanningSegment>,
+    /// The spans' heights at the left side and their places.
+    keys: Vec<(f64, u32)>,
+    /// The spans that follow a rung, by its place.
+    followers: Vec<(usize, RankedSegment)>,
+    /// Per rung where those end that come after it and share its left end, and its right one.
+    fans: Vec<[u32; 2]>,
+    tops: Vec<u32>,
+    before: Vec<u32>,
+    found: Found,
+    /// Ranks of neighbouring abscissae.
+    by_height: Vec<u32>,
+    /// Points by rank, and of each one the bar found below it.
+    queries: Vec<(u32, u32)>,
+    nearest: Vec<u32>,
+}
+
+impl SlabDecomposition {
+    /// Indexes edges between points, given by the numbers of their ends, under their ids.
+    pub(crate) fn build(
+        &mut self,
+        points: impl Iterator<Item = DVec2>,
+        edges: impl Iterator<Item = (u32, [u32; 2])>,
+    ) {
+        self.rank(points);
+        let bar = |(id, ends): (u32, [u32; 2])| {
+            let [a, b] = ends.map(|point| self.ranks[point as usize]);
+            RankedSegment { ranks: [a.min(b), a.max(b)], id }
+        };
+        self.all.clear();
+        self.all.extend(edges.map(bar).filter(|bar| bar.ranks[0] < bar.ranks[1]));
+        self.all.sort_unstable_by_key(|bar| (bar.ranks, bar.id));
+        self.bars.clear();
+        self.bars.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
+        let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
+        self.error = highest * SLACK + f64::MIN_POSITIVE;
+        self.narrow();
+        let is_moderate = |x: f64| x == 0.0 || (LEAST..=1.0 / LEAST).contains(&x.abs());
+        self.has_slopes = self.ends.iter().all(|p| is_moderate(p.x) && is_moderate(p.y));
+    }
+
+    fn rank(&mut self, points: impl Iterator<Item = DVec2>) {
+        self.sorted.clear();
+        self.sorted.extend(points.zip(0..));
+        self.sorted.sort_unstable_by(|a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
+        self.ends.clear();
+        self.ranks.clear();
+        self.ranks.resize(self.sorted.len(), 0);
+        for &(point, number) in &self.sorted {
+            if self.ends.last() != Some(&point) {
+                self.ends.push(point);
+            }
+            self.ranks[number as usize] = index(self.ends.len() - 1);
+        }
+    }
+
+    /// The points by their numbers, those in one place together.
+    pub(crate) fn places(&self) -> impl Iterator<Item = impl Iterator<Item = u32> + '_> + '_ {
+        self.sorted.chunk_by(|a, b| a.0 == b.0).map(|place| place.iter().map(|&(_, number)| number))
+    }
+
+    /// The edges that have both ends in common with another one before them, with the first such.
+    pub(crate) fn copies(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let same = self.all.chunk_by(|a, b| a.ranks == b.ranks);
+        same.flat_map(|same| same[1..].iter().map(|bar| [same[0].id, bar.id]))
+    }
+
+    /// Calls `visit` once for each pair of edges that may meet but in one common end or both, by their ids; of edges with
+    /// both ends in common, one stands for all against another such.
+    pub(crate) fn pairs(&mut self, visit: impl FnMut(u32, u32)) {
+        self.find(usize::MAX);
+        self.visit(visit);
+    }
+
+    /// The same for the pairs that were found.
+    pub(crate) fn visit(&self, mut visit: impl FnMut(u32, u32)) {
+        for bars in self.found.pairs() {
+            let [e, f] = bars.map(|bar| self.copies_of(bar));
+            visit(self.all[e.start].id, self.all[f.start].id);
+            f.clone().skip(1).for_each(|g| visit(self.all[e.start].id, self.all[g].id));
+            e.skip(1).for_each(|g| visit(self.all[g].id, self.all[f.start].id));
+        }
+    }
+
+    /// The places in `all` of the edges that a bar stands for.
+    fn copies_of(&self, bar: u32) -> Range<usize> {
+        let ranks = self.bars[bar as usize].ranks;
+        let start = self.all.partition_point(|bar| bar.ranks < ranks);
+        start..start + self.all[start..].iter().take_while(|bar| bar.ranks == ranks).count()
+    }
+
+    /// Finds the pairs; false, with nothing to visit, when there are more than so many, or too many that only come near one
+    /// another.
+    pub(crate) fn find(&mut self, most: usize) -> bool {
+        let near = if self.reach > 0.0 { NEAR * self.bars.len() } else { usize::MAX };
+        self.found.start(most, near);
+        if let Some(slab) = self.open_all() {
+            self.look_into(slab, 0);
+        }
+        !self.found.count()
+    }
+
+    /// Opens all edges, under their places in `bars`, in the slab of all ends, if there are any.
+    fn open_all(&mut self) -> Option<Slab> {
+        self.open.clear();
+        self.open.extend(self.bars.iter().zip(0..).map(|(bar, id)| RankedSegment { id, ..*bar }));
+        index(self.ends.len()).checked_sub(1).map(|last| [0, last])
+    }
+
+    /// Finds the pairs of the open edges from `start` on that may meet in a slab, and forgets these edges.
+    fn look_into(&mut self, slab: Slab, start: usize) {
+        if slab.map(|rank| self.ends[rank as usize].x) == [self.ends[slab[0] as usize].x; 2] {
+            self.look_into_column(slab, start);
+            return self.open.truncate(start);
+        }
+        self.sort_out_spans(slab, start);
+        while !self.spans.is_empty() {
+            if self.found.is_over() {
+                self.spans.clear();
+                break;
+            }
+            self.choose_rungs(slab);
+            self.sort_out_followers(slab);
+            self.compare_followers(slab);
+            for i in 0..self.spans.len() {
+                self.compare(self.spans[i].bar, slab, true);
+            }
+            for i in start..self.open.len() {
+                self.compare(self.open[i], slab, true);
+            }
+            if slab[1] - slab[0] > 1 {
+                self.open.extend(self.spans.drain(..).map(|span| span.bar));
+            }
+        }
+        let end = self.open.len();
+        if end - start <= FEW {
+            self.compare_all(slab, start..end);
+        } else if !self.found.is_over() {
+            for half in parts(slab) {
+                self.open_again(half, start..end);
+                self.look_into(half, end);
+            }
+        }
+        self.open.truncate(start);
+    }
+
+    /// Opens those of some open edges once more that have more than a point in a half of their slab.
+    fn open_again(&mut self, half: Slab, open: Range<usize>) {
+        for i in open {
+            let bar = self.open[i];
+            if bar.ranks[0] < half[1] && bar.ranks[1] > half[0] {
+                self.open.push(bar);
+            }
+        }
+    }
+
+    /// Finds the pairs among a few edges that may meet in a slab.
+    fn compare_all(&mut self, slab: Slab, open: Range<usize>) {
+        for i in open.clone() {
+            for j in open.start..i {
+                let [e, f] = [self.open[i], self.open[j]];
+                if self.may_meet(e, f, slab) {
+                    self.found.add(std::iter::once([e.id, f.id]), false);
+                }
+            }
+        }
+    }
+
+    /// An edge, directed to the right.
+    #[inline]
+    fn segment(&self, bar: RankedSegment) -> Segment {
+        bar.ranks.map(|rank| self.ends[rank as usize])
+    }
+
+    fn may_meet(&self, e: RankedSegment, f: RankedSegment, slab: Slab) -> bool {
+        let (r, s) = (e.ranks, f.ranks);
+        let (left, right) = (r[0].max(s[0]).max(slab[0]), r[1].min(s[1]).min(slab[1]));
+        if left >= right {
+            return false;
+        }
+        let lines = [self.line(e, slab), self.line(f, slab)];
+        let order = |rank: u32| {
+            let (y, z) = (self.height(r, lines[0], rank), self.height(s, lines[1], rank));
+            if (y - z).abs() > self.slack { y.total_cmp(&z) } else { Ordering::Equal }
+        };
+        match [r[0] == s[0], r[1] == s[1]] {
+            [false, false] => {
+                let order_left = order(left);
+                order_left == Ordering::Equal || order_left != order(right)
+            }
+            [true, _] => order(right) == Ordering::Equal && self.may_run_together(e, f.ranks[1]),
+            [_, true] => order(left) == Ordering::Equal && self.may_run_together(e, f.ranks[0]),
+        }
+    }
+
+    /// Whether of two edges with a common end, one of them given by its other end, both are on one line, or as close
+    /// together as asked for.
+    #[cold]
+    fn may_run_together(&self, bar: RankedSegment, end: u32) -> bool {
+        let [a, b] = self.segment(bar);
+        self.reach > 0.0 || side(a, b, self.ends[end as usize]) == Side::On
+    }
+}

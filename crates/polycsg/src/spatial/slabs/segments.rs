@@ -1,0 +1,65 @@
+//! What slabs are made of: edges by the ranks of their ends, the lines that they lie on, and the edges that span a slab.
+
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// Into so many slabs one is cut.
+const PARTS: u32 = 3;
+
+/// No span.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// An edge, by the ranks of its ends among all distinct ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RankedSegment {
+    pub(super) ranks: [u32; 2],
+    pub(super) id: u32,
+}
+
+/// A slab by the ranks of the points at its sides.
+pub(super) type Slab = [u32; 2];
+
+impl RankedSegment {
+    /// Whether the boxes of two edges, widened, meet: where all is within the heights' error, boxes still tell short
+    /// edges apart.
+    #[inline]
+    pub(super) fn meets(self, other: RankedSegment, ends: &[DVec2], reach: f64) -> bool {
+        let [[a, b], [c, d]] = [self, other].map(|bar| bar.ranks.map(|rank| ends[rank as usize]));
+        let (low, high) = (a.min(b) - reach, a.max(b) + reach);
+        low.cmple(c.max(d)).all() && high.cmpge(c.min(d)).all()
+    }
+}
+
+/// The line through an edge: by the end that is nearer to the slab at hand, as edges from one end are in their order
+/// there, and its slope, unless that would not do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub(super) end: DVec2,
+    pub(super) is_right_end: bool,
+    pub(super) slope: f64,
+    pub(super) has_slope: bool,
+}
+
+impl Line {
+    /// The order of lines through one end, in a slab.
+    pub(super) fn order(&self, other: &Line) -> Ordering {
+        let key = |line: &Line| if line.is_right_end { -line.slope } else { line.slope };
+        self.is_right_end.cmp(&other.is_right_end).then_with(|| key(self).total_cmp(&key(other)))
+    }
+}
+
+/// An edge from side to side of a slab, with its heights there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpanningSegment {
+    pub(super) heights: [f64; 2],
+    pub(super) line: Line,
+    pub(super) bar: RankedSegment,
+}
+
+/// A slab cut at some of its ends, as evenly as may be.
+pub(super) fn parts([left, right]: Slab) -> impl Iterator<Item = Slab> {
+    let length = right - left;
+    let parts = PARTS.min(length);
+    let cut = move |i: u32| left + length / parts * i + length % parts * i / parts;
+    (0..parts).map(move |i| [cut(i), cut(i + 1)])
+}
