@@ -87,7 +87,6 @@ mod batch;
 mod boundary;
 mod classify;
 mod contacts;
-mod double;
 mod edges;
 mod error;
 mod evaluate;
