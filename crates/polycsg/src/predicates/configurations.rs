@@ -1,8 +1,10 @@
 //! Points on which predicates go wrong: any exponents, common lines, common points, common coordinates. For tests and
 //! for fuzzing; each choice is a word of 64 bits, so that a fuzzer can make it.
 
-use super::laws::Configuration;
 use glam::DVec2;
+
+/// Six points, whatever a predicate makes of them.
+pub(super) type Configuration = [DVec2; 6];
 
 /// Six points from a stream of words.
 pub(super) fn configuration(word: &mut impl FnMut() -> u64) -> Configuration {

@@ -1,13 +1,11 @@
 //! What each predicate must answer, from big integers on the configuration's own grid. For tests and for fuzzing.
 
-use super::configurations::stepped;
+use super::configurations::{Configuration, stepped};
 use super::*;
+use glam::DVec2;
 use num_bigint::BigInt;
 use num_traits::{Float, Signed, Zero};
 use std::cmp::Ordering;
-
-/// Six points, whatever a predicate makes of them.
-pub(super) type Configuration = [DVec2; 6];
 
 /// Whether a predicate is right about a configuration; none where it has no question there.
 type Law = fn(&Configuration) -> Option<bool>;

@@ -24,6 +24,7 @@ mod order;
 mod orient;
 mod parameter;
 mod round;
+mod side;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -35,14 +36,10 @@ pub(crate) use exactfloat::Ratio;
 pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
 };
-pub(crate) use orient::{Area, Side, doubled_area, side, side_of, turn};
+pub(crate) use orient::{Area, doubled_area, side, side_of, turn};
 pub(crate) use parameter::Parameter;
 pub(crate) use round::{crossing_point, crossing_ratio};
-
-use glam::DVec2;
-
-/// A directed straight edge, from `[0]` to `[1]`.
-pub(crate) type Segment = [DVec2; 2];
+pub(crate) use side::{Segment, Side};
 
 /// Asks every predicate about one configuration, made of a stream of words.
 ///

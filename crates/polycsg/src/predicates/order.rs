@@ -1,8 +1,9 @@
 //! Orders: along an edge, along an abscissa, of abscissae.
 
-use super::orient::{Side, UNIT, side};
+use super::fixed;
+use super::orient::{UNIT, side, turn};
 use super::round::{crossing_point, crossing_ratio};
-use super::{Segment, fixed, turn};
+use super::side::{Segment, Side};
 use exactfloat::{Integer, Ratio, integers};
 use glam::DVec2;
 use std::cmp::Ordering;

@@ -1,38 +1,10 @@
 //! Orientation signs: which side of a line, which turn between two directions.
 
-use super::{Segment, fixed};
+use super::fixed;
+use super::side::{Segment, Side};
 use exactfloat::{integers, orient2d, sign};
 use glam::DVec2;
 use std::cmp::Ordering;
-
-/// Where a point lies seen along a directed line, or where a second direction points seen along a first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
-    Left,
-    On,
-    Right,
-}
-
-impl Side {
-    /// The side seen from the reversed line.
-    pub(crate) fn reversed(self) -> Side {
-        match self {
-            Side::Left => Side::Right,
-            Side::On => Side::On,
-            Side::Right => Side::Left,
-        }
-    }
-}
-
-impl From<Ordering> for Side {
-    fn from(order: Ordering) -> Side {
-        match order {
-            Ordering::Greater => Side::Left,
-            Ordering::Equal => Side::On,
-            Ordering::Less => Side::Right,
-        }
-    }
-}
 
 /// A determinant as a float, and a bound on its distance from the exact one.
 ///

@@ -1,6 +1,6 @@
 //! The crossing of two edges, each coordinate rounded once to the nearest double.
 
-use super::Segment;
+use super::side::Segment;
 use exactfloat::{DoubleDouble, Ratio, scaled_integers};
 use glam::DVec2;
 

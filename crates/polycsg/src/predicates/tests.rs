@@ -1,6 +1,7 @@
 //! Every predicate against rationals, over the whole range of exponents and close to degeneracy.
 
 use super::*;
+use glam::DVec2;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;

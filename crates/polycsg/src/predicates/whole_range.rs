@@ -1,8 +1,9 @@
 //! Every predicate over the whole range of exponents, against big integers.
 
-use super::configurations::configuration;
-use super::laws::{Configuration, LAWS, filtered};
+use super::configurations::{Configuration, configuration};
+use super::laws::{LAWS, filtered};
 use super::*;
+use glam::DVec2;
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
 fn words(mut state: u64) -> impl FnMut() -> u64 {
