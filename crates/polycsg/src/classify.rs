@@ -51,21 +51,21 @@ pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, E
     let csg = Csg::edge_beside(segment, region);
     let LabelledArrangement { edges, contacts, arrangement, labels, .. } =
         pipeline::memberships(&csg, &mut scratch)?;
-    let point = |arc: u32| match contacts.place(arrangement.node(arc)) {
+    let point = |sub_edge: u32| match contacts.place(arrangement.node(sub_edge)) {
         Place::Vertex(vertex) => edges.point(vertex),
         Place::Crossing(e, f) => crossing_point(edges.segment(e), edges.segment(f)),
     };
     // The segment is the first operand: the first edge of its ring runs along it, the second one back.
     let ring = edges.rings().iter().position(|ring| ring.origin.operand == 0).map_or(0, index);
     let along = edges.rings()[ring as usize].start;
-    let arcs = arrangement.of_ring(ring).filter(|&arc| arrangement.edge(arc) == along);
-    let intervals = arcs.map(|arc| {
-        let stands = arrangement.stand_in(arc);
-        let along = arrangement.is_along(edges, stands, arc);
-        let membership = labels.of(stands);
+    let sub_edges = arrangement.of_ring(ring).filter(|&sub_edge| arrangement.edge(sub_edge) == along);
+    let intervals = sub_edges.map(|sub_edge| {
+        let representative = arrangement.representative(sub_edge);
+        let along = arrangement.is_along(edges, representative, sub_edge);
+        let membership = labels.of(representative);
         Interval {
-            start: point(arc),
-            end: point(arrangement.following(edges, arc)),
+            start: point(sub_edge),
+            end: point(arrangement.following(edges, sub_edge)),
             membership: if along { membership } else { membership.reversed() },
         }
     });

@@ -12,6 +12,6 @@ pub fn check_predicates(word: impl FnMut() -> u64) -> Result<(), String> {
 }
 
 /// Finds what meets by slabs, without looking at boxes first.
-pub fn hasty() -> Scratch {
+pub fn by_slabs() -> Scratch {
     Scratch { budget: WorkBudget::NONE, ..Scratch::default() }
 }

@@ -26,7 +26,7 @@ impl Region {
             |&[i, j]: &[u32; 2]| edges[i as usize][1] == edges[j as usize][0] && (is_empty(i) || is_empty(j));
         let neighbours = (1..index(edges.len())).map(|j| [j - 1, j]);
         let mut found = neighbours.into_iter().find(meets_next).map(contact);
-        found = found.or_else(|| slabs.copies().next().map(contact));
+        found = found.or_else(|| slabs.duplicates().next().map(contact));
         slabs.pairs(|i, j| {
             if found.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
                 found = Some(contact([i, j]));

@@ -1,16 +1,16 @@
-//! Stage 4: the arrangement: the rings cut into arcs at the nodes, and around each junction the half-edges by angle.
+//! Stage 4: the arrangement: the rings cut into sub-edges at the nodes, and around each junction the half-edges by angle.
 //!
 //! ```text
-//!            h1                  An arc runs along one ring from one contact to the next; arc i starts in contact i.
-//!             |   h0             Half-edges leave their node: half-edge 2a runs along arc a, 2a + 1 against it.
+//!            h1                  A sub-edge runs along one ring from one contact to the next; sub-edge i starts in contact i.
+//!             |   h0             Half-edges leave their node: half-edge 2a runs along sub-edge a, 2a + 1 against it.
 //!             |  /               The sector between h[k] and h[k + 1], counter-clockwise, lies to the left of h[k]
 //!     h2 -----v                  and to the right of h[k + 1]. Sorted by angle from just above straight down, so that
 //!              \                 at the lexicographically smallest point of a component the outer sector lies right
 //!               h3               of h[0].
 //! ```
 //!
-//! A node where just two edges cross needs no list: the two arcs that start there tell everything. All other nodes are
-//! junctions. Arcs that coincide leave a junction in one direction and are a bundle: the one with the smallest id
+//! A node where just two edges cross needs no list: the two sub-edges that start there tell everything. All other nodes are
+//! junctions. Sub-edges that coincide leave a junction in one direction and are overlapping sub-edges: the one with the smallest id
 //! stands for all.
 
 pub(crate) mod labels;
@@ -23,13 +23,13 @@ use crate::predicates::{Segment, Side, lexicographic, turn};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// No arc, no node.
+/// No sub-edge, no node.
 const NONE: u32 = u32::MAX;
 
 /// What is found at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Node {
-    /// Two edges cross: the other of the two arcs that start there.
+    /// Two edges cross: the other of the two sub-edges that start there.
     Crossing(u32),
     /// Anything else, by its number.
     Junction(u32),
@@ -38,22 +38,22 @@ pub(crate) enum Node {
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct Arrangement {
-    arcs: Vec<SubEdge>,
-    /// Per ring its first arc.
+    sub_edges: Vec<SubEdge>,
+    /// Per ring its first sub-edge.
     first: Vec<u32>,
-    /// Per node the two arcs that start there, or `NONE` and a junction.
+    /// Per node the two sub-edges that start there, or `NONE` and a junction.
     starting: Vec<[u32; 2]>,
     /// Per junction where its half-edges start in `around`.
     starts: Vec<u32>,
     around: Vec<u32>,
-    /// Per arc the one that stands for it and the next that coincides; empty when there are no junctions.
-    stands: Vec<u32>,
+    /// Per sub-edge the one that stands for it and the next that coincides; empty when there are no junctions.
+    representatives: Vec<u32>,
     next: Vec<u32>,
     /// The half-edges that leave one junction.
     leaving: Vec<(Segment, u32)>,
 }
 
-/// Where an arc starts.
+/// Where a sub-edge starts.
 #[derive(Clone, Copy, Debug)]
 struct SubEdge {
     edge: u32,
@@ -71,28 +71,28 @@ impl Arrangement {
     }
 
     fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
-        self.arcs.clear();
-        self.arcs.extend(contacts.sorted().iter().map(|&Contact { edge, node, partner, .. }| SubEdge {
+        self.sub_edges.clear();
+        self.sub_edges.extend(contacts.sorted().iter().map(|&Contact { edge, node, partner, .. }| SubEdge {
             edge,
             node: contacts.node(node),
             partner,
         }));
         self.first.clear();
-        let mut arc = 0;
+        let mut sub_edge = 0;
         for ring in edges.rings() {
-            self.first.push(index(arc));
-            arc += self.arcs[arc..].partition_point(|arc| arc.edge < ring.end);
+            self.first.push(index(sub_edge));
+            sub_edge += self.sub_edges[sub_edge..].partition_point(|sub_edge| sub_edge.edge < ring.end);
         }
-        self.first.push(index(arc));
+        self.first.push(index(sub_edge));
     }
 
-    /// Finds the arcs that start in each node, and counts them where that is a junction.
+    /// Finds the sub-edges that start in each node, and counts them where that is a junction.
     fn find_starting(&mut self, contacts: &Contacts) {
         let junctions = self.number_junctions(contacts);
         self.starts.clear();
         self.starts.resize(junctions + 2, 0);
-        for (i, arc) in (0..).zip(&self.arcs) {
-            let starting = &mut self.starting[arc.node as usize];
+        for (i, sub_edge) in (0..).zip(&self.sub_edges) {
+            let starting = &mut self.starting[sub_edge.node as usize];
             match *starting {
                 [NONE, NONE] => starting[0] = i,
                 [NONE, junction] => self.starts[junction as usize + 2] += 2,
@@ -112,9 +112,9 @@ impl Arrangement {
             return 0;
         }
         for node in 0..index(contacts.node_count()) {
-            let stands = contacts.node(node);
-            if stands != node || matches!(contacts.place(node), Place::Vertex(_)) {
-                self.starting[stands as usize][1] = 0;
+            let representative = contacts.node(node);
+            if representative != node || matches!(contacts.place(node), Place::Vertex(_)) {
+                self.starting[representative as usize][1] = 0;
             }
         }
         let junctions = self.starting.iter_mut().filter(|starting| starting[1] != NONE);
@@ -124,13 +124,13 @@ impl Arrangement {
     /// Lists the half-edges of each junction by angle, and unites those that leave it in one direction.
     fn gather(&mut self, edges: &Edges) {
         self.list_half_edges(edges);
-        self.stands.clear();
+        self.representatives.clear();
         self.next.clear();
         if self.around.is_empty() {
             return;
         }
-        self.stands.extend(0..index(self.arcs.len()));
-        self.next.resize(self.arcs.len(), NONE);
+        self.representatives.extend(0..index(self.sub_edges.len()));
+        self.next.resize(self.sub_edges.len(), NONE);
         let mut leaving = std::mem::take(&mut self.leaving);
         for junction in 0..index(self.junction_count()) {
             let span = self.span(junction);
@@ -143,7 +143,7 @@ impl Arrangement {
             }
             leaving
                 .chunk_by(|g, h| by_angle(g.0, h.0) == Ordering::Equal)
-                .for_each(|bundle| self.unite(bundle));
+                .for_each(|overlapping| self.unite(overlapping));
         }
         self.leaving = leaving;
     }
@@ -153,11 +153,11 @@ impl Arrangement {
         let mut around = std::mem::take(&mut self.around);
         around.clear();
         around.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
-        for arc in 0..index(self.arcs.len()) {
-            if let [NONE, junction] = self.starting[self.node(arc) as usize] {
-                let previous = self.previous(edges, arc);
+        for sub_edge in 0..index(self.sub_edges.len()) {
+            if let [NONE, junction] = self.starting[self.node(sub_edge) as usize] {
+                let previous = self.previous(edges, sub_edge);
                 let at = &mut self.starts[junction as usize + 1];
-                around[*at as usize] = 2 * arc;
+                around[*at as usize] = 2 * sub_edge;
                 around[*at as usize + 1] = 2 * previous + 1;
                 *at += 2;
             }
@@ -166,75 +166,75 @@ impl Arrangement {
         self.around = around;
     }
 
-    /// Bundles arcs by half-edges in order that leave a junction in one direction; at the arcs' other ends it was or will
+    /// Bundles sub-edges by half-edges in order that leave a junction in one direction; at the sub-edges' other ends it was or will
     /// be done alike.
-    fn unite(&mut self, bundle: &[(Segment, u32)]) {
-        let stands = bundle[0].1 >> 1;
-        for pair in bundle.windows(2) {
-            let [arc, next] = [pair[0].1 >> 1, pair[1].1 >> 1];
-            self.next[arc as usize] = next;
-            self.stands[next as usize] = stands;
+    fn unite(&mut self, overlapping: &[(Segment, u32)]) {
+        let representative = overlapping[0].1 >> 1;
+        for pair in overlapping.windows(2) {
+            let [sub_edge, next] = [pair[0].1 >> 1, pair[1].1 >> 1];
+            self.next[sub_edge as usize] = next;
+            self.representatives[next as usize] = representative;
         }
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.arcs.len()
+        self.sub_edges.len()
     }
 
-    /// The arcs of a ring; none if nothing meets it.
+    /// The sub-edges of a ring; none if nothing meets it.
     #[inline]
     pub(crate) fn of_ring(&self, ring: u32) -> Range<u32> {
         self.first[ring as usize]..self.first[ring as usize + 1]
     }
 
-    /// The arc that starts where this one ends.
+    /// The sub-edge that starts where this one ends.
     #[inline]
-    pub(crate) fn following(&self, edges: &Edges, arc: u32) -> u32 {
-        let ring = edges.ring_of(self.edge(arc));
-        if arc + 1 == self.first[ring as usize + 1] { self.first[ring as usize] } else { arc + 1 }
+    pub(crate) fn following(&self, edges: &Edges, sub_edge: u32) -> u32 {
+        let ring = edges.ring_of(self.edge(sub_edge));
+        if sub_edge + 1 == self.first[ring as usize + 1] { self.first[ring as usize] } else { sub_edge + 1 }
     }
 
-    /// The arc that ends where this one starts.
+    /// The sub-edge that ends where this one starts.
     #[inline]
-    pub(crate) fn previous(&self, edges: &Edges, arc: u32) -> u32 {
-        let ring = edges.ring_of(self.edge(arc));
-        if arc == self.first[ring as usize] { self.first[ring as usize + 1] - 1 } else { arc - 1 }
+    pub(crate) fn previous(&self, edges: &Edges, sub_edge: u32) -> u32 {
+        let ring = edges.ring_of(self.edge(sub_edge));
+        if sub_edge == self.first[ring as usize] { self.first[ring as usize + 1] - 1 } else { sub_edge - 1 }
     }
 
-    /// The edge on which an arc starts.
+    /// The edge on which a sub-edge starts.
     #[inline]
-    pub(crate) fn edge(&self, arc: u32) -> u32 {
-        self.arcs[arc as usize].edge
+    pub(crate) fn edge(&self, sub_edge: u32) -> u32 {
+        self.sub_edges[sub_edge as usize].edge
     }
 
-    /// The node in which an arc starts.
+    /// The node in which a sub-edge starts.
     #[inline]
-    pub(crate) fn node(&self, arc: u32) -> u32 {
-        self.arcs[arc as usize].node
+    pub(crate) fn node(&self, sub_edge: u32) -> u32 {
+        self.sub_edges[sub_edge as usize].node
     }
 
-    /// Whether an arc starts in the start of its edge.
+    /// Whether a sub-edge starts in the start of its edge.
     #[inline]
-    pub(crate) fn starts_edge(&self, arc: u32) -> bool {
-        self.arcs[arc as usize].partner.met() == PartnerKind::Start
+    pub(crate) fn starts_edge(&self, sub_edge: u32) -> bool {
+        self.sub_edges[sub_edge as usize].partner.kind() == PartnerKind::Start
     }
 
-    /// Whether the edge that crosses where an arc starts comes from the left.
+    /// Whether the edge that crosses where a sub-edge starts comes from the left.
     #[inline]
-    pub(crate) fn crossed_from_left(&self, arc: u32) -> bool {
-        matches!(self.arcs[arc as usize].partner.met(), PartnerKind::FromLeft(_))
+    pub(crate) fn crossed_from_left(&self, sub_edge: u32) -> bool {
+        matches!(self.sub_edges[sub_edge as usize].partner.kind(), PartnerKind::FromLeft(_))
     }
 
-    /// What is found where an arc starts.
+    /// What is found where a sub-edge starts.
     #[inline]
-    pub(crate) fn met(&self, arc: u32) -> Node {
-        match self.starting[self.node(arc) as usize] {
+    pub(crate) fn met(&self, sub_edge: u32) -> Node {
+        match self.starting[self.node(sub_edge) as usize] {
             [NONE, junction] => Node::Junction(junction),
-            [a, b] => Node::Crossing(if a == arc { b } else { a }),
+            [a, b] => Node::Crossing(if a == sub_edge { b } else { a }),
         }
     }
 
-    /// What is found at a node, and one of the arcs that start there.
+    /// What is found at a node, and one of the sub-edges that start there.
     pub(crate) fn junction_at(&self, node: u32) -> Option<u32> {
         match self.starting[node as usize] {
             [NONE, junction] => Some(junction),
@@ -246,53 +246,54 @@ impl Arrangement {
         self.starts.len() - 1
     }
 
-    /// The arc that contains a vertex of a ring, or starts in it: the last that starts at or before it.
-    pub(crate) fn arc_at(&self, edges: &Edges, vertex: u32) -> Option<u32> {
-        let arcs = self.of_ring(edges.ring_of(vertex));
-        let after =
-            |arc: u32| self.edge(arc) > vertex || (self.edge(arc) == vertex && !self.starts_edge(arc));
-        self.last_before(arcs, after)
+    /// The sub-edge that contains a vertex of a ring, or starts in it: the last that starts at or before it.
+    pub(crate) fn sub_edge_at(&self, edges: &Edges, vertex: u32) -> Option<u32> {
+        let sub_edges = self.of_ring(edges.ring_of(vertex));
+        let after = |sub_edge: u32| {
+            self.edge(sub_edge) > vertex || (self.edge(sub_edge) == vertex && !self.starts_edge(sub_edge))
+        };
+        self.last_before(sub_edges, after)
     }
 
-    /// Of a ring's arcs the last before the first for which `after` holds, going round.
-    pub(crate) fn last_before(&self, arcs: Range<u32>, after: impl Fn(u32) -> bool) -> Option<u32> {
-        let slice = &self.arcs[arcs.start as usize..arcs.end as usize];
+    /// Of a ring's sub-edges the last before the first for which `after` holds, going round.
+    pub(crate) fn last_before(&self, sub_edges: Range<u32>, after: impl Fn(u32) -> bool) -> Option<u32> {
+        let slice = &self.sub_edges[sub_edges.start as usize..sub_edges.end as usize];
         let mut low = 0;
         let mut high = slice.len();
         while low < high {
             let middle = (low + high) / 2;
-            if after(arcs.start + index(middle)) { high = middle } else { low = middle + 1 }
+            if after(sub_edges.start + index(middle)) { high = middle } else { low = middle + 1 }
         }
         if slice.is_empty() {
             None
         } else {
-            Some(if low == 0 { arcs.end - 1 } else { arcs.start + index(low) - 1 })
+            Some(if low == 0 { sub_edges.end - 1 } else { sub_edges.start + index(low) - 1 })
         }
     }
 
-    /// The arc that stands for all that coincide with this one.
+    /// The sub-edge that stands for all that coincide with this one.
     #[inline]
-    pub(crate) fn stand_in(&self, arc: u32) -> u32 {
-        self.stands.get(arc as usize).copied().unwrap_or(arc)
+    pub(crate) fn representative(&self, sub_edge: u32) -> u32 {
+        self.representatives.get(sub_edge as usize).copied().unwrap_or(sub_edge)
     }
 
-    /// An arc that stands for itself, and all that coincide with it.
+    /// A sub-edge that represents itself, and all that coincide with it.
     #[inline]
-    pub(crate) fn bundle(&self, arc: u32) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn overlapping(&self, sub_edge: u32) -> impl Iterator<Item = u32> + '_ {
         let next = |&a: &u32| self.next.get(a as usize).copied().filter(|&n| n != NONE);
-        std::iter::successors(Some(arc), next)
+        std::iter::successors(Some(sub_edge), next)
     }
 
-    /// Whether an arc of a bundle runs in the direction of another: whether they start in one node, or for loops, leave
+    /// Whether a sub-edge of overlapping sub-edges runs in the direction of another: whether they start in one node, or for loops, leave
     /// it in one direction.
     #[inline]
-    pub(crate) fn is_along(&self, edges: &Edges, arc: u32, other: u32) -> bool {
-        arc == other || {
-            let forward = |arc: u32| {
-                let [a, b] = self.direction(edges, 2 * arc);
+    pub(crate) fn is_along(&self, edges: &Edges, sub_edge: u32, other: u32) -> bool {
+        sub_edge == other || {
+            let forward = |sub_edge: u32| {
+                let [a, b] = self.direction(edges, 2 * sub_edge);
                 lexicographic(a, b) == Ordering::Less
             };
-            forward(arc) == forward(other)
+            forward(sub_edge) == forward(other)
         }
     }
 
@@ -310,21 +311,21 @@ impl Arrangement {
     /// The edge along which a half-edge leaves its node, directed as it.
     #[inline]
     pub(crate) fn direction(&self, edges: &Edges, half_edge: u32) -> Segment {
-        let arc = half_edge >> 1;
+        let sub_edge = half_edge >> 1;
         if half_edge & 1 == 0 {
-            return edges.segment(self.edge(arc));
+            return edges.segment(self.edge(sub_edge));
         }
-        let end = self.following(edges, arc);
+        let end = self.following(edges, sub_edge);
         let edge = self.edge(end);
         let edge = if self.starts_edge(end) { edges.ring(edge).previous(edge) } else { edge };
         let [a, b] = edges.segment(edge);
         [b, a]
     }
 
-    /// The laws: arcs of a crossing know one another, and angles increase around each junction.
+    /// The laws: sub-edges of a crossing know one another, and angles increase around each junction.
     fn check(&self, edges: &Edges) -> bool {
-        let crossings = (0..index(self.len())).all(|arc| match self.met(arc) {
-            Node::Crossing(other) => other != NONE && self.met(other) == Node::Crossing(arc),
+        let crossings = (0..index(self.len())).all(|sub_edge| match self.met(sub_edge) {
+            Node::Crossing(other) => other != NONE && self.met(other) == Node::Crossing(sub_edge),
             Node::Junction(_) => true,
         });
         let junctions = (0..index(self.junction_count())).all(|junction| {

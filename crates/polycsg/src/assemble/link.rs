@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!        a     b             Coming in from u with the interior on its left, the walk turns clockwise from the
-//!         \   /              way back to u, through that interior, and takes the first stroke that leaves v: here a
+//!         \   /              way back to u, through that interior, and takes the first chain that leaves v: here a
 //!     u ───>v                if it leaves, else b. So each cycle runs around one connected interior, and two parts
 //!                            that touch in v become two cycles.
 //! ```
@@ -17,7 +17,7 @@ use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// No stroke, no place, no ring.
+/// No chain, no place, no ring.
 const NONE: u32 = u32::MAX;
 
 /// A simple ring, and the cycle that it was cut from.
@@ -27,15 +27,15 @@ pub(crate) struct SimpleRing {
     pub(crate) counter_clockwise: bool,
     /// The slot of its lexicographically smallest point.
     pub(crate) leftmost: u32,
-    /// The stroke that starts in that point, if one does.
-    pub(crate) stroke: u32,
+    /// The chain that starts in that point, if one does.
+    pub(crate) chain: u32,
 }
 
-/// A stroke at a node where several leave: whether it leaves, too.
+/// A chain at a node where several leave: whether it leaves, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct IncidentHalfEdge {
     pub(crate) node: u32,
-    pub(crate) stroke: u32,
+    pub(crate) chain: u32,
     pub(crate) leaves: bool,
 }
 
@@ -44,20 +44,20 @@ pub(crate) struct IncidentHalfEdge {
 pub(crate) struct Cycles {
     rings: Rings,
     about: Vec<SimpleRing>,
-    /// The ring that each stroke belongs to.
-    ring_of_stroke: Vec<u32>,
-    /// Whether around each node strokes arrive and leave in turn, as those of a boundary do.
+    /// The ring that each chain belongs to.
+    ring_of_chain: Vec<u32>,
+    /// Whether around each node chains arrive and leave in turn, as those of a boundary do.
     pub(crate) alternate: bool,
-    /// The strokes at nodes where several leave, by node and angle.
-    spokes: Vec<IncidentHalfEdge>,
-    /// Per node a stroke that leaves it.
+    /// The chains at nodes where several leave, by node and angle.
+    half_edges: Vec<IncidentHalfEdge>,
+    /// Per node a chain that leaves it.
     leaving: Vec<u32>,
     next: Vec<u32>,
     walked: Vec<bool>,
     cut: Cut,
 }
 
-/// The walk so far, as a chain of strokes without a repeated node.
+/// The walk so far, as a chain of chains without a repeated node.
 #[derive(Debug, Default)]
 struct Cut {
     /// Per node its place in the chain, or none.
@@ -66,11 +66,11 @@ struct Cut {
 }
 
 impl Cut {
-    /// Appends a stroke; where it comes back to a node of the chain, what lies from that place on is a ring.
-    fn visit(&mut self, outline: &Outline, stroke: u32) -> Option<usize> {
-        let about = outline.strokes()[stroke as usize];
+    /// Appends a chain; where it comes back to a node of the chain, what lies from that place on is a ring.
+    fn visit(&mut self, outline: &Outline, chain: u32) -> Option<usize> {
+        let about = outline.chains()[chain as usize];
         self.depth[about.start as usize] = index(self.chain.len());
-        self.chain.push(stroke);
+        self.chain.push(chain);
         let depth = self.depth[about.end as usize];
         (depth != NONE).then_some(depth as usize)
     }
@@ -86,34 +86,34 @@ impl Cycles {
         &self.about
     }
 
-    pub(crate) fn ring_of_stroke(&self, stroke: u32) -> u32 {
-        self.ring_of_stroke[stroke as usize]
+    pub(crate) fn ring_of_chain(&self, chain: u32) -> u32 {
+        self.ring_of_chain[chain as usize]
     }
 
-    /// The strokes at the start of a stroke, by angle; none where only one leaves.
-    pub(crate) fn spokes_at_start(&self, outline: &Outline, stroke: u32) -> &[IncidentHalfEdge] {
-        let node = outline.strokes()[stroke as usize].start;
-        let start = self.spokes.partition_point(|spoke| spoke.node < node);
-        let count = self.spokes[start..].partition_point(|spoke| spoke.node == node);
-        &self.spokes[start..start + count]
+    /// The chains at the start of a chain, by angle; none where only one leaves.
+    pub(crate) fn half_edges_at_start(&self, outline: &Outline, chain: u32) -> &[IncidentHalfEdge] {
+        let node = outline.chains()[chain as usize].start;
+        let start = self.half_edges.partition_point(|half_edge| half_edge.node < node);
+        let count = self.half_edges[start..].partition_point(|half_edge| half_edge.node == node);
+        &self.half_edges[start..start + count]
     }
 
-    /// Walks all strokes and cuts the walks into rings.
+    /// Walks all chains and cuts the walks into rings.
     pub(crate) fn link(&mut self, outline: &Outline) -> &Cycles {
         self.reset(outline);
         self.find_successors(outline);
         let mut cycle = 0;
-        for first in 0..index(outline.strokes().len()) {
+        for first in 0..index(outline.chains().len()) {
             if self.walked[first as usize] {
                 continue;
             }
-            let mut stroke = first;
-            while !self.walked[stroke as usize] {
-                self.walked[stroke as usize] = true;
-                if let Some(depth) = self.cut.visit(outline, stroke) {
+            let mut chain = first;
+            while !self.walked[chain as usize] {
+                self.walked[chain as usize] = true;
+                if let Some(depth) = self.cut.visit(outline, chain) {
                     self.close_ring(outline, depth, cycle);
                 }
-                stroke = self.next[stroke as usize];
+                chain = self.next[chain as usize];
             }
             cycle += 1;
         }
@@ -121,15 +121,15 @@ impl Cycles {
     }
 
     fn reset(&mut self, outline: &Outline) {
-        let (strokes, nodes) = (outline.strokes().len(), outline.node_count());
+        let (chains, nodes) = (outline.chains().len(), outline.node_count());
         self.rings.clear();
         self.about.clear();
-        self.ring_of_stroke.clear();
-        self.ring_of_stroke.resize(strokes, NONE);
+        self.ring_of_chain.clear();
+        self.ring_of_chain.resize(chains, NONE);
         self.next.clear();
-        self.next.resize(strokes, NONE);
+        self.next.resize(chains, NONE);
         self.walked.clear();
-        self.walked.resize(strokes, false);
+        self.walked.resize(chains, false);
         self.leaving.clear();
         self.leaving.resize(nodes, NONE);
         self.cut.chain.clear();
@@ -137,64 +137,64 @@ impl Cycles {
         self.cut.depth.resize(nodes, NONE);
     }
 
-    /// Finds the stroke that follows each stroke by the turn rule.
+    /// Finds the chain that follows each chain by the turn rule.
     fn find_successors(&mut self, outline: &Outline) {
-        self.spokes.clear();
-        for (stroke, about) in (0..).zip(outline.strokes()) {
+        self.half_edges.clear();
+        for (chain, about) in (0..).zip(outline.chains()) {
             let leaving = &mut self.leaving[about.start as usize];
             if *leaving != NONE {
-                self.spokes.push(IncidentHalfEdge { node: about.start, stroke, leaves: true });
+                self.half_edges.push(IncidentHalfEdge { node: about.start, chain, leaves: true });
             }
-            *leaving = stroke;
+            *leaving = chain;
         }
         self.alternate = true;
-        if !self.spokes.is_empty() {
-            self.gather_spokes(outline);
+        if !self.half_edges.is_empty() {
+            self.gather_half_edges(outline);
         }
-        for (next, about) in self.next.iter_mut().zip(outline.strokes()).filter(|(next, _)| **next == NONE) {
+        for (next, about) in self.next.iter_mut().zip(outline.chains()).filter(|(next, _)| **next == NONE) {
             *next = self.leaving[about.end as usize];
         }
     }
 
-    /// Pairs the strokes where several leave a node.
-    fn gather_spokes(&mut self, outline: &Outline) {
-        let mut crowded: Vec<u32> = self.spokes.iter().map(|spoke| spoke.node).collect();
+    /// Pairs the chains where several leave a node.
+    fn gather_half_edges(&mut self, outline: &Outline) {
+        let mut crowded: Vec<u32> = self.half_edges.iter().map(|half_edge| half_edge.node).collect();
         crowded.sort_unstable();
         crowded.dedup();
-        self.spokes.clear();
-        for (stroke, about) in (0..).zip(outline.strokes()) {
+        self.half_edges.clear();
+        for (chain, about) in (0..).zip(outline.chains()) {
             for (node, leaves) in [(about.start, true), (about.end, false)] {
                 if crowded.binary_search(&node).is_ok() {
-                    self.spokes.push(IncidentHalfEdge { node, stroke, leaves });
+                    self.half_edges.push(IncidentHalfEdge { node, chain, leaves });
                 }
             }
         }
-        self.spokes.sort_unstable_by_key(|spoke| spoke.node);
-        let mut spokes = std::mem::take(&mut self.spokes);
-        for around in spokes.chunk_by_mut(|a, b| a.node == b.node) {
+        self.half_edges.sort_unstable_by_key(|half_edge| half_edge.node);
+        let mut half_edges = std::mem::take(&mut self.half_edges);
+        for around in half_edges.chunk_by_mut(|a, b| a.node == b.node) {
             self.alternate &= self.pair_by_angle(outline, around);
         }
-        self.spokes = spokes;
+        self.half_edges = half_edges;
     }
 
-    /// Follows each arriving stroke by the first leaving one clockwise; false where two in a row arrive or leave.
+    /// Follows each arriving chain by the first leaving one clockwise; false where two in a row arrive or leave.
     fn pair_by_angle(&mut self, outline: &Outline, around: &mut [IncidentHalfEdge]) -> bool {
         let pivot = self.node_point(outline, around[0].node);
         around.sort_unstable_by(|&a, &b| {
-            by_angle(pivot, self.spoke_end(outline, a), self.spoke_end(outline, b))
-                .then((a.stroke, a.leaves).cmp(&(b.stroke, b.leaves)))
+            by_angle(pivot, self.half_edge_end(outline, a), self.half_edge_end(outline, b))
+                .then((a.chain, a.leaves).cmp(&(b.chain, b.leaves)))
         });
         let alternate = (0..around.len()).all(|i| {
-            let (spoke, before) = (around[i], around[if i == 0 { around.len() - 1 } else { i - 1 }]);
-            if !spoke.leaves {
-                self.next[spoke.stroke as usize] = before.stroke;
+            let (half_edge, before) = (around[i], around[if i == 0 { around.len() - 1 } else { i - 1 }]);
+            if !half_edge.leaves {
+                self.next[half_edge.chain as usize] = before.chain;
             }
-            spoke.leaves != before.leaves
+            half_edge.leaves != before.leaves
         });
         if !alternate {
             let (leaving, arriving): (Vec<IncidentHalfEdge>, Vec<IncidentHalfEdge>) =
-                around.iter().partition(|spoke| spoke.leaves);
-            arriving.iter().zip(leaving).for_each(|(a, l)| self.next[a.stroke as usize] = l.stroke);
+                around.iter().partition(|half_edge| half_edge.leaves);
+            arriving.iter().zip(leaving).for_each(|(a, l)| self.next[a.chain as usize] = l.chain);
         }
         alternate
     }
@@ -203,29 +203,29 @@ impl Cycles {
         outline.points(self.leaving[node as usize])[0]
     }
 
-    /// The point next to the node on a stroke.
-    pub(crate) fn spoke_end(&self, outline: &Outline, spoke: IncidentHalfEdge) -> DVec2 {
-        let points = outline.points(spoke.stroke);
-        match (spoke.leaves, points.len()) {
-            (true, 1) => self.node_point(outline, outline.strokes()[spoke.stroke as usize].end),
+    /// The point next to the node on a chain.
+    pub(crate) fn half_edge_end(&self, outline: &Outline, half_edge: IncidentHalfEdge) -> DVec2 {
+        let points = outline.points(half_edge.chain);
+        match (half_edge.leaves, points.len()) {
+            (true, 1) => self.node_point(outline, outline.chains()[half_edge.chain as usize].end),
             (true, _) => points[1],
             (false, count) => points[count - 1],
         }
     }
 
-    /// Moves the chain's strokes from `depth` on to a ring of their own.
+    /// Moves the chain's chains from `depth` on to a ring of their own.
     fn close_ring(&mut self, outline: &Outline, depth: usize, cycle: u32) {
         let start = self.rings.points().len();
-        let mut strokes = 0..0;
+        let mut chains = 0..0;
         let mut smallest = (DVec2::MAX, NONE, NONE);
-        for stroke in self.cut.chain.drain(depth..) {
-            self.cut.depth[outline.strokes()[stroke as usize].start as usize] = NONE;
-            self.ring_of_stroke[stroke as usize] = index(self.about.len());
-            let points = outline.points(stroke);
-            strokes = strokes.end..strokes.end + points.len();
+        for chain in self.cut.chain.drain(depth..) {
+            self.cut.depth[outline.chains()[chain as usize].start as usize] = NONE;
+            self.ring_of_chain[chain as usize] = index(self.about.len());
+            let points = outline.points(chain);
+            chains = chains.end..chains.end + points.len();
             for (i, &point) in points.iter().enumerate() {
                 if lexicographic(point, smallest.0) == Ordering::Less || smallest.1 == NONE {
-                    smallest = (point, index(start + strokes.start + i), if i == 0 { stroke } else { NONE });
+                    smallest = (point, index(start + chains.start + i), if i == 0 { chain } else { NONE });
                 }
             }
             self.rings.extend(points);
@@ -235,7 +235,7 @@ impl Cycles {
         // The turn at the lexicographically smallest point is that of the whole ring.
         let [before, after] = neighbours(&ring, smallest.1 as usize).map(|slot| self.rings.points()[slot]);
         let counter_clockwise = side(before, smallest.0, after) == Side::Left;
-        self.about.push(SimpleRing { cycle, counter_clockwise, leftmost: smallest.1, stroke: smallest.2 });
+        self.about.push(SimpleRing { cycle, counter_clockwise, leftmost: smallest.1, chain: smallest.2 });
     }
 }
 

@@ -57,7 +57,7 @@ struct Nest<'a> {
     nesting: &'a mut Nesting,
 }
 
-/// Builds the region; the outline's strokes meet in their nodes only.
+/// Builds the region; the outline's chains meet in their nodes only.
 pub(crate) fn nest(
     outline: &Outline,
     cycles: &Cycles,
@@ -215,8 +215,8 @@ impl Nest<'_> {
     /// The ring that bounds the outside of an outer ring, right below its leftmost point.
     fn ring_beside_outer(&self, ring: u32) -> Result<Option<u32>, Misnested> {
         let (other, outside) = match self.clockwise_neighbour(ring) {
-            // A stroke of the point itself: the outside lies on its left seen from the point.
-            Some(spoke) => (self.cycles.ring_of_stroke(spoke.stroke), !spoke.leaves),
+            // A chain of the point itself: the outside lies on its left seen from the point.
+            Some(half_edge) => (self.cycles.ring_of_chain(half_edge.chain), !half_edge.leaves),
             None => match self.ring_below(ring) {
                 None => return Ok(None),
                 Some((other, interior_above)) => (other, !interior_above),
@@ -225,25 +225,27 @@ impl Nest<'_> {
         if outside { Ok(Some(other)) } else { Err(Misnested) }
     }
 
-    /// Of the strokes at the leftmost point of a counter-clockwise ring, the first met turning clockwise from the one
+    /// Of the chains at the leftmost point of a counter-clockwise ring, the first met turning clockwise from the one
     /// that leaves along the ring, to straight down and on to straight up.
     fn clockwise_neighbour(&self, ring: u32) -> Option<IncidentHalfEdge> {
-        let stroke = self.ring(ring).stroke;
-        if stroke == NONE {
-            return None; // inside a stroke nothing meets it
+        let chain = self.ring(ring).chain;
+        if chain == NONE {
+            return None; // inside a chain nothing meets it
         }
-        let spokes = self.cycles.spokes_at_start(self.outline, stroke);
+        let half_edges = self.cycles.half_edges_at_start(self.outline, chain);
         let point = LeftmostCorner::of(self.cycles, ring).point;
-        let end = |spoke: IncidentHalfEdge| self.cycles.spoke_end(self.outline, spoke);
-        let own = end(IncidentHalfEdge { stroke, leaves: true, ..*spokes.first()? });
-        let first = spokes.partition_point(|&spoke| by_angle(point, end(spoke), own) == Ordering::Less);
-        let is_own = |spoke: &IncidentHalfEdge| spoke.stroke == stroke && spoke.leaves;
-        let place = first + spokes[first..].iter().position(is_own)?;
+        let end = |half_edge: IncidentHalfEdge| self.cycles.half_edge_end(self.outline, half_edge);
+        let own = end(IncidentHalfEdge { chain, leaves: true, ..*half_edges.first()? });
+        let first =
+            half_edges.partition_point(|&half_edge| by_angle(point, end(half_edge), own) == Ordering::Less);
+        let is_own = |half_edge: &IncidentHalfEdge| half_edge.chain == chain && half_edge.leaves;
+        let place = first + half_edges[first..].iter().position(is_own)?;
         match place.checked_sub(1) {
-            Some(before) => Some(spokes[before]),
-            None => {
-                spokes.last().copied().filter(|&spoke| lexicographic(end(spoke), point) == Ordering::Less)
-            }
+            Some(before) => Some(half_edges[before]),
+            None => half_edges
+                .last()
+                .copied()
+                .filter(|&half_edge| lexicographic(end(half_edge), point) == Ordering::Less),
         }
     }
 

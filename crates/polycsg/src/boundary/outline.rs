@@ -1,4 +1,4 @@
-//! The rounded boundary: directed strokes from node to node.
+//! The rounded boundary: directed chains from node to node.
 
 use super::select::{Piece, Selection};
 use crate::base::id::index;
@@ -17,12 +17,12 @@ pub(crate) struct BoundaryChain {
     first: u32,
 }
 
-/// Strokes that meet in nodes only, as many arriving as leaving in each.
+/// Chains that meet in nodes only, as many arriving as leaving in each.
 #[derive(Debug, Default)]
 pub(crate) struct Outline {
-    /// Of all strokes in a row: the points without the last.
+    /// Of all chains in a row: the points without the last.
     points: Vec<DVec2>,
-    strokes: Vec<BoundaryChain>,
+    chains: Vec<BoundaryChain>,
     node_count: usize,
     /// For numbering points: every start of a segment and its place in the input.
     starts: Vec<(DVec2, u32)>,
@@ -34,7 +34,7 @@ impl Outline {
     /// Takes the pieces as they are: their nodes are distinct points.
     pub(crate) fn take(&mut self, edges: &Edges, contacts: &Contacts, selection: &Selection) {
         self.points.clear();
-        self.strokes.clear();
+        self.chains.clear();
         self.node_count = contacts.node_count();
         for piece in selection.pieces() {
             let first = index(self.points.len());
@@ -43,7 +43,7 @@ impl Outline {
                 [index(self.node_count - 1); 2]
             });
             let (from, to) = if piece.along { (start, end) } else { (end, start) };
-            self.strokes.push(BoundaryChain { start: from, end: to, first });
+            self.chains.push(BoundaryChain { start: from, end: to, first });
             self.points.push(match piece.nodes {
                 Some(_) => selection.node_point(edges, contacts, from),
                 None => edges.point(piece.edge_spans()[0].start),
@@ -64,7 +64,7 @@ impl Outline {
     }
 
     /// Numbers the points of closed walks, drops empty edges and, if any may coincide, cancels opposite ones: each
-    /// edge that is left is a stroke.
+    /// edge that is left is a chain.
     pub(crate) fn build(&mut self, segments: impl Iterator<Item = Segment> + Clone, may_coincide: bool) {
         self.starts.clear();
         self.starts.extend(segments.clone().zip(0..).map(|([start, _], i)| (start, i)));
@@ -93,9 +93,9 @@ impl Outline {
         self.node_count = self.numbered.len();
         self.points.clear();
         self.points.extend(self.unsorted.iter().map(|edge| self.numbered[edge[0] as usize]));
-        self.strokes.clear();
-        let stroke = |(&[start, end], first): (&[u32; 2], u32)| BoundaryChain { start, end, first };
-        self.strokes.extend(self.unsorted.iter().zip(0..).map(stroke));
+        self.chains.clear();
+        let chain = |(&[start, end], first): (&[u32; 2], u32)| BoundaryChain { start, end, first };
+        self.chains.extend(self.unsorted.iter().zip(0..).map(chain));
     }
 
     /// Removes pairs of opposite edges.
@@ -115,14 +115,14 @@ impl Outline {
         self.node_count
     }
 
-    pub(crate) fn strokes(&self) -> &[BoundaryChain] {
-        &self.strokes
+    pub(crate) fn chains(&self) -> &[BoundaryChain] {
+        &self.chains
     }
 
-    /// The points of a stroke, without the last.
+    /// The points of a chain, without the last.
     #[inline]
-    pub(crate) fn points(&self, stroke: u32) -> &[DVec2] {
-        let end = self.strokes.get(stroke as usize + 1).map_or(self.points.len(), |next| next.first as usize);
-        &self.points[self.strokes[stroke as usize].first as usize..end]
+    pub(crate) fn points(&self, chain: u32) -> &[DVec2] {
+        let end = self.chains.get(chain as usize + 1).map_or(self.points.len(), |next| next.first as usize);
+        &self.points[self.chains[chain as usize].first as usize..end]
     }
 }

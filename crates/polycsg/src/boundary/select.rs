@@ -1,4 +1,4 @@
-//! Stage 6: the arcs whose two sides differ, directed with the interior to the left, each vertex rounded once.
+//! Stage 6: the sub-edges whose two sides differ, directed with the interior to the left, each vertex rounded once.
 
 use crate::arrangement::Node;
 use crate::arrangement::labels::LabelledArrangement;
@@ -84,7 +84,7 @@ const WANTED: DVec2 = DVec2::INFINITY;
 /// So many nodes are a part of the work.
 const NODES: usize = 4096;
 
-/// A run of selected arcs, being built: from the start of one arc to that of another.
+/// A run of selected sub-edges, being built: from the start of one sub-edge to that of another.
 #[derive(Clone, Copy)]
 struct SubEdgeRun {
     start: u32,
@@ -168,9 +168,9 @@ impl Selection {
 
 impl LabelledArrangement<'_> {
     fn select_along(&self, ring: u32, pieces: &mut Vec<Piece>) {
-        let arcs = self.arrangement.of_ring(ring);
+        let sub_edges = self.arrangement.of_ring(ring);
         let about = self.edges.rings()[ring as usize];
-        if arcs.is_empty() {
+        if sub_edges.is_empty() {
             let whole = self.along(index(self.arrangement.len()) + ring);
             pieces.extend(whole.map(|along| Piece::whole(ring, about, along)));
             return;
@@ -180,31 +180,35 @@ impl LabelledArrangement<'_> {
         let mut first_run: Option<SubEdgeRun> = None;
         let mut put = |run: SubEdgeRun| {
             // The first run may yet be found to continue the last one.
-            if run.start == arcs.start && first_run.is_none() {
+            if run.start == sub_edges.start && first_run.is_none() {
                 first_run = Some(run)
             } else {
                 pieces.push(self.piece(ring, run))
             }
         };
-        for arc in arcs.clone() {
-            let next = if arc + 1 == arcs.end { arcs.start } else { arc + 1 };
-            let along = self.along(arc);
+        for sub_edge in sub_edges.clone() {
+            let next = if sub_edge + 1 == sub_edges.end { sub_edges.start } else { sub_edge + 1 };
+            let along = self.along(sub_edge);
             run = match (run, along) {
-                (Some(run), Some(along)) if run.along == along && self.passes_through(arc, arc - 1) => {
+                (Some(run), Some(along))
+                    if run.along == along && self.passes_through(sub_edge, sub_edge - 1) =>
+                {
                     Some(SubEdgeRun { end: next, ..run })
                 }
                 (before, along) => {
                     before.into_iter().for_each(&mut put);
-                    along.map(|along| SubEdgeRun { start: arc, end: next, along })
+                    along.map(|along| SubEdgeRun { start: sub_edge, end: next, along })
                 }
             };
         }
         match (first_run, run) {
-            (None, Some(run)) if run.start == arcs.start && run.end == arcs.start => {
-                let whole = self.passes_through(arcs.start, arcs.end - 1);
+            (None, Some(run)) if run.start == sub_edges.start && run.end == sub_edges.start => {
+                let whole = self.passes_through(sub_edges.start, sub_edges.end - 1);
                 pieces.push(if whole { Piece::whole(ring, about, run.along) } else { self.piece(ring, run) });
             }
-            (Some(a), Some(b)) if a.along == b.along && self.passes_through(arcs.start, arcs.end - 1) => {
+            (Some(a), Some(b))
+                if a.along == b.along && self.passes_through(sub_edges.start, sub_edges.end - 1) =>
+            {
                 pieces.push(self.piece(ring, SubEdgeRun { start: b.start, ..a }));
             }
             (a, b) => pieces.extend(a.into_iter().chain(b).map(|run| self.piece(ring, run))),
@@ -212,28 +216,28 @@ impl LabelledArrangement<'_> {
         debug_assert!(pieces.len() >= first);
     }
 
-    /// Whether an arc is selected, and its ring's direction then.
+    /// Whether a sub-edge is selected, and its ring's direction then.
     #[inline]
-    fn along(&self, arc: u32) -> Option<bool> {
-        match self.labels.of(arc) {
+    fn along(&self, sub_edge: u32) -> Option<bool> {
+        match self.labels.of(sub_edge) {
             Membership::OnPlus => Some(true),
             Membership::OnMinus => Some(false),
             Membership::In | Membership::Out => None,
         }
     }
 
-    /// Whether between two selected arcs of a ring there is only a crossing, and nothing else selected.
-    fn passes_through(&self, arc: u32, before: u32) -> bool {
-        let selected = |arc: u32| self.along(arc).is_some();
-        match self.arrangement.met(arc) {
+    /// Whether between two selected sub-edges of a ring there is only a crossing, and nothing else selected.
+    fn passes_through(&self, sub_edge: u32, before: u32) -> bool {
+        let selected = |sub_edge: u32| self.along(sub_edge).is_some();
+        match self.arrangement.met(sub_edge) {
             Node::Crossing(other) => {
                 !selected(other) && !selected(self.arrangement.previous(self.edges, other))
             }
             Node::Junction(junction) => {
                 let others = self.arrangement.span(junction).map(|place| self.arrangement.around(place));
                 let mut others =
-                    others.filter(|&half_edge| half_edge != 2 * arc && half_edge != 2 * before + 1);
-                matches!(self.contacts.place(self.arrangement.node(arc)), Place::Crossing(..))
+                    others.filter(|&half_edge| half_edge != 2 * sub_edge && half_edge != 2 * before + 1);
+                matches!(self.contacts.place(self.arrangement.node(sub_edge)), Place::Crossing(..))
                     && !others.any(|half_edge| selected(half_edge >> 1))
             }
         }
@@ -248,7 +252,7 @@ impl LabelledArrangement<'_> {
         } else {
             [[first_edge + 1, about.end.max(first_edge + 1)], [about.start, end]]
         };
-        let nodes = Some([run.start, run.end].map(|arc| self.arrangement.node(arc)));
+        let nodes = Some([run.start, run.end].map(|sub_edge| self.arrangement.node(sub_edge)));
         Piece { ring, nodes, first_edge, inner, along: run.along }
     }
 }

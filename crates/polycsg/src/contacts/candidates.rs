@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | those of chains, few | [`BroadPhase::MonotoneChains`]: chains as long as they may be, so that smooth outlines are skipped over |
 //! | those of chains, many | [`BroadPhase::Edges`]: chains of single edges, which are more boxes, but smaller ones |
-//! | those of edges, many, that do not cross | [`BroadPhase::SlabDecomposition`]: long edges beside one another |
+//! | those of edges, many, that do not cross | [`BroadPhase::Slabs`]: long edges beside one another |
 //!
 //! A sample of the pairs of boxes decides. All three lead to one result. A sample may mislead, so boxes are given up later
 //! where they exceed their budget even so.
@@ -36,7 +36,7 @@ pub(crate) enum BroadPhase {
     /// Those whose own boxes meet.
     Edges,
     /// Those that share a slab and are not in one order there.
-    SlabDecomposition,
+    Slabs,
 }
 
 /// All edges, the chains they are in, the index over the chains' boxes, and how these are to be used.
@@ -112,7 +112,7 @@ impl Sample {
         let single_edges_are_quicker =
             self.chain_pairs > self.pairs + PAIRS_PER_BOX * (self.edges - self.chains);
         match (boxes_are_quick, single_edges_are_quicker) {
-            (false, _) => BroadPhase::SlabDecomposition,
+            (false, _) => BroadPhase::Slabs,
             (true, false) => BroadPhase::MonotoneChains,
             (true, true) => BroadPhase::Edges,
         }

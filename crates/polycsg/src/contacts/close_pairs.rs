@@ -77,11 +77,11 @@ impl ClosePairs {
 
     /// Notes what comes near an edge where [`SlabDecomposition`] take the place of boxes, and lets them report the rest; suspects all
     /// edges where these are too many.
-    pub(crate) fn look_beside(&mut self, edges: &Edges, slabs: &mut SlabDecomposition) {
+    pub(crate) fn find_beside(&mut self, edges: &Edges, slabs: &mut SlabDecomposition) {
         let margins = self.margins;
         self.all = self.all
-            || slabs.copies().next().is_some()
-            || !slabs.places().all(|place| self.look_at_place(edges, place))
+            || slabs.duplicates().next().is_some()
+            || !slabs.places().all(|place| self.find_at_place(edges, place))
             || !slabs.ends_beside_ends(margins.close, |p, q| {
                 edges.at(p).into_iter().for_each(|e| edges.at(q).into_iter().for_each(|f| self.add(e, f)));
             })
@@ -92,14 +92,14 @@ impl ClosePairs {
     }
 
     /// ClosePairs all edges, and has [`SlabDecomposition`] report only what meets; false if they do.
-    pub(crate) fn look_no_more(&mut self, slabs: &mut SlabDecomposition) -> bool {
+    pub(crate) fn give_up(&mut self, slabs: &mut SlabDecomposition) -> bool {
         self.all = true;
         slabs.narrow()
     }
 
     /// Notes edges of several rings that leave one point in nearly the same direction; false when they are too many for
-    /// that. Those of one ring are looked at by [`look_along`](ClosePairs::look_along).
-    fn look_at_place(&mut self, edges: &Edges, mut place: impl Iterator<Item = u32>) -> bool {
+    /// that. Those of one ring are looked at by [`find_along`](ClosePairs::find_along).
+    fn find_at_place(&mut self, edges: &Edges, mut place: impl Iterator<Item = u32>) -> bool {
         const MOST: usize = 32;
         let Some(first) = place.next() else { return true };
         let [a, b] = edges.at(first);
@@ -120,23 +120,23 @@ impl ClosePairs {
     }
 
     /// Whether two edges leave a common end in nearly the same direction.
-    fn are_flat(&self, edges: &Edges, corner: DVec2, pair: [u32; 2]) -> bool {
+    fn are_flat(&self, edges: &Edges, shared: DVec2, pair: [u32; 2]) -> bool {
         let [s, t] = pair.map(|edge| edges.segment(edge));
-        let [p, q] = [s, t].map(|[a, b]| if a == corner { b } else { a });
-        self.are_flat_at(corner, p, q)
+        let [p, q] = [s, t].map(|[a, b]| if a == shared { b } else { a });
+        self.are_flat_at(shared, p, q)
     }
 
     /// The same by the common end and the two others.
     #[inline]
-    fn are_flat_at(&self, corner: DVec2, p: DVec2, q: DVec2) -> bool {
-        (p - corner).dot(q - corner) > 0.0
-            && !self.margins.are_steep([[corner, p], [corner, q]], doubled_area(corner, p, q))
+    fn are_flat_at(&self, shared: DVec2, p: DVec2, q: DVec2) -> bool {
+        (p - shared).dot(q - shared) > 0.0
+            && !self.margins.are_steep([[shared, p], [shared, q]], doubled_area(shared, p, q))
     }
 
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
-    pub(crate) fn look_along(&mut self, edges: &Edges, contacts: &[Contact]) {
+    pub(crate) fn find_along(&mut self, edges: &Edges, contacts: &[Contact]) {
         let is_crossing = |contact: &Contact| {
-            matches!(contact.partner.met(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
+            matches!(contact.partner.kind(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
         };
         if self.all || !contacts.iter().any(is_crossing) {
             return;
@@ -151,13 +151,13 @@ impl ClosePairs {
             self.close.push(ClosePlaces { edge, places: [node(pair[0]), node(pair[1])] });
         }
         let (first, last) = (contacts[0], contacts[contacts.len() - 1]);
-        if !far(Parameter::START, first.at()) && first.partner.met() != PartnerKind::Start {
+        if !far(Parameter::START, first.at()) && first.partner.kind() != PartnerKind::Start {
             self.close.push(ClosePlaces { edge, places: [node(first), EdgePlace::Vertex(edge)] });
         }
         if !far(last.at(), Parameter::END) {
             self.close.push(ClosePlaces { edge, places: [node(last), EdgePlace::Vertex(ring.next(edge))] });
         }
-        self.look_around(edges, ring, edge);
+        self.find_around(edges, ring, edge);
     }
 
     /// Notes all pairs of edges that meet close together; suspects all edges where they are many.
@@ -171,7 +171,7 @@ impl ClosePairs {
 
     /// Notes what is close to an edge on both sides along its ring: its neighbours where they turn back sharply, and those
     /// beyond, where the neighbour is too narrow to keep them away.
-    fn look_around(&mut self, edges: &Edges, ring: EdgeRing, edge: u32) {
+    fn find_around(&mut self, edges: &Edges, ring: EdgeRing, edge: u32) {
         let [a, b] = edges.segment(edge);
         let [before, after] = [ring.previous(edge), ring.next(edge)];
         let [start, end] = [edges.point(before), edges.point(after + 1)];
@@ -182,16 +182,16 @@ impl ClosePairs {
             self.add(edge, after);
         }
         if (start.x - a.x).abs() <= self.margins.close {
-            self.look_beyond(edges, edge, before, |other| ring.previous(other));
+            self.find_beyond(edges, edge, before, |other| ring.previous(other));
         }
         if (end.x - b.x).abs() <= self.margins.close {
-            self.look_beyond(edges, edge, after, |other| ring.next(other));
+            self.find_beyond(edges, edge, after, |other| ring.next(other));
         }
     }
 
     /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, and were not compared with it,
     /// and are not apart from it.
-    fn look_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> u32) {
+    fn find_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> u32) {
         let s = edges.segment(edge);
         let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
         if !leads_on(edges.segment(neighbour)) {

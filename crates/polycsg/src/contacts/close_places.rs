@@ -7,14 +7,14 @@ use crate::edges::Edges;
 
 impl Contacts {
     /// Notes all pairs of edges that meet in one of two places close together.
-    pub(super) fn look_closely(&mut self, edges: &Edges, suspects: &mut ClosePairs) {
-        let close = std::mem::take(&mut suspects.close);
+    pub(super) fn find_at_close_places(&mut self, edges: &Edges, close_pairs: &mut ClosePairs) {
+        let close = std::mem::take(&mut close_pairs.close);
         let mut meeting = std::mem::take(&mut self.close_groups);
         if self.degenerate && !close.is_empty() {
             self.gather(edges, &close, &mut meeting);
         }
         for ClosePlaces { edge, places } in &close {
-            if suspects.all() {
+            if close_pairs.all() {
                 break; // by now so many meet in one place that each of its edges would gather them all
             }
             meeting.group.clear();
@@ -22,9 +22,9 @@ impl Contacts {
             places.iter().for_each(|&at| self.add_edges(edges, at, &mut meeting));
             meeting.group.sort_unstable();
             meeting.group.dedup();
-            suspects.add_group(&meeting.group);
+            close_pairs.add_group(&meeting.group);
         }
-        suspects.close = close;
+        close_pairs.close = close;
         self.close_groups = meeting;
     }
 
@@ -40,7 +40,7 @@ impl Contacts {
             let node = self.node(contact.node);
             if meeting.is_close[node as usize] {
                 meeting.edges.push([node, contact.edge]);
-                if contact.partner.met() == PartnerKind::Start {
+                if contact.partner.kind() == PartnerKind::Start {
                     meeting.edges.push([node, edges.ring(contact.edge).previous(contact.edge)]);
                 }
             }

@@ -36,7 +36,7 @@ impl Partner {
     }
 
     #[inline]
-    pub(crate) fn met(self) -> PartnerKind {
+    pub(crate) fn kind(self) -> PartnerKind {
         let id = self.0 & Partner::ID;
         match self.0 >> 30 {
             0 => PartnerKind::FromLeft(id),
@@ -84,7 +84,7 @@ pub(super) fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
 #[cold]
 fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
     let e = edges.segment(a.edge);
-    match (a.partner.met(), b.partner.met()) {
+    match (a.partner.kind(), b.partner.kind()) {
         (PartnerKind::Start, PartnerKind::Start) => Ordering::Equal,
         (PartnerKind::Start, _) => Ordering::Less,
         (_, PartnerKind::Start) => Ordering::Greater,

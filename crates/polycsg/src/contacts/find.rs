@@ -49,18 +49,18 @@ impl Contacts {
     pub(super) fn find_by_boxes(
         &mut self,
         candidates: Candidates<'_>,
-        suspects: &mut ClosePairs,
+        close_pairs: &mut ClosePairs,
         most: usize,
     ) -> bool {
         let Candidates { edges, chains, strips, budget, .. } = candidates;
         if Threads::for_edges(edges.len()).are_many() {
-            return self.find_on_threads(candidates, suspects, most);
+            return self.find_on_threads(candidates, close_pairs, most);
         }
         let mut met = 0;
         strips.pairs_within(0..strips.len(), budget.blocks(edges.len()), |a, b| {
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                 met += 1;
-                self.meet(edges, e.min(f), e.max(f), suspects);
+                self.meet(edges, e.min(f), e.max(f), close_pairs);
             });
             budget.lasts(edges.len(), met, self.nodes.len()) && self.found.len() <= most
         })
@@ -70,11 +70,11 @@ impl Contacts {
     fn find_on_threads(
         &mut self,
         candidates: Candidates<'_>,
-        suspects: &mut ClosePairs,
+        close_pairs: &mut ClosePairs,
         most: usize,
     ) -> bool {
         let Candidates { edges, chains, strips, budget, .. } = candidates;
-        let margins = suspects.margins();
+        let margins = close_pairs.margins();
         let compared = |strips_at: Range<usize>| {
             let mut met = Compared::default();
             met.in_time = strips.pairs_within(strips_at, budget.blocks(edges.len()), |a, b| {
@@ -90,7 +90,7 @@ impl Contacts {
             pairs += met.pairs;
             met.meetings.into_iter().for_each(|meeting| match meeting {
                 Ok(crossing) => self.cross(edges, crossing),
-                Err([e, f]) => self.meet(edges, e, f, suspects),
+                Err([e, f]) => self.meet(edges, e, f, close_pairs),
             });
             met.in_time && budget.lasts(edges.len(), pairs, self.nodes.len()) && self.found.len() <= most
         })
@@ -101,7 +101,7 @@ impl Contacts {
         edges: &Edges,
         chains: &MonotoneChains,
         slabs: &mut SlabDecomposition,
-        suspects: &mut ClosePairs,
+        close_pairs: &mut ClosePairs,
         most: usize,
     ) -> Result<(), Error> {
         slabs.build(edges.points().iter().copied(), chains.edges().map(|edge| (edge, [edge, edge + 1])));
@@ -110,15 +110,15 @@ impl Contacts {
             let first = vertices.next();
             vertices.for_each(|vertex| first.into_iter().for_each(|first| self.join(edges, first, vertex)));
         }
-        slabs.copies().for_each(|[e, f]| self.meet(edges, e, f, suspects));
-        suspects.look_beside(edges, slabs);
-        let are_few = slabs.find(most) || (suspects.look_no_more(slabs) && slabs.find(most));
+        slabs.duplicates().for_each(|[e, f]| self.meet(edges, e, f, close_pairs));
+        close_pairs.find_beside(edges, slabs);
+        let are_few = slabs.find(most) || (close_pairs.give_up(slabs) && slabs.find(most));
         if !are_few {
             return Err(Error::TooManyContacts { limit: most });
         }
         slabs.visit(|e, f| {
             if self.found.len() <= most {
-                self.meet(edges, e.min(f), e.max(f), suspects);
+                self.meet(edges, e.min(f), e.max(f), close_pairs);
             }
         });
         Ok(())

@@ -10,12 +10,12 @@ use crate::predicates::{Area, Parameter, Segment, Side, doubled_area, is_inside,
 impl Contacts {
     /// Compares two edges and notes how they meet.
     #[inline]
-    pub(super) fn meet(&mut self, edges: &Edges, e: u32, f: u32, suspects: &mut ClosePairs) {
-        match meeting(edges, [e, f], suspects.margins()) {
+    pub(super) fn meet(&mut self, edges: &Edges, e: u32, f: u32, close_pairs: &mut ClosePairs) {
+        match meeting(edges, [e, f], close_pairs.margins()) {
             Meeting::Apart => {}
             Meeting::Crossing(crossing) => self.cross(edges, crossing),
             Meeting::Close { ends_of_f, ends_of_e } => {
-                self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, suspects);
+                self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, close_pairs);
             }
         }
     }
@@ -36,15 +36,15 @@ impl Contacts {
         [e, f]: [u32; 2],
         ends_of_f: [Area; 2],
         ends_of_e: [Area; 2],
-        suspects: &mut ClosePairs,
+        close_pairs: &mut ClosePairs,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        if let Some(corner) = SharedEnd::of(s, t) {
-            let area = doubled_area(corner.common, corner.end_of_s, corner.end_of_t);
-            if side_of(area, corner.common, corner.end_of_s, corner.end_of_t) != Side::On
-                || corner.is_straight()
+        if let Some(shared) = SharedEnd::of(s, t) {
+            let area = doubled_area(shared.common, shared.end_of_s, shared.end_of_t);
+            if side_of(area, shared.common, shared.end_of_s, shared.end_of_t) != Side::On
+                || shared.is_straight()
             {
-                return self.share(edges, [e, f], &corner, area, suspects);
+                return self.share(edges, [e, f], &shared, area, close_pairs);
             }
         }
         let sides_of = |line: Segment, areas: [Area; 2], ends: Segment| {
@@ -53,19 +53,19 @@ impl Contacts {
         let ([p0, p1], [q0, q1]) = (sides_of(s, ends_of_f, t), sides_of(t, ends_of_e, s));
         let on_one_side = |a: Side, b: Side| a == b && a != Side::On;
         if on_one_side(p0, p1) || on_one_side(q0, q1) {
-            return suspects.add(e, f);
+            return close_pairs.add(e, f);
         }
         if ![p0, p1, q0, q1].contains(&Side::On) {
-            suspects.add(e, f);
+            close_pairs.add(e, f);
             let crossing = Crossing::new([e, f], ends_of_f, ends_of_e, p0 == Side::Left);
             return self.cross(edges, crossing);
         }
         self.touch(edges, [e, f], [p0, p1, q0, q1]);
         let line_up = [p0, p1, q0, q1] == [Side::On; 4];
         let steep =
-            ends_of_f.iter().chain(&ends_of_e).any(|&area| suspects.margins().are_steep([s, t], area));
+            ends_of_f.iter().chain(&ends_of_e).any(|&area| close_pairs.margins().are_steep([s, t], area));
         if !line_up && !steep {
-            suspects.add(e, f);
+            close_pairs.add(e, f);
         }
     }
 
@@ -74,16 +74,16 @@ impl Contacts {
         &mut self,
         edges: &Edges,
         [e, f]: [u32; 2],
-        corner: &SharedEnd,
+        shared: &SharedEnd,
         area: Area,
-        suspects: &mut ClosePairs,
+        close_pairs: &mut ClosePairs,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        if !corner.is_straight() && !suspects.margins().are_steep([s, t], area) {
-            suspects.add(e, f);
+        if !shared.is_straight() && !close_pairs.margins().are_steep([s, t], area) {
+            close_pairs.add(e, f);
         }
-        let v = if s[0] == corner.common { e } else { edges.head(e) };
-        let w = if t[0] == corner.common { f } else { edges.head(f) };
+        let v = if s[0] == shared.common { e } else { edges.head(e) };
+        let w = if t[0] == shared.common { f } else { edges.head(f) };
         if v != w {
             self.join(edges, v, w);
         }

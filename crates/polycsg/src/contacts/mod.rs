@@ -77,28 +77,28 @@ impl Contacts {
         &mut self,
         candidates: Candidates<'_>,
         slabs: &mut SlabDecomposition,
-        suspects: &mut ClosePairs,
+        close_pairs: &mut ClosePairs,
         request: Request,
     ) -> Result<(), Error> {
         let Candidates { edges, chains, phase, .. } = candidates;
         let Request { limit: most, close_pairs: wanted, .. } = request;
         let size = chains.size();
         self.start(edges);
-        suspects.start(size, wanted);
+        close_pairs.start(size, wanted);
         let is_done =
-            phase != BroadPhase::SlabDecomposition && self.find_by_boxes(candidates, suspects, most);
+            phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, most);
         if !is_done && self.found.len() <= most {
             self.start(edges);
-            suspects.start(size, wanted);
-            self.find_by_slabs(edges, chains, slabs, suspects, most)?;
+            close_pairs.start(size, wanted);
+            self.find_by_slabs(edges, chains, slabs, close_pairs, most)?;
         }
         if self.found.len() > most {
             return Err(Error::TooManyContacts { limit: most });
         }
         self.bucket(edges.len());
         self.sort(edges);
-        self.unify(edges, suspects);
-        self.look_closely(edges, suspects);
+        self.unify(edges, close_pairs);
+        self.find_at_close_places(edges, close_pairs);
         self.prefer_vertices();
         Ok(())
     }
@@ -203,7 +203,7 @@ impl Contacts {
     }
 
     /// Unifies what lies in one place of an edge.
-    fn unify(&mut self, edges: &Edges, suspects: &mut ClosePairs) {
+    fn unify(&mut self, edges: &Edges, close_pairs: &mut ClosePairs) {
         let mut kept = 0;
         for i in 0..self.found.len() {
             let contact = self.found[i];
@@ -218,7 +218,7 @@ impl Contacts {
         }
         self.found.truncate(kept);
         for on_edge in self.found.chunk_by(|a, b| a.edge == b.edge) {
-            suspects.look_along(edges, on_edge);
+            close_pairs.find_along(edges, on_edge);
         }
     }
 
@@ -228,9 +228,9 @@ impl Contacts {
             return;
         }
         for node in 0..self.nodes.len() {
-            let stands = self.classes.find(index(node)) as usize;
-            if self.nodes[node][1] == NONE && self.nodes[stands][1] != NONE {
-                self.nodes[stands] = self.nodes[node];
+            let representative = self.classes.find(index(node)) as usize;
+            if self.nodes[node][1] == NONE && self.nodes[representative][1] != NONE {
+                self.nodes[representative] = self.nodes[node];
             }
         }
     }

@@ -79,11 +79,11 @@ pub(super) struct SharedEnd {
 
 impl SharedEnd {
     pub(super) fn of(s: Segment, t: Segment) -> Option<SharedEnd> {
-        let corner = |i: usize, j: usize| SharedEnd { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
+        let shared = |i: usize, j: usize| SharedEnd { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
         let mut corners = [(1, 0), (0, 1), (0, 0), (1, 1)]
             .into_iter()
             .filter(|&(i, j)| s[i] == t[j])
-            .map(|(i, j)| corner(i, j));
+            .map(|(i, j)| shared(i, j));
         let first = corners.next()?;
         corners.next().is_none().then_some(first)
     }

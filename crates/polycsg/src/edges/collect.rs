@@ -63,8 +63,8 @@ impl Edges {
     pub(crate) fn collect(
         &mut self,
         csg: &Csg<'_>,
-        truth: &WindingNumbers,
-        window: &ResultBounds,
+        winding: &WindingNumbers,
+        bounds: &ResultBounds,
         all: &mut Vec<RingKey>,
     ) {
         self.clear();
@@ -75,19 +75,19 @@ impl Edges {
         }
         for &place in &*all {
             if let Some(rings) = csg.postfix()[place.token as usize].rings() {
-                self.add_ring(rings, place, truth, window);
+                self.add_ring(rings, place, winding, bounds);
             }
         }
     }
 
-    fn add_ring(&mut self, rings: &Rings, place: RingKey, truth: &WindingNumbers, window: &ResultBounds) {
+    fn add_ring(&mut self, rings: &Rings, place: RingKey, winding: &WindingNumbers, bounds: &ResultBounds) {
         let (operand, ring) = (place.operand, place.ring as usize);
         let (start, points) = (index(self.points.len()), rings.closed(ring));
-        if !window.meets(points) {
+        if !bounds.meets(points) {
             return;
         }
         let origin = Origin { operand, edge: index(rings.start(ring)) };
-        let counter = truth.counter(operand as usize);
+        let counter = winding.counter(operand as usize);
         let fewest = if counter.is_none() { 2 } else { 3 };
         if points.windows(2).any(|pair| pair[0] == pair[1]) {
             self.add_distinct(points, origin);

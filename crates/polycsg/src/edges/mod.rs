@@ -180,36 +180,36 @@ impl Edges {
 
     /// Moves the walk over an edge of a ring, from its right to its left, or `back`.
     #[inline]
-    pub(crate) fn cross(&self, edge: u32, back: bool, truth: &mut WindingNumbers) {
+    pub(crate) fn cross(&self, edge: u32, back: bool, winding: &mut WindingNumbers) {
         let ring = self.ring(edge);
         if let Some(counter) = ring.counter {
-            truth.cross(counter, if back { -ring.winds } else { ring.winds });
+            winding.cross(counter, if back { -ring.winds } else { ring.winds });
         }
         if ring.also != END {
-            self.cross_also(ring.also, back, truth);
+            self.cross_also(ring.also, back, winding);
         }
     }
 
     /// Whether the expression holds to the right of an edge, from the left of which the walk looks.
     #[inline]
-    pub(crate) fn holds_behind(&self, edge: u32, truth: &mut WindingNumbers) -> bool {
+    pub(crate) fn holds_behind(&self, edge: u32, winding: &mut WindingNumbers) -> bool {
         let ring = self.ring(edge);
         match ring.counter {
-            Some(counter) if ring.also == END => truth.would_hold(counter, -ring.winds),
+            Some(counter) if ring.also == END => winding.would_hold(counter, -ring.winds),
             _ => {
-                self.cross(edge, true, truth);
-                let holds = truth.holds();
-                self.cross(edge, false, truth);
+                self.cross(edge, true, winding);
+                let holds = winding.holds();
+                self.cross(edge, false, winding);
                 holds
             }
         }
     }
 
     #[cold]
-    fn cross_also(&self, mut place: u32, back: bool, truth: &mut WindingNumbers) {
+    fn cross_also(&self, mut place: u32, back: bool, winding: &mut WindingNumbers) {
         while place != END {
             let also = self.also[place as usize];
-            truth.cross(also.counter, if back { -also.winds } else { also.winds });
+            winding.cross(also.counter, if back { -also.winds } else { also.winds });
             place = also.next;
         }
     }

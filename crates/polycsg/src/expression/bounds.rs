@@ -64,13 +64,13 @@ pub(crate) struct ResultBounds {
 
 impl ResultBounds {
     /// Finds the window of an expression. O(n) for n points of operands that bound it, if any do.
-    pub(crate) fn find(&mut self, csg: &Csg<'_>, truth: &WindingNumbers) {
+    pub(crate) fn find(&mut self, csg: &Csg<'_>, winding: &WindingNumbers) {
         self.bounds.clear();
         #[cfg(test)]
         if self.off {
             return;
         }
-        let gates = truth.gates();
+        let gates = winding.gates();
         if (0..gates.len()).all(|gate| gates.kind(gate) != Kind::All) {
             return;
         }
@@ -82,21 +82,21 @@ impl ResultBounds {
         let start = |gate| if gates.kind(gate) == Kind::All { Bounds::PLANE } else { Bounds::NOTHING };
         self.bounds.extend((0..gates.len()).map(start));
         for (operand, rings) in csg.postfix().iter().filter_map(Token::rings).enumerate() {
-            if let Some(gate) = truth.gate_of(operand).filter(|&gate| self.tells[gate as usize]) {
-                self.bound(truth, gate, Bounds::of(rings.points()));
+            if let Some(gate) = winding.gate_of(operand).filter(|&gate| self.tells[gate as usize]) {
+                self.bound(winding, gate, Bounds::of(rings.points()));
             }
         }
         for gate in (1..gates.len()).rev() {
             if let Some((above, false)) = gates.above(gate) {
-                self.bound(truth, above, self.bounds[gate as usize]);
+                self.bound(winding, above, self.bounds[gate as usize]);
             }
         }
     }
 
     /// Takes up the box of one of a gate's members.
-    fn bound(&mut self, truth: &WindingNumbers, gate: u32, member: Bounds) {
+    fn bound(&mut self, winding: &WindingNumbers, gate: u32, member: Bounds) {
         let bounds = &mut self.bounds[gate as usize];
-        *bounds = match truth.gates().kind(gate) {
+        *bounds = match winding.gates().kind(gate) {
             Kind::All => bounds.common(member),
             Kind::Any | Kind::Odd => bounds.joined(member),
         };

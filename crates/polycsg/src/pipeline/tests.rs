@@ -7,7 +7,7 @@ use crate::region::Region;
 use glam::DVec2;
 use proptest::prelude::*;
 
-fn hasty() -> Scratch {
+fn by_slabs() -> Scratch {
     Scratch { budget: WorkBudget::NONE, ..Scratch::default() }
 }
 
@@ -27,8 +27,8 @@ fn check(rings: &[Vec<DVec2>], rule: FillRule) {
     {
         let (region, pieces): (Region, usize) =
             (csg.evaluate(), csg.boundary(&mut Scratch::default()).edges().count());
-        assert_eq!(csg.evaluate_with(&mut hasty()), region);
-        assert_eq!(csg.boundary(&mut hasty()).edges().count(), pieces);
+        assert_eq!(csg.evaluate_with(&mut by_slabs()), region);
+        assert_eq!(csg.boundary(&mut by_slabs()).edges().count(), pieces);
         assert_eq!(region.validate(), Ok(()));
     }
 }
@@ -200,7 +200,7 @@ fn contacts_are_counted() {
     for (n, slant) in [(30, 0.0), (30, 7.3), (3, 0.0)] {
         let csg = comb(n, slant);
         let needed = 8 * n as usize * n as usize;
-        for mut scratch in [Scratch::default(), hasty()] {
+        for mut scratch in [Scratch::default(), by_slabs()] {
             let refused = csg.try_evaluate_with(&mut scratch, needed - 1);
             assert_eq!(refused, Err(Error::TooManyContacts { limit: needed - 1 }));
             let small = comb(2, 0.5);
@@ -221,7 +221,7 @@ proptest! {
         limit in 0_usize..200,
     ) {
         let csg = Csg::from_rings(&rings, FillRule::EvenOdd).expect("finite");
-        for mut scratch in [Scratch::default(), hasty()] {
+        for mut scratch in [Scratch::default(), by_slabs()] {
             match csg.try_evaluate_with(&mut scratch, limit) {
                 Ok(region) => {
                     prop_assert_eq!(&region, &csg.evaluate());

@@ -1,7 +1,7 @@
-//! What the walk knows: the labels of arcs, and which component lies in which face.
+//! What the walk knows: the labels of sub-edges, and which component lies in which face.
 
-/// What is known of an arc, in bits: the truth on its left and on its right, whether these are known, and whether
-/// any component hangs on it.
+/// What is known of a sub-edge, in bits: the truth on its left and on its right, whether these are known, and whether
+/// any component is nested on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Label(pub(super) u8);
 
@@ -9,7 +9,7 @@ impl Label {
     pub(super) const LEFT: u8 = 1;
     pub(super) const RIGHT: u8 = 2;
     pub(super) const KNOWN: u8 = 4;
-    pub(super) const HUNG: u8 = 8;
+    pub(super) const HAS_NESTED: u8 = 8;
 
     #[inline]
     pub(super) fn is(self, bit: u8) -> bool {
@@ -17,10 +17,10 @@ impl Label {
     }
 }
 
-/// A component, by its leftmost vertex, that lies in the face left or right of an arc.
+/// A component, by its leftmost vertex, that lies in the face left or right of a sub-edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct NestedComponent {
-    pub(super) arc: u32,
+    pub(super) sub_edge: u32,
     pub(super) left: bool,
     pub(super) vertex: u32,
 }

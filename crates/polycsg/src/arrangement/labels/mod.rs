@@ -1,18 +1,18 @@
-//! Stage 5: which sides of each arc lie inside the set.
+//! Stage 5: which sides of each sub-edge lie inside the set.
 //!
 //! One walk over the arrangement with one state, the winding numbers of all operands (see [`WindingNumbers`]), which always
-//! is that of the place just left of the arc being walked on:
+//! is that of the place just left of the sub-edge being walked on:
 //!
 //! ```text
 //!            |               Over a crossing the state changes by the edge that crosses, and whichever of the
-//!     left   ^  g-           crossing ring's arcs has the same place on its left is walked next, if it is not known.
+//!     left   ^  g-           crossing ring's sub-edges has the same place on its left is walked next, if it is not known.
 //!   of e     |               A walk around a ring comes back with the state that it left with.
 //!   ---g---->+------         At a junction the walk goes around the node, over one bundle after the other, and
-//!            |               walks each of its arcs on to their far ends and back.
+//!            |               walks each of its sub-edges on to their far ends and back.
 //!            ^ e
 //! ```
 //!
-//! A component that lies inside a face of another one hangs on an arc of that face.
+//! A component that lies inside a face of another one is nested on a sub-edge of that face.
 
 mod label;
 pub(crate) mod map;
@@ -37,12 +37,12 @@ use step::Step;
 /// No vertex.
 const NONE: u32 = u32::MAX;
 
-/// The membership of every arc that stands for itself; rings that nothing meets count behind the arcs.
+/// The membership of every sub-edge that represents itself; rings that nothing meets count behind the sub-edges.
 #[derive(Debug, Default)]
 pub(crate) struct Labels {
     labels: Vec<Label>,
-    /// Per arc its strand, a run of arcs of one ring between junctions, and of these which were walked.
-    strand: Vec<u32>,
+    /// Per sub-edge its chain, a run of sub-edges of one ring between junctions, and of these which were walked.
+    chain: Vec<u32>,
     walked: Vec<bool>,
     /// The junctions that were gone around.
     seen: Vec<bool>,
@@ -50,8 +50,8 @@ pub(crate) struct Labels {
     /// The lexicographically smallest vertex of each component.
     leftmost: Vec<u32>,
     below: VerticalRays,
-    /// Sorted by arc.
-    hung: Vec<NestedComponent>,
+    /// Sorted by sub-edge.
+    nested: Vec<NestedComponent>,
     outermost: Vec<u32>,
 }
 
@@ -66,55 +66,52 @@ pub(crate) struct LabelledArrangement<'a> {
 }
 
 impl Labels {
-    /// Labels every arc with the sides of it on which `truth` holds.
+    /// Labels every sub-edge with the sides of it on which `winding` holds.
     pub(crate) fn classify(
         &mut self,
         map: Map<'_>,
         slabs: &mut SlabDecomposition,
-        truth: &mut WindingNumbers,
+        winding: &mut WindingNumbers,
     ) {
         self.labels.clear();
         self.labels.resize(map.arrangement.len() + map.edges.rings().len(), Label::default());
         self.seen.clear();
         self.seen.resize(map.arrangement.junction_count(), false);
-        self.find_strands(map);
+        self.find_chains(map);
         self.find_leftmost(map);
-        self.hang(map, slabs);
+        self.find_nested(map, slabs);
         while let Some(vertex) = self.outermost.pop() {
             self.steps.push(Step::Component { vertex });
             while let Some(step) = self.steps.pop() {
-                self.take(step, map, truth);
+                self.take(step, map, winding);
             }
-            debug_assert!(truth.is_outside());
+            debug_assert!(winding.is_outside());
         }
     }
 
-    /// The membership of an arc that stands for itself, in that arc's direction.
+    /// The membership of a sub-edge that represents itself, in that sub-edge's direction.
     #[inline]
-    pub(crate) fn of(&self, arc: u32) -> Membership {
-        let label = self.labels[arc as usize];
+    pub(crate) fn of(&self, sub_edge: u32) -> Membership {
+        let label = self.labels[sub_edge as usize];
         Membership::from_sides(label.is(Label::LEFT), label.is(Label::RIGHT))
     }
 
-    fn find_strands(&mut self, map: Map<'_>) {
+    fn find_chains(&mut self, map: Map<'_>) {
         let mut count = 0;
-        self.strand.clear();
+        self.chain.clear();
         for ring in 0..index(map.edges.rings().len()) {
-            let arcs = map.arrangement.of_ring(ring);
-            for arc in arcs.clone() {
-                let starts = arc == arcs.start || matches!(map.arrangement.met(arc), Node::Junction(_));
+            let sub_edges = map.arrangement.of_ring(ring);
+            for sub_edge in sub_edges.clone() {
+                let starts =
+                    sub_edge == sub_edges.start || matches!(map.arrangement.met(sub_edge), Node::Junction(_));
                 count += u32::from(starts);
-                self.strand.push(count - 1);
+                self.chain.push(count - 1);
             }
             // What ends where the ring starts goes on there, unless that is a junction.
-            if !arcs.is_empty() && matches!(map.arrangement.met(arcs.start), Node::Crossing(_)) {
-                let (first, last) = (self.strand[arcs.start as usize], count - 1);
-                let strands = &mut self.strand[arcs.start as usize..arcs.end as usize];
-                strands
-                    .iter_mut()
-                    .rev()
-                    .take_while(|strand| **strand == last)
-                    .for_each(|strand| *strand = first);
+            if !sub_edges.is_empty() && matches!(map.arrangement.met(sub_edges.start), Node::Crossing(_)) {
+                let (first, last) = (self.chain[sub_edges.start as usize], count - 1);
+                let chains = &mut self.chain[sub_edges.start as usize..sub_edges.end as usize];
+                chains.iter_mut().rev().take_while(|chain| **chain == last).for_each(|chain| *chain = first);
             }
         }
         self.walked.clear();
@@ -136,23 +133,23 @@ impl Labels {
         self.leftmost.retain(|&vertex| vertex != NONE);
     }
 
-    /// Hangs each component on the arc below it, or finds that there is none.
-    fn hang(&mut self, map: Map<'_>, slabs: &mut SlabDecomposition) {
-        self.hung.clear();
+    /// Hangs each component on the sub-edge below it, or finds that there is none.
+    fn find_nested(&mut self, map: Map<'_>, slabs: &mut SlabDecomposition) {
+        self.nested.clear();
         self.outermost.clear();
         if let [single] = self.leftmost[..] {
             return self.outermost.push(single);
         }
         self.below.look(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost);
         for (i, &vertex) in self.leftmost.iter().enumerate() {
-            match self.below.edge(i).map(|edge| map.arc_of(edge, vertex)) {
+            match self.below.edge(i).map(|edge| map.sub_edge_of(edge, vertex)) {
                 None => self.outermost.push(vertex),
-                Some((arc, left)) => {
-                    self.labels[arc as usize].0 |= Label::HUNG;
-                    self.hung.push(NestedComponent { arc, left, vertex });
+                Some((sub_edge, left)) => {
+                    self.labels[sub_edge as usize].0 |= Label::HAS_NESTED;
+                    self.nested.push(NestedComponent { sub_edge, left, vertex });
                 }
             }
         }
-        self.hung.sort_unstable();
+        self.nested.sort_unstable();
     }
 }

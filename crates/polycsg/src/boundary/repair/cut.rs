@@ -21,14 +21,14 @@ impl Repair {
     pub(super) fn cut(
         &mut self,
         rounded: Rounded<'_>,
-        suspects: &ClosePairs,
+        close_pairs: &ClosePairs,
         slabs: &mut SlabDecomposition,
         outline: &mut Outline,
     ) {
         rounded.list_parts(None, &mut self.parts);
         rounded.round(&self.parts, &mut self.fragments);
         let (mut may_coincide, mut overlap) = (false, false);
-        let mut near = self.near_suspects(suspects);
+        let mut near = self.near_close_pairs(close_pairs);
         loop {
             self.find_alike(&mut near);
             self.find_conflicts(slabs);
@@ -53,13 +53,13 @@ impl Repair {
     }
 
     /// What is near the fragments of suspected edges.
-    fn near_suspects(&self, suspects: &ClosePairs) -> Near {
-        if suspects.all() {
+    fn near_close_pairs(&self, close_pairs: &ClosePairs) -> Near {
+        if close_pairs.all() {
             return Near::everything();
         }
         let Repair { edges, fragments, .. } = self;
-        let is_suspected = |fragment: &&Fragment| edges.binary_search(&fragment.edge).is_ok();
-        Near::to(fragments.iter().filter(is_suspected).map(|fragment| fragment.segment))
+        let is_close = |fragment: &&Fragment| edges.binary_search(&fragment.edge).is_ok();
+        Near::to(fragments.iter().filter(is_close).map(|fragment| fragment.segment))
     }
 
     /// Groups the fragments with the same ends, of those near some place; any that rounding shrank to a point are left out.

@@ -57,14 +57,14 @@ impl Repair {
     pub(crate) fn outline<'o>(
         &mut self,
         rounded: Rounded<'_>,
-        suspects: &ClosePairs,
+        close_pairs: &ClosePairs,
         slabs: &mut SlabDecomposition,
         outline: &'o mut Outline,
     ) -> &'o Outline {
-        if self.is_sound(rounded, suspects, slabs) {
+        if self.is_sound(rounded, close_pairs, slabs) {
             outline.take(rounded.edges, rounded.contacts, rounded.selection);
         } else {
-            self.cut(rounded, suspects, slabs, outline);
+            self.cut(rounded, close_pairs, slabs, outline);
         }
         outline
     }

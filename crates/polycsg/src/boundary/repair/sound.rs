@@ -16,26 +16,27 @@ impl Repair {
     pub(super) fn is_sound(
         &mut self,
         rounded: Rounded<'_>,
-        suspects: &ClosePairs,
+        close_pairs: &ClosePairs,
         slabs: &mut SlabDecomposition,
     ) -> bool {
-        if suspects.all() {
+        if close_pairs.all() {
             return self.is_sound_throughout(rounded, slabs);
         }
-        if suspects.pairs().is_empty() {
+        if close_pairs.pairs().is_empty() {
             debug_assert!(self.is_sound_throughout(rounded, slabs));
             return true;
         }
-        let sound =
-            self.are_all_sound(rounded, suspects).unwrap_or_else(|| self.is_sound_throughout(rounded, slabs));
+        let sound = self
+            .are_all_sound(rounded, close_pairs)
+            .unwrap_or_else(|| self.is_sound_throughout(rounded, slabs));
         debug_assert!(!sound || self.is_sound_throughout(rounded, slabs));
         sound
     }
 
     /// Whether all suspected pairs of edges are sound; none where their fragments are too many to compare each with each.
-    fn are_all_sound(&mut self, rounded: Rounded<'_>, suspects: &ClosePairs) -> Option<bool> {
+    fn are_all_sound(&mut self, rounded: Rounded<'_>, close_pairs: &ClosePairs) -> Option<bool> {
         self.edges.clear();
-        self.edges.extend(suspects.pairs().iter().flatten());
+        self.edges.extend(close_pairs.pairs().iter().flatten());
         self.edges.sort_unstable();
         self.edges.dedup();
         rounded.list_parts(Some(&self.edges), &mut self.parts);
@@ -48,7 +49,7 @@ impl Repair {
             &fragments[start..start + count]
         };
         let count = |&[e, f]: &[u32; 2]| of_edge(e).len() * of_edge(f).len();
-        if suspects.pairs().iter().map(count).sum::<usize>() > PAIRS * suspects.pairs().len() {
+        if close_pairs.pairs().iter().map(count).sum::<usize>() > PAIRS * close_pairs.pairs().len() {
             return None;
         }
         let collapsed = fragments.iter().any(|f| f.segment[0] == f.segment[1]);
@@ -57,7 +58,7 @@ impl Repair {
                 .iter()
                 .all(|f0| of_edge(f).iter().all(|f1| !(f0.moved || f1.moved) || are_sound(f0, f1)))
         };
-        Some(!collapsed && suspects.pairs().iter().all(sound))
+        Some(!collapsed && close_pairs.pairs().iter().all(sound))
     }
 
     /// Whether no two fragments at all meet but in common vertices: the law behind [`is_sound`](Repair::is_sound).
@@ -77,7 +78,7 @@ impl Repair {
             let first = place.next().map(vertex);
             place.all(|end| Some(vertex(end)) == first)
         });
-        let mut sound = one_vertex && slabs.copies().next().is_none();
+        let mut sound = one_vertex && slabs.duplicates().next().is_none();
         if sound {
             slabs.pairs(|i, j| sound = sound && are_sound(&fragments[i as usize], &fragments[j as usize]));
         }

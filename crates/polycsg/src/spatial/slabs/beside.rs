@@ -48,7 +48,7 @@ impl SlabDecomposition {
     /// false when there are too many.
     pub(crate) fn ends_beside_ends(&mut self, distance: f64, mut visit: impl FnMut(u32, u32)) -> bool {
         let height = (1.0 + 2.0 * STEEP) * distance;
-        let mut left = ENDS_PER_EDGE * self.bars.len();
+        let mut left = ENDS_PER_EDGE * self.segments.len();
         let mut by_height = std::mem::take(&mut self.by_height);
         let y = |rank: u32| self.ends[rank as usize].y;
         let (mut first, mut is_in_time) = (0, true);
@@ -74,20 +74,20 @@ impl SlabDecomposition {
 
     /// Calls `visit` for steep edges and points, ends of others, that are not clear of them; false when there are too many.
     pub(crate) fn ends_beside_steep_edges(&self, margins: Margins, mut visit: impl FnMut(u32, u32)) -> bool {
-        let mut left = ENDS_PER_EDGE * self.bars.len();
-        for &bar in &self.bars {
-            let [a, b] = self.segment(bar);
+        let mut left = ENDS_PER_EDGE * self.segments.len();
+        for &segment in &self.segments {
+            let [a, b] = self.ends_of(segment);
             if (b.y - a.y).abs() / STEEP <= b.x - a.x {
                 continue;
             }
-            let ranks = self.ranks_beside(bar, margins.close);
+            let ranks = self.ranks_beside(segment, margins.close);
             let Some(fewer) = left.checked_sub(ranks.len()) else { return false };
             left = fewer;
             let (low, high) = (a.y.min(b.y) - margins.close, a.y.max(b.y) + margins.close);
-            for rank in ranks.filter(|rank| !bar.ranks.contains(rank)) {
+            for rank in ranks.filter(|rank| !segment.ranks.contains(rank)) {
                 let p = self.ends[rank as usize];
                 if low <= p.y && p.y <= high && !margins.is_apart([a, b], doubled_area(a, b, p)) {
-                    self.points_at(rank).for_each(|point| visit(bar.id, point));
+                    self.points_at(rank).for_each(|point| visit(segment.id, point));
                 }
             }
         }
@@ -95,8 +95,8 @@ impl SlabDecomposition {
     }
 
     /// The ends over an edge's range of abscissae, widened.
-    fn ranks_beside(&self, bar: RankedSegment, distance: f64) -> Range<u32> {
-        let [left, right] = self.segment(bar).map(|end| end.x);
+    fn ranks_beside(&self, segment: RankedSegment, distance: f64) -> Range<u32> {
+        let [left, right] = self.ends_of(segment).map(|end| end.x);
         let before = |x: f64| self.ends.partition_point(|p| p.x < x);
         index(before(left - distance))..index(before(right + distance))
     }

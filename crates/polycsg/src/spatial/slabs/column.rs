@@ -14,12 +14,12 @@ impl SlabDecomposition {
     pub(super) fn look_into_column(&mut self, slab: Slab, start: usize) {
         let SlabDecomposition { ends, open, .. } = self;
         let is_vertical =
-            |bar: &RankedSegment| ends[bar.ranks[0] as usize].x == ends[bar.ranks[1] as usize].x;
-        let count = open[start..].iter().filter(|bar| is_vertical(bar)).count();
+            |segment: &RankedSegment| ends[segment.ranks[0] as usize].x == ends[segment.ranks[1] as usize].x;
+        let count = open[start..].iter().filter(|segment| is_vertical(segment)).count();
         if count == 0 || self.found.is_over() {
             return;
         }
-        open[start..].sort_unstable_by_key(|bar| (!is_vertical(bar), bar.ranks, bar.id));
+        open[start..].sort_unstable_by_key(|segment| (!is_vertical(segment), segment.ranks, segment.id));
         let others = start + count;
         self.sort_keys(slab, others);
         for i in start..others {
@@ -33,9 +33,9 @@ impl SlabDecomposition {
         let mut keys = std::mem::take(&mut self.keys);
         keys.clear();
         keys.extend((start..self.open.len()).zip(index(start)..).map(|(i, place)| {
-            let bar = self.open[i];
-            let rank = slab[0].clamp(bar.ranks[0], bar.ranks[1]);
-            (self.height(bar.ranks, self.line(bar, slab), rank), place)
+            let segment = self.open[i];
+            let rank = slab[0].clamp(segment.ranks[0], segment.ranks[1]);
+            (self.height(segment.ranks, self.line(segment, slab), rank), place)
         }));
         keys.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let order = self.order();
@@ -58,8 +58,8 @@ impl SlabDecomposition {
     fn compare_vertical(&mut self, i: usize, others: usize) {
         let order = Order { ends: &self.ends, slack: self.slack, is_exact: self.reach == 0.0 };
         let SlabDecomposition { open, keys, found, slack, .. } = self;
-        let bar = open[i];
-        let ends = bar.ranks.map(|rank| (rank, order.ends[rank as usize].y));
+        let segment = open[i];
+        let ends = segment.ranks.map(|rank| (rank, order.ends[rank as usize].y));
         let to_end = |key: &(f64, u32), (rank, y): (u32, f64)| {
             let is_tied = (key.0 - y).abs() <= *slack;
             match (is_tied, order.is_exact) {
@@ -68,11 +68,11 @@ impl SlabDecomposition {
                 (true, true) => order.to_point(open[key.1 as usize], rank),
             }
         };
-        let upright = open[i + 1..others].iter().take_while(|other| other.ranks[0] < bar.ranks[1]);
+        let upright = open[i + 1..others].iter().take_while(|other| other.ranks[0] < segment.ranks[1]);
         let first = keys.partition_point(|key| to_end(key, ends[0]).is_lt());
         let level = keys[first..].iter().take_while(|key| to_end(key, ends[1]).is_le());
         let level = level.map(|key| &open[key.1 as usize]);
-        let level = level.filter(|other| other.ranks.iter().all(|rank| !bar.ranks.contains(rank)));
-        found.add(upright.chain(level).map(|other| [bar.id, other.id]), false);
+        let level = level.filter(|other| other.ranks.iter().all(|rank| !segment.ranks.contains(rank)));
+        found.add(upright.chain(level).map(|other| [segment.id, other.id]), false);
     }
 }

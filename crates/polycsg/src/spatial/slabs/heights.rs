@@ -6,8 +6,8 @@ use glam::DVec2;
 
 impl SlabDecomposition {
     #[inline]
-    pub(super) fn line(&self, bar: RankedSegment, slab: Slab) -> Line {
-        let [a, b] = self.segment(bar);
+    pub(super) fn line(&self, segment: RankedSegment, slab: Slab) -> Line {
+        let [a, b] = self.ends_of(segment);
         let [left, right] = slab.map(|rank| self.ends[rank as usize].x);
         let is_right_end = b.x - right < left - a.x;
         Line {
@@ -28,7 +28,7 @@ impl SlabDecomposition {
     /// The same, for a rank between the edge's ends.
     #[inline]
     pub(super) fn height_inside(&self, span: &SpanningSegment, rank: u32) -> f64 {
-        self.height_at(span.bar.ranks, span.line, self.ends[rank as usize])
+        self.height_at(span.segment.ranks, span.line, self.ends[rank as usize])
     }
 
     /// The slope is wrong by 3u of itself, its product by 5u, which is 10u times the larger height at most, and the sum by

@@ -1,19 +1,19 @@
 //! An index over edges for inputs where boxes tell nothing: long edges beside one another.
 //!
 //! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), cut in three again
-//! and again. In the widest slabs that it crosses from side to side, an edge *spans*:
+//! and again. In the widest slabs that it crosses from side to side, an edge *spanning segments*:
 //!
 //! ```text
-//!    slab            a, b, d, c span and do not meet: they are the slab's rungs, in one order at both sides.
-//!   |      d_|__     e spans and crosses: it is compared with the rungs that it has between its two heights,
+//!    slab            a, b, d, c span and do not meet: they are the slab's stairs, in one order at both sides.
+//!   |      d_|__     e spanning segments and crosses: it is compared with the stairs that it has between its two heights,
 //!   |_c__----|-      and handed on to the parts of the slab for what else it may meet.
-//!  _|--  _f /|       f ends here: it is compared with the rungs between its heights where it enters and where it
+//!  _|--  _f /|       f ends here: it is compared with the stairs between its heights where it enters and where it
 //!   |b__/__/_|__     ends, and handed on likewise.
 //!  _|__a__/__|__
 //!   |    e   |       So an edge costs O(log n) in each of O(log n) slabs, and each crossing O(log n) at most.
 //! ```
 //!
-//! Edges on the line of a rung *follow* it: whatever meets the rung is compared with them too, and like the rung they are
+//! Edges on the line of a stair *follow* it: whatever meets the stair is compared with them too, and like the stair they are
 //! not handed on. Otherwise edges that coincide would be compared in every slab.
 //!
 //! Heights are floats with a bound on their error. Where they do not tell two edges apart, the sides of their ends do, so
@@ -22,7 +22,7 @@
 //! no more than other edges.
 //!
 //! When asked for what comes near one another without meeting, there is no such order: edges within the error, which is
-//! widened then, are reported, and those that are as near to a rung from side to side follow it.
+//! widened then, are reported, and those that are as near to a stair from side to side follow it.
 
 mod beside;
 mod column;
@@ -52,7 +52,7 @@ const NEAR: usize = 64;
 /// Coordinates between this and its inverse have slopes.
 const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
 
-/// `64u`, see [`SlabDecomposition::height`]: rungs keep their computed order between the slab's sides, too.
+/// `64u`, see [`SlabDecomposition::height`]: stairs keep their computed order between the slab's sides, too.
 const SLACK: f64 = 64.0 * (f64::EPSILON / 2.0);
 
 /// See the module's page.
@@ -63,9 +63,9 @@ pub(crate) struct SlabDecomposition {
     sorted: Vec<(DVec2, u32)>,
     /// Per point its rank.
     ranks: Vec<u32>,
-    /// The edges, those with the same ends one after the other; `bars` has the first of each kind.
+    /// The edges, those with the same ends one after the other; `segments` has the first of each kind.
     all: Vec<RankedSegment>,
-    bars: Vec<RankedSegment>,
+    segments: Vec<RankedSegment>,
     /// Two heights that differ by more differ.
     error: f64,
     /// The same, or more where edges are reported that come near one another.
@@ -74,22 +74,22 @@ pub(crate) struct SlabDecomposition {
     reach: f64,
     /// Whether all coordinates lie where slopes neither overflow nor lose bits.
     has_slopes: bool,
-    /// The edges of the slab at hand, of its half at hand, and so on, with their places in `bars` for ids.
+    /// The edges of the slab at hand, of its half at hand, and so on, with their places in `segments` for ids.
     open: Vec<RankedSegment>,
-    spans: Vec<SpanningSegment>,
-    rungs: Vec<SpanningSegment>,
-    /// The spans' heights at the left side and their places.
+    spanning: Vec<SpanningSegment>,
+    stairs: Vec<SpanningSegment>,
+    /// The spanning segments' heights at the left side and their places.
     keys: Vec<(f64, u32)>,
-    /// The spans that follow a rung, by its place.
-    followers: Vec<(usize, RankedSegment)>,
-    /// Per rung where those end that come after it and share its left end, and its right one.
+    /// The spanning segments that follow a stair, by its place.
+    coincident: Vec<(usize, RankedSegment)>,
+    /// Per stair where those end that come after it and share its left end, and its right one.
     fans: Vec<[u32; 2]>,
     tops: Vec<u32>,
     before: Vec<u32>,
     found: Found,
     /// Ranks of neighbouring abscissae.
     by_height: Vec<u32>,
-    /// Points by rank, and of each one the bar found below it.
+    /// Points by rank, and of each one the segment found below it.
     queries: Vec<(u32, u32)>,
     nearest: Vec<u32>,
 }
@@ -102,15 +102,15 @@ impl SlabDecomposition {
         edges: impl Iterator<Item = (u32, [u32; 2])>,
     ) {
         self.rank(points);
-        let bar = |(id, ends): (u32, [u32; 2])| {
+        let segment = |(id, ends): (u32, [u32; 2])| {
             let [a, b] = ends.map(|point| self.ranks[point as usize]);
             RankedSegment { ranks: [a.min(b), a.max(b)], id }
         };
         self.all.clear();
-        self.all.extend(edges.map(bar).filter(|bar| bar.ranks[0] < bar.ranks[1]));
-        self.all.sort_unstable_by_key(|bar| (bar.ranks, bar.id));
-        self.bars.clear();
-        self.bars.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
+        self.all.extend(edges.map(segment).filter(|segment| segment.ranks[0] < segment.ranks[1]));
+        self.all.sort_unstable_by_key(|segment| (segment.ranks, segment.id));
+        self.segments.clear();
+        self.segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
         self.error = highest * SLACK + f64::MIN_POSITIVE;
         self.narrow();
@@ -139,9 +139,9 @@ impl SlabDecomposition {
     }
 
     /// The edges that have both ends in common with another one before them, with the first such.
-    pub(crate) fn copies(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+    pub(crate) fn duplicates(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let same = self.all.chunk_by(|a, b| a.ranks == b.ranks);
-        same.flat_map(|same| same[1..].iter().map(|bar| [same[0].id, bar.id]))
+        same.flat_map(|same| same[1..].iter().map(|segment| [same[0].id, segment.id]))
     }
 
     /// Calls `visit` once for each pair of edges that may meet but in one common end or both, by their ids; of edges with
@@ -153,25 +153,25 @@ impl SlabDecomposition {
 
     /// The same for the pairs that were found.
     pub(crate) fn visit(&self, mut visit: impl FnMut(u32, u32)) {
-        for bars in self.found.pairs() {
-            let [e, f] = bars.map(|bar| self.copies_of(bar));
+        for segments in self.found.pairs() {
+            let [e, f] = segments.map(|segment| self.duplicates_of(segment));
             visit(self.all[e.start].id, self.all[f.start].id);
             f.clone().skip(1).for_each(|g| visit(self.all[e.start].id, self.all[g].id));
             e.skip(1).for_each(|g| visit(self.all[g].id, self.all[f.start].id));
         }
     }
 
-    /// The places in `all` of the edges that a bar stands for.
-    fn copies_of(&self, bar: u32) -> Range<usize> {
-        let ranks = self.bars[bar as usize].ranks;
-        let start = self.all.partition_point(|bar| bar.ranks < ranks);
-        start..start + self.all[start..].iter().take_while(|bar| bar.ranks == ranks).count()
+    /// The places in `all` of the edges that a segment stands for.
+    fn duplicates_of(&self, segment: u32) -> Range<usize> {
+        let ranks = self.segments[segment as usize].ranks;
+        let start = self.all.partition_point(|segment| segment.ranks < ranks);
+        start..start + self.all[start..].iter().take_while(|segment| segment.ranks == ranks).count()
     }
 
     /// Finds the pairs; false, with nothing to visit, when there are more than so many, or too many that only come near one
     /// another.
     pub(crate) fn find(&mut self, most: usize) -> bool {
-        let near = if self.reach > 0.0 { NEAR * self.bars.len() } else { usize::MAX };
+        let near = if self.reach > 0.0 { NEAR * self.segments.len() } else { usize::MAX };
         self.found.start(most, near);
         if let Some(slab) = self.open_all() {
             self.look_into(slab, 0);
@@ -179,10 +179,10 @@ impl SlabDecomposition {
         !self.found.count()
     }
 
-    /// Opens all edges, under their places in `bars`, in the slab of all ends, if there are any.
+    /// Opens all edges, under their places in `segments`, in the slab of all ends, if there are any.
     fn open_all(&mut self) -> Option<Slab> {
         self.open.clear();
-        self.open.extend(self.bars.iter().zip(0..).map(|(bar, id)| RankedSegment { id, ..*bar }));
+        self.open.extend(self.segments.iter().zip(0..).map(|(segment, id)| RankedSegment { id, ..*segment }));
         index(self.ends.len()).checked_sub(1).map(|last| [0, last])
     }
 
@@ -192,23 +192,23 @@ impl SlabDecomposition {
             self.look_into_column(slab, start);
             return self.open.truncate(start);
         }
-        self.sort_out_spans(slab, start);
-        while !self.spans.is_empty() {
+        self.sort_out_spanning(slab, start);
+        while !self.spanning.is_empty() {
             if self.found.is_over() {
-                self.spans.clear();
+                self.spanning.clear();
                 break;
             }
-            self.choose_rungs(slab);
-            self.sort_out_followers(slab);
-            self.compare_followers(slab);
-            for i in 0..self.spans.len() {
-                self.compare(self.spans[i].bar, slab, true);
+            self.choose_stairs(slab);
+            self.sort_out_coincident(slab);
+            self.compare_coincident(slab);
+            for i in 0..self.spanning.len() {
+                self.compare(self.spanning[i].segment, slab, true);
             }
             for i in start..self.open.len() {
                 self.compare(self.open[i], slab, true);
             }
             if slab[1] - slab[0] > 1 {
-                self.open.extend(self.spans.drain(..).map(|span| span.bar));
+                self.open.extend(self.spanning.drain(..).map(|span| span.segment));
             }
         }
         let end = self.open.len();
@@ -226,9 +226,9 @@ impl SlabDecomposition {
     /// Opens those of some open edges once more that have more than a point in a half of their slab.
     fn open_again(&mut self, half: Slab, open: Range<usize>) {
         for i in open {
-            let bar = self.open[i];
-            if bar.ranks[0] < half[1] && bar.ranks[1] > half[0] {
-                self.open.push(bar);
+            let segment = self.open[i];
+            if segment.ranks[0] < half[1] && segment.ranks[1] > half[0] {
+                self.open.push(segment);
             }
         }
     }
@@ -247,8 +247,8 @@ impl SlabDecomposition {
 
     /// An edge, directed to the right.
     #[inline]
-    fn segment(&self, bar: RankedSegment) -> Segment {
-        bar.ranks.map(|rank| self.ends[rank as usize])
+    fn ends_of(&self, segment: RankedSegment) -> Segment {
+        segment.ranks.map(|rank| self.ends[rank as usize])
     }
 
     fn may_meet(&self, e: RankedSegment, f: RankedSegment, slab: Slab) -> bool {
@@ -275,8 +275,8 @@ impl SlabDecomposition {
     /// Whether of two edges with a common end, one of them given by its other end, both are on one line, or as close
     /// together as asked for.
     #[cold]
-    fn may_run_together(&self, bar: RankedSegment, end: u32) -> bool {
-        let [a, b] = self.segment(bar);
+    fn may_run_together(&self, segment: RankedSegment, end: u32) -> bool {
+        let [a, b] = self.ends_of(segment);
         self.reach > 0.0 || side(a, b, self.ends[end as usize]) == Side::On
     }
 }

@@ -14,24 +14,25 @@ pub(super) struct Order<'a> {
 }
 
 impl Order<'_> {
-    /// The order of two spans at a slab's left side, and where they meet there, at its right one.
+    /// The order of two spanning segments at a slab's left side, and where they meet there, at its right one.
     pub(super) fn compare(&self, a: &SpanningSegment, b: &SpanningSegment, slab: Slab) -> Ordering {
         let [low, high] = [a, b].map(|span| span.heights[0]);
         if (low - high).abs() > self.slack {
             return low.total_cmp(&high);
         }
-        let [left, right] = slab.map(|rank| move || self.at(a.bar, b.bar, rank));
-        left().then_with(right).then(a.bar.id.cmp(&b.bar.id))
+        let [left, right] = slab.map(|rank| move || self.at(a.segment, b.segment, rank));
+        left().then_with(right).then(a.segment.id.cmp(&b.segment.id))
     }
 
     /// Whether a span lies below another one at a side of their slab, or may do so and shares its end there or beyond.
     #[inline]
     pub(super) fn is_below(&self, a: &SpanningSegment, b: &SpanningSegment, side: usize, slab: Slab) -> bool {
         let (low, high) = (a.heights[side], b.heights[side]);
-        low + self.slack < high || (low <= high + self.slack && self.is_just_below(a.bar, b.bar, side, slab))
+        low + self.slack < high
+            || (low <= high + self.slack && self.is_just_below(a.segment, b.segment, side, slab))
     }
 
-    /// The same of spans that heights do not tell apart. Where they share an end, their order is that at their other ends.
+    /// The same of spanning segments that heights do not tell apart. Where they share an end, their order is that at their other ends.
     fn is_just_below(&self, a: RankedSegment, b: RankedSegment, side: usize, slab: Slab) -> bool {
         let shares = |side: usize| a.ranks[side] == b.ranks[side];
         shares(side)
@@ -52,7 +53,7 @@ impl Order<'_> {
         let last = if is_first { Ordering::Equal } else { self.at_end(a, b, 1) };
         let differ = first == last.reverse() && first != Ordering::Equal;
         if differ {
-            let [e, f] = [a, b].map(|bar| self.segment(bar));
+            let [e, f] = [a, b].map(|segment| self.ends_of(segment));
             return match crossing_x_order(e, f, x) {
                 Ordering::Less => last,
                 Ordering::Equal => Ordering::Equal,
@@ -64,7 +65,7 @@ impl Order<'_> {
 
     /// The order of two edges where the later one starts, or the earlier one ends.
     fn at_end(&self, a: RankedSegment, b: RankedSegment, side: usize) -> Ordering {
-        let [own, other] = [a, b].map(|bar| bar.ranks[side]);
+        let [own, other] = [a, b].map(|segment| segment.ranks[side]);
         match (own == other, (own < other) == (side == 0)) {
             (true, _) => Ordering::Equal,
             (_, true) => self.to_point(a, other),
@@ -73,8 +74,8 @@ impl Order<'_> {
     }
 
     /// Whether an edge goes below a point, through it or above it.
-    pub(super) fn to_point(&self, bar: RankedSegment, rank: u32) -> Ordering {
-        let [a, b] = self.segment(bar);
+    pub(super) fn to_point(&self, segment: RankedSegment, rank: u32) -> Ordering {
+        let [a, b] = self.ends_of(segment);
         match side(a, b, self.ends[rank as usize]) {
             Side::Left => Ordering::Less,
             Side::On => Ordering::Equal,
@@ -82,7 +83,7 @@ impl Order<'_> {
         }
     }
 
-    fn segment(&self, bar: RankedSegment) -> Segment {
-        bar.ranks.map(|rank| self.ends[rank as usize])
+    fn ends_of(&self, segment: RankedSegment) -> Segment {
+        segment.ranks.map(|rank| self.ends[rank as usize])
     }
 }

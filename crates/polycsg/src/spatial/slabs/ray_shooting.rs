@@ -20,7 +20,7 @@ impl SlabDecomposition {
             self.look_down(slab, 0, 0..self.queries.len());
         }
         found.clear();
-        let id = |&bar: &u32| self.bars.get(bar as usize).map(|bar| bar.id);
+        let id = |&segment: &u32| self.segments.get(segment as usize).map(|segment| segment.id);
         found.extend(self.nearest.iter().map(id));
     }
 
@@ -32,12 +32,12 @@ impl SlabDecomposition {
         if queries.is_empty() {
             return self.open.truncate(start);
         }
-        self.sort_out_spans(slab, start);
-        while !self.spans.is_empty() {
-            self.choose_rungs(slab);
-            queries.clone().for_each(|query| self.look_at_rungs(query, slab));
+        self.sort_out_spanning(slab, start);
+        while !self.spanning.is_empty() {
+            self.choose_stairs(slab);
+            queries.clone().for_each(|query| self.look_at_stairs(query, slab));
             if slab[1] - slab[0] > 1 {
-                self.open.extend(self.spans.drain(..).map(|span| span.bar));
+                self.open.extend(self.spanning.drain(..).map(|span| span.segment));
             }
         }
         let end = self.open.len();
@@ -56,38 +56,38 @@ impl SlabDecomposition {
         self.open.truncate(start);
     }
 
-    /// Takes the highest rung below a query.
-    fn look_at_rungs(&mut self, query: usize, slab: Slab) {
+    /// Takes the highest stair below a query.
+    fn look_at_stairs(&mut self, query: usize, slab: Slab) {
         let rank = self.queries[query].0;
         let p = self.ends[rank as usize];
-        let at = |rung: &SpanningSegment| {
-            if rank == slab[0] { rung.heights[0] } else { self.height_inside(rung, rank) }
+        let at = |stair: &SpanningSegment| {
+            if rank == slab[0] { stair.heights[0] } else { self.height_inside(stair, rank) }
         };
-        let first = self.rungs.partition_point(|rung| at(rung) + self.slack < p.y);
-        let near = &self.rungs[first..];
-        let near = &near[..near.partition_point(|rung| at(rung) <= p.y + self.slack)];
-        let below = first + near.partition_point(|rung| self.is_below(rung.bar, p));
+        let first = self.stairs.partition_point(|stair| at(stair) + self.slack < p.y);
+        let near = &self.stairs[first..];
+        let near = &near[..near.partition_point(|stair| at(stair) <= p.y + self.slack)];
+        let below = first + near.partition_point(|stair| self.is_below(stair.segment, p));
         if let Some(place) = below.checked_sub(1) {
-            self.look_at(query, self.rungs[place].bar);
+            self.look_at(query, self.stairs[place].segment);
         }
     }
 
-    fn is_below(&self, bar: RankedSegment, p: DVec2) -> bool {
-        let [a, b] = self.segment(bar);
+    fn is_below(&self, segment: RankedSegment, p: DVec2) -> bool {
+        let [a, b] = self.ends_of(segment);
         side(a, b, p) == Side::Left
     }
 
     /// Takes an edge if it is below a query, and higher than what was found.
-    fn look_at(&mut self, query: usize, bar: RankedSegment) {
+    fn look_at(&mut self, query: usize, segment: RankedSegment) {
         let (rank, place) = self.queries[query];
         let p = self.ends[rank as usize];
-        if bar.ranks[0] < rank && rank < bar.ranks[1] && self.is_below(bar, p) {
-            let before = self.bars.get(self.nearest[place as usize] as usize);
+        if segment.ranks[0] < rank && rank < segment.ranks[1] && self.is_below(segment, p) {
+            let before = self.segments.get(self.nearest[place as usize] as usize);
             let is_higher = |before: &RankedSegment| {
-                height_order(self.segment(bar), self.segment(*before), p.x) == Ordering::Greater
+                height_order(self.ends_of(segment), self.ends_of(*before), p.x) == Ordering::Greater
             };
             if before.is_none_or(is_higher) {
-                self.nearest[place as usize] = bar.id;
+                self.nearest[place as usize] = segment.id;
             }
         }
     }

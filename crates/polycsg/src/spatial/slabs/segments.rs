@@ -24,7 +24,7 @@ impl RankedSegment {
     /// edges apart.
     #[inline]
     pub(super) fn meets(self, other: RankedSegment, ends: &[DVec2], reach: f64) -> bool {
-        let [[a, b], [c, d]] = [self, other].map(|bar| bar.ranks.map(|rank| ends[rank as usize]));
+        let [[a, b], [c, d]] = [self, other].map(|segment| segment.ranks.map(|rank| ends[rank as usize]));
         let (low, high) = (a.min(b) - reach, a.max(b) + reach);
         low.cmple(c.max(d)).all() && high.cmpge(c.min(d)).all()
     }
@@ -53,7 +53,7 @@ impl Line {
 pub(super) struct SpanningSegment {
     pub(super) heights: [f64; 2],
     pub(super) line: Line,
-    pub(super) bar: RankedSegment,
+    pub(super) segment: RankedSegment,
 }
 
 /// A slab cut at some of its ends, as evenly as may be.
