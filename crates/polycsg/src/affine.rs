@@ -6,19 +6,20 @@ use crate::region::Region;
 use glam::{DAffine2, DVec2};
 
 impl Region {
-    /// The region mapped by an affine map: moved, turned, scaled, sheared, mirrored.
+    /// The region under an affine map: moved, turned, scaled, sheared or mirrored.
     ///
-    /// Each vertex is mapped in floating point: a coordinate a x + b y + t within 2^-51 (|a x| + |b y| + |t|) of the exact
-    /// one. What the vertices so rounded bound is then evaluated exactly, so that the result is valid whatever rounding
-    /// did; where edges came to meet, crossings are vertices, and what shrank to nothing is gone. Nothing is rounded, and the
-    /// result is the exact image, under powers of two (but for what leaves the range), mirrors, quarter turns
-    /// given by exact zeros and ones (not by a sine of π/2), and translations whose sums are doubles.
+    /// Each vertex is mapped in floating point: each coordinate a x + b y + t is within 2^-51 (|a x| + |b y| + |t|) of the
+    /// exact one. The region that these vertices bound is then evaluated exactly, so that the result is valid whatever
+    /// rounding did. Where rounding made edges cross, crossings become vertices; parts that shrank to nothing are gone.
+    ///
+    /// Nothing is rounded, and the result is the exact image, under scaling by powers of two within the range, mirrors,
+    /// quarter turns given by exact zeros and ones (not by a sine of π/2), and translations whose sums are doubles.
     ///
     /// Expected O(n log n).
     ///
     /// # Errors
-    /// [`Error::NonFinite`] where a mapped vertex leaves the range or the map holds a NaN or an infinity; it names the ring
-    /// in the order of [`rings`](Region::rings), and its vertex.
+    /// [`Error::NonFinite`] when a mapped vertex leaves the range, or when the map holds a NaN or an infinity. It names the ring
+    /// in the order of [`rings`](Region::rings), and the vertex.
     ///
     /// ```
     /// use polycsg::{DVec2, FillRule, Region, glam::DAffine2};

@@ -6,10 +6,10 @@ use crate::region::Region;
 use rayon::prelude::*;
 
 impl Csg<'_> {
-    /// The sets of many expressions, each a job of its own, on the threads of rayon's current pool.
+    /// Evaluates many expressions on the threads of rayon's current pool.
     ///
-    /// Bit for bit what [`evaluate`](Csg::evaluate) yields for each, in the order given, for any number of threads. Buffers
-    /// are reused from job to job. Needs the feature `rayon`.
+    /// The regions stand in the order of the jobs, and each is bit for bit what [`evaluate`](Csg::evaluate) returns, for any
+    /// number of threads. Buffers are reused from job to job. Needs the feature `rayon`.
     ///
     /// ```
     /// use polycsg::{Csg, FillRule, Region};

@@ -12,24 +12,24 @@ use crate::region::Region;
 use crate::region::membership::Membership;
 use glam::DVec2;
 
-/// A piece of a classified segment between neighbouring contacts with the region's boundary.
+/// A part of a classified segment, between neighbouring contacts with the region's boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Where it starts, rounded if it is a crossing.
     pub start: DVec2,
     /// Where it ends.
     pub end: DVec2,
-    /// How the region lies beside it, in the segment's direction.
+    /// Which of its sides lie in the region, in the segment's direction.
     pub membership: Membership,
 }
 
-/// Cuts a directed segment where it meets the region's boundary and tells the membership of each interval.
+/// Cuts a directed segment where it meets the region's boundary, and returns the membership of each interval.
 ///
-/// Exact: intervals are cut at every contact, and their order and membership are right even where rounding makes
-/// an interval's ends equal. A segment of no length has no intervals. O(n) expected, plus sorting.
+/// The result is exact: the segment is cut at every contact, and the order and membership of the intervals are right even
+/// where rounding makes an interval's ends equal. A segment of no length has no intervals. Expected O(n), plus sorting.
 ///
 /// # Errors
-/// [`Error::NonFinite`] with ring 0 when an end of the segment has a NaN or an infinity.
+/// [`Error::NonFinite`], with ring 0, when an end of the segment has a NaN or an infinity.
 ///
 /// ```
 /// use polycsg::{DVec2, FillRule, Membership, Region, classify};

@@ -1,4 +1,4 @@
-//! What can be wrong with input, and how much of it there can be.
+//! The errors of this crate.
 use std::fmt;
 
 /// Why rings or an evaluation were refused.
@@ -7,14 +7,15 @@ use std::fmt;
 pub enum Error {
     /// A coordinate is NaN or infinite.
     NonFinite {
-        /// Index of the ring, in the order given.
+        /// The index of the ring, in the order given.
         ring: usize,
-        /// Index of the vertex within that ring.
+        /// The index of the vertex within that ring.
         vertex: usize,
     },
-    /// The operands' edges meet more often than [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with) may count.
+    /// The operands' edges meet more often than the call to
+    /// [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with) allows.
     TooManyContacts {
-        /// The limit that the call gave.
+        /// The limit of that call.
         limit: usize,
     },
 }

@@ -17,20 +17,19 @@ impl Csg<'_> {
         self.evaluate_with(&mut Scratch::default())
     }
 
-    /// As [`evaluate`](Csg::evaluate), in buffers that the caller keeps from call to call: for many small jobs.
+    /// Like [`evaluate`](Csg::evaluate), with buffers that the caller keeps from call to call: faster for many small jobs.
     pub fn evaluate_with(&self, scratch: &mut Scratch) -> Region {
         pipeline::region(self, scratch, usize::MAX).expect("no limit was given")
     }
 
-    /// As [`evaluate_with`](Csg::evaluate_with), unless edges meet more than `contacts` times: for operands from strangers, as n
-    /// edges can have n² crossings, and memory goes with them (about 600 bytes for each).
+    /// Like [`evaluate_with`](Csg::evaluate_with), but fails when edges meet more than `contacts` times: for untrusted input.
     ///
-    /// A crossing counts as two contacts, one on each of its edges, a vertex that touches an edge as one. Where many edges
-    /// lie closer to one another than floats can tell, pairs that only nearly meet may count as well. What is counted is
-    /// never stored beyond the limit.
+    /// n edges can have n² crossings, and each takes about 600 bytes. A crossing counts as two contacts, one on each of its
+    /// edges; a vertex that touches an edge counts as one. Where many edges lie closer to one another than floats can tell,
+    /// pairs that nearly meet may count as well. No more than the limit is ever stored.
     ///
     /// # Errors
-    /// [`Error::TooManyContacts`]; the scratch is as good as before.
+    /// [`Error::TooManyContacts`]. The scratch can be used again.
     ///
     /// ```
     /// use polycsg::{Csg, Error, FillRule, Scratch};
@@ -50,8 +49,8 @@ impl Csg<'_> {
 
     /// The directed edges that bound the set, interior to the left, each vertex rounded once.
     ///
-    /// Stops before the check for rounding, the rings and the nesting: for whoever sums over edges, asks for the area
-    /// alone or whether anything is left, or wants to know which operand an edge comes from.
+    /// It is cheaper than a region, as it is not checked for what rounding did, and has no rings and no nesting. Use it to
+    /// sum over edges, for the area alone, to see whether anything is left, or to see which operand an edge comes from.
     ///
     /// ```
     /// use polycsg::{Csg, FillRule, Region, Scratch};
@@ -61,7 +60,7 @@ impl Csg<'_> {
     /// let rest = Csg::from(&a) - Csg::from(&b);
     /// let boundary = rest.boundary(&mut scratch);
     /// assert_eq!((boundary.is_empty(), boundary.area()), (false, 2.0));
-    /// // On the right it is bounded by operand 1, by the edge from that one's point 3 to its point 0.
+    /// // On the right it is bounded by operand 1, by the edge from its point 3 to its point 0.
     /// let right = boundary.edges().find(|edge| edge.start.x == 1.0 && edge.end.x == 1.0).expect("an edge");
     /// assert_eq!((right.operand, right.edge), (1, 3));
     /// # Ok::<(), polycsg::Error>(())
@@ -72,11 +71,11 @@ impl Csg<'_> {
 }
 
 impl Region {
-    /// The set that raw rings mean under a fill rule.
+    /// The region that raw rings enclose under a fill rule.
     ///
     /// The rings may intersect themselves and one another, nest, touch, overlap, have spikes and repeated points (the
-    /// first may be repeated as the last, as in GeoJSON); rings without area add nothing. Anything that yields slices of
-    /// points will do, a point being a `DVec2`, an `[f64; 2]` or an `(f64, f64)`: `Vec<Vec<[f64; 2]>>`, `&[Vec<DVec2>]`,
+    /// first may be repeated as the last, as in GeoJSON). Rings without area add nothing. Anything that yields slices of
+    /// points will do, where a point is a `DVec2`, an `[f64; 2]` or an `(f64, f64)`: `Vec<Vec<[f64; 2]>>`, `&[Vec<DVec2>]`,
     /// `[&[(f64, f64)]; 1]`, … Expected O((n + k) log n) for n edges with k contacts.
     ///
     /// ```
@@ -101,7 +100,8 @@ impl Region {
         Ok(Csg::from_rings(rings, rule)?.evaluate())
     }
 
-    /// A ∪ B. For more than two, see [`Csg::union`]: one call is faster than a chain, and rounds once.
+    /// A ∪ B, all points in at least one of the two. For more operands use [`Csg::union`]: one call is faster than many, and
+    /// rounds once.
     ///
     /// ```
     /// use polycsg::{FillRule, Region};
@@ -117,22 +117,22 @@ impl Region {
         (Csg::from(self) | Csg::from(other)).evaluate()
     }
 
-    /// A ∩ B.
+    /// A ∩ B, all points in both.
     pub fn intersection(&self, other: &Region) -> Region {
         (Csg::from(self) & Csg::from(other)).evaluate()
     }
 
-    /// A − B.
+    /// A − B, all points in this region but not in the other.
     pub fn difference(&self, other: &Region) -> Region {
         (Csg::from(self) - Csg::from(other)).evaluate()
     }
 
-    /// A ⊕ B, what lies in one of the two.
+    /// A ⊕ B, all points in exactly one of the two.
     pub fn symmetric_difference(&self, other: &Region) -> Region {
         (Csg::from(self) ^ Csg::from(other)).evaluate()
     }
 
-    /// The region that these rings bound by their direction, evaluated anew.
+    /// The region that these rings bound by their direction, evaluated again.
     pub(crate) fn evaluated_again(&self) -> Region {
         Csg::positive(self.rings_of().clone()).evaluate_with(&mut Scratch::default())
     }

@@ -1,27 +1,27 @@
 //! Polygon Booleans (2D constructive solid geometry) on plain `f64` coordinates: union, intersection, difference,
-//! symmetric difference, and any expression of them, of any polygons.
+//! symmetric difference, and any expression of them.
 //!
 //! # Definitions
 //!
-//! - A **ring** is a closed chain of points. What raw rings mean is told by a [`FillRule`].
-//! - A **region** ([`Region`]) is a regularised set: the closure of its interior, so without stray edges and points. It is
-//!   a boundary representation: polygons with holes, islands in the holes, and so on.
+//! - A **ring** is a closed chain of points. A [`FillRule`] says which points raw rings enclose.
+//! - A **region** ([`Region`]) is a set of points, stored by its boundary: polygons with holes, islands in the holes, and so
+//!   on. It is regularised: the closure of its interior, so it has no stray edges or points.
 //! - An **edge** is an input segment; **sub-edges** are its pieces between neighbouring contacts.
-//! - The **membership** ([`Membership`]) of a directed sub-edge in a set tells which of its two sides lie inside: IN, OUT,
+//! - The **membership** ([`Membership`]) of a directed sub-edge in a set says which of its two sides lie inside: IN, OUT,
 //!   ON+ (interior to the left) or ON− (interior to the right). A Boolean acts on each side by itself.
-//! - The **boundary** ([`Boundary`]) of a set are the sub-edges that are ON, directed with the interior to the left.
+//! - The **boundary** ([`Boundary`]) of a set consists of the sub-edges that are ON, directed with the interior to the left.
 //!
 //! # Promises
 //!
 //! - *Every topological decision is exact*, for every finite `f64`: subnormal, huge, nearly collinear or thousandfold
 //!   coincident. There is no tolerance and no grid.
 //! - *A result is always valid*: rings are simple and meet one another in common vertices only, outer rings run
-//!   counter-clockwise and holes clockwise, holes and islands are nested rightly. So every operation takes every result.
-//! - *Input vertices that survive come back bit for bit* (`-0.0` as `0.0`). A crossing is rounded once, to nearest;
-//!   where that would make edges meet, they are mended (by moves of the size of that rounding).
+//!   counter-clockwise and holes clockwise, and holes and islands are nested correctly. So every operation takes every result.
+//! - *Input vertices that survive come back bit for bit* (`-0.0` as `0.0`). A crossing is rounded once, to nearest. Where
+//!   that would make edges meet, they are repaired, by moves of the size of that rounding.
 //! - *Results do not depend on* the order of operands and rings, on the ring's direction under the even-odd rule, or on where a
 //!   ring starts.
-//! - NaN and infinity are the only errors, but for a limit that the caller sets.
+//! - NaN and infinity are the only errors, apart from a limit that the caller may set.
 //!
 //! ```
 //! use polycsg::{FillRule, Region};
@@ -38,29 +38,29 @@
 //!
 //! # Which call
 //!
-//! | for | call |
+//! | task | call |
 //! | --- | --- |
 //! | raw rings, made valid | [`Region::from_rings`] |
 //! | two regions | [`Region::union`], [`intersection`](Region::intersection), [`difference`](Region::difference), [`symmetric_difference`](Region::symmetric_difference) |
 //! | many operands, nested expressions, raw rings as operands | [`Csg`], then [`evaluate`](Csg::evaluate) |
 //! | many small jobs | [`Csg::evaluate_with`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
-//! | operands from strangers, who may send more crossings than fit in memory | [`Csg::try_evaluate_with`] |
-//! | the area alone, or whether anything is left; which operand an edge comes from | [`Csg::boundary`] |
+//! | untrusted input, which may have more crossings than fit in memory | [`Csg::try_evaluate_with`] |
+//! | only the area, or whether anything is left; which operand an edge comes from | [`Csg::boundary`] |
 //! | where a point lies, how a segment lies | [`Region::locate`], [`classify`] |
 //! | moved, turned, scaled, mirrored | [`Region::map_affine`] |
 //! | triangles | `Region::triangulate` |
 //! | files and other crates | the features `serde` and `geo-types` |
 //!
-//! Not here: tolerances that clean dirty input, curves, offsets.
+//! The crate has no curves, no offsets, and no tolerances that clean dirty input.
 //!
 //! # How it works
 //!
 #![doc = include_str!("../docs/stages.svg")]
 //!
-//! All operands enter one arrangement: edges are cut at their exact contacts, a walk over the sub-edges keeps all winding
-//! numbers at once, and where an expression differs on the two sides of a sub-edge, that sub-edge is boundary. Only
-//! then is anything rounded. Expected time O((n + k) log n) for n edges with k contacts. The figure is drawn by the example
-//! `stages`, which draws any case of yours as well.
+//! All operands enter one arrangement. Their edges are cut where they meet, exactly. A walk over the sub-edges keeps the
+//! winding numbers of all operands; where the expression differs on the two sides of a sub-edge, that sub-edge is boundary.
+//! Only then is anything rounded. Expected time O((n + k) log n) for n edges with k contacts. The example `stages` draws this
+//! figure, and any case of yours.
 //!
 //! The method's terms (ON+/ON−, candidate edges, Table 3.1) are those of Barreto, "Cálculo do Fator-de-Forma exato entre
 //! Áreas Diferencial e Finita Usando CSG", UFC, 2008, chapter 3, with its tables completed.
@@ -68,12 +68,15 @@
 //! # Features
 //!
 //! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`.
-//! - `rayon`: many threads, inside one job of 20 000 edges or more, and over many jobs by
-//!   [`Csg::evaluate_all`](Csg#method.evaluate_all); the same bits as on one.
+//! - `rayon`: threads inside one job of 20 000 edges or more, and over many jobs by
+//!   [`Csg::evaluate_all`](Csg#method.evaluate_all). The results have the same bits as on one thread.
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!
-//! None is on by default. Points are [`glam::DVec2`], re-exported here: glam's version is part of this crate's.
+//! None is on by default.
+//!
+//! Points are [`glam::DVec2`], and [`glam`] is re-exported here. It is part of the interface, so a new incompatible version of
+//! glam means a breaking release of this crate.
 
 pub use glam;
 pub use glam::DVec2;

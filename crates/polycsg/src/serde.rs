@@ -34,9 +34,8 @@ impl Serialize for Region {
     }
 }
 
-/// Takes what [`Serialize`] writes and nothing else: an error names the coordinate that is not finite, the edges that
-/// meet, or says that the rings are not in their canonical direction, nesting or order. Rings that are not known to be
-/// a valid region are for [`Region::from_rings`].
+/// Reads only what [`Serialize`] writes. An error names the coordinate that is not finite, names the edges that meet, or
+/// says that the rings are not in their canonical direction, nesting or order. [`Region::from_rings`] reads any rings.
 ///
 /// JSON keeps every bit when `serde_json` is built with its feature `float_roundtrip`.
 impl<'de> Deserialize<'de> for Region {

@@ -1,4 +1,4 @@
-//! The promises of a region, checked exactly.
+//! Checks the promises of a region, exactly.
 
 use crate::base::id::index;
 use crate::predicates::{Segment, Side, is_inside, side};
@@ -7,10 +7,10 @@ use crate::region::{Invalid, Region};
 use crate::spatial::slabs::SlabDecomposition;
 
 impl Region {
-    /// Checks the promises of this type independently of how the value came about, exactly. Expected O(n log n).
+    /// Checks the promises of this type, exactly, wherever the value comes from. Expected O(n log n).
     ///
     /// # Errors
-    /// The first broken promise: [`Invalid`].
+    /// [`Invalid`] names the first broken promise.
     pub fn validate(&self) -> Result<(), Invalid> {
         let edges: Vec<Segment> = self.rings().flat_map(ring_edges).collect();
         let mut slabs = SlabDecomposition::default();

@@ -10,26 +10,26 @@ use crate::region::area::enclosed_area;
 use glam::DVec2;
 use select::{Piece, Selection};
 
-/// A directed edge of a boundary, the interior to its left, and where it comes from.
+/// A directed edge of a boundary, with the interior to its left, and the input edge that it comes from.
 ///
-/// It is a piece of one input edge, or all of it, and may run against it: what is subtracted bounds from outside. Of
-/// input edges that coincide, one is named.
+/// It is part or all of one input edge, and may run against it, as the edges of a subtracted operand do. Where input edges
+/// coincide, one of them is named.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundaryEdge {
     /// Where it starts: an input vertex, or a crossing rounded to nearest.
     pub start: DVec2,
     /// Where it ends.
     pub end: DVec2,
-    /// Which operand it comes from, counted in the order of appearance in the [`Csg`](crate::Csg).
+    /// The operand that it comes from, counted in the order of appearance in the [`Csg`](crate::Csg).
     pub operand: usize,
-    /// Which of that operand's edges it lies on; edge i starts in point i of all the operand's rings in a row.
+    /// The edge of that operand on which it lies. Edge i starts in point i, counted through all rings of the operand.
     pub edge: usize,
 }
 
 /// The boundary of a set: directed edges, interior to the left, in no particular order.
 ///
-/// Every vertex is rounded once to the nearest double; what rounding may have made meet is not mended, no
-/// rings are built. The edges form closed walks, so that sums over edges (areas, moments, contour integrals) are right.
+/// Every vertex is rounded once to the nearest double. Edges that rounding made meet are not repaired, and no rings are
+/// built. The edges form closed walks, so that sums over edges (areas, moments, contour integrals) are right.
 #[derive(Clone, Copy, Debug)]
 pub struct Boundary<'s> {
     selection: &'s Selection,
@@ -42,7 +42,7 @@ impl<'s> Boundary<'s> {
         Boundary { selection, edges, contacts }
     }
 
-    /// The edges; those that rounding shrank to a point are left out. The order is the same from run to run.
+    /// The edges, without those that rounding shrank to a point. The order is the same from run to run.
     pub fn edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + use<'s> {
         let boundary = *self;
         self.selection.pieces().iter().flat_map(move |&piece| boundary.edges_of(piece))

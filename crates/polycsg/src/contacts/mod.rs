@@ -85,8 +85,7 @@ impl Contacts {
         let size = chains.size();
         self.start(edges);
         close_pairs.start(size, wanted);
-        let is_done =
-            phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, most);
+        let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, most);
         if !is_done && self.found.len() <= most {
             self.start(edges);
             close_pairs.start(size, wanted);

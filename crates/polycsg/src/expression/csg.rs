@@ -7,12 +7,12 @@ use glam::DVec2;
 use std::collections::VecDeque;
 use std::ops::{BitAnd, BitOr, BitXor, Sub};
 
-/// What raw rings mean: which winding numbers are inside.
+/// Which winding numbers are inside: how raw rings are read.
 ///
 /// The winding number of a point is how often the rings run around it counter-clockwise, less how often clockwise.
-/// Take [`EvenOdd`](FillRule::EvenOdd) where holes may run either way (GeoJSON, shapefiles),
+/// Use [`EvenOdd`](FillRule::EvenOdd) where holes may run either way (GeoJSON, shapefiles),
 /// [`NonZero`](FillRule::NonZero) for shapes drawn over one another (fonts, SVG's default), and
-/// [`Positive`](FillRule::Positive) where directions are known and a reversed ring must cut, as in a [`Region`].
+/// [`Positive`](FillRule::Positive) where directions are known and a clockwise ring is a hole, as in a [`Region`].
 ///
 /// ```
 /// use polycsg::{FillRule, Region};
@@ -39,7 +39,7 @@ pub enum FillRule {
     EvenOdd,
     /// Every winding number but zero is inside.
     NonZero,
-    /// Positive winding numbers are inside: counter-clockwise rings fill, clockwise ones cut.
+    /// Positive winding numbers are inside: counter-clockwise rings add, clockwise rings subtract.
     Positive,
 }
 
@@ -55,9 +55,9 @@ pub(crate) enum Operator {
 pub(crate) enum Token<'a> {
     Region(&'a Region),
     Rings(Rings, FillRule),
-    /// An open edge as a ring, there and back: it bounds nothing, and the arrangement tells what lies beside it.
+    /// An open edge as a ring, there and back. It bounds nothing; the arrangement tells what lies beside it.
     Edge(Rings),
-    /// Takes that many operands, those that stand before it.
+    /// It takes that many operands: those that stand before it.
     Operator(Operator, usize),
 }
 
@@ -74,9 +74,9 @@ impl Token<'_> {
 
 /// An expression of Booleans: regions and raw rings, combined by `|`, `&`, `-`, `^` or by the n-ary constructors.
 ///
-/// All operands enter one arrangement and every vertex of the result is rounded once, so that a nested expression
-/// has no rounding in between, and a union of 100 000 operands is one call. Building an expression copies nothing but raw
-/// rings; nesting of any depth is fine. Operands count in their order of appearance, from 0; see [`BoundaryEdge::operand`].
+/// All operands enter one arrangement, and every vertex of the result is rounded once: a nested expression has no rounding in
+/// between, and a union of 100 000 operands is one call. Building an expression copies only raw rings. It may be nested to
+/// any depth. Operands are numbered in their order of appearance, from 0; see [`BoundaryEdge::operand`].
 ///
 /// | | operators, of two | n-ary |
 /// | --- | --- | --- |
@@ -116,7 +116,8 @@ impl<'a> From<&'a Region> for Csg<'a> {
 impl<'a> Csg<'a> {
     /// Raw rings as an operand: self-intersecting, nested, touching, any direction, as `rule` reads them.
     ///
-    /// They take part as they are: making a [`Region`] of them first costs a call more and rounds their crossings once more.
+    /// The rings enter the expression as they are. Making a [`Region`] of them first would cost one more call and would round
+    /// their crossings once more.
     /// See [`Region::from_rings`] for what `rings` may be.
     ///
     /// # Errors
@@ -130,7 +131,7 @@ impl<'a> Csg<'a> {
         Ok(Csg::leaf(Token::Rings(Rings::read(rings)?, rule)))
     }
 
-    /// The union of any number of operands; of none, the empty set.
+    /// The union of any number of operands: all points in at least one of them. Without operands, the empty set.
     pub fn union<I>(operands: I) -> Csg<'a>
     where
         I: IntoIterator,
@@ -139,7 +140,7 @@ impl<'a> Csg<'a> {
         Csg::joined(Operator::Union, operands)
     }
 
-    /// The intersection of any number of operands; of none, the empty set.
+    /// The intersection of any number of operands: all points in every one of them. Without operands, the empty set.
     pub fn intersection<I>(operands: I) -> Csg<'a>
     where
         I: IntoIterator,
@@ -148,7 +149,8 @@ impl<'a> Csg<'a> {
         Csg::joined(Operator::Intersection, operands)
     }
 
-    /// What lies in an odd number of the operands; of none, the empty set.
+    /// The symmetric difference of any number of operands: all points in an odd number of them. Without operands, the empty
+    /// set.
     pub fn symmetric_difference<I>(operands: I) -> Csg<'a>
     where
         I: IntoIterator,

@@ -20,10 +20,10 @@ use crate::spatial::chains::MonotoneChains;
 use crate::spatial::slabs::SlabDecomposition;
 use crate::spatial::strips::Strips;
 
-/// The buffers of an evaluation, for reuse from call to call; it never borrows the operands.
+/// The buffers of an evaluation, to be reused from call to call. They never borrow the operands.
 ///
-/// They grow with the operands and with how often their edges meet: [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with)
-/// sets a limit to that.
+/// Buffers grow with the operands and with how often their edges meet;
+/// [`Csg::try_evaluate_with`](crate::Csg::try_evaluate_with) limits that.
 ///
 /// ```
 /// use polycsg::{Csg, FillRule, Region, Scratch};
@@ -96,10 +96,11 @@ pub(crate) struct AssemblyBuffers {
 }
 
 impl Scratch {
-    /// How many vertices the last region got because rounding made edges meet that do not: 0 for nearly every input.
+    /// How many vertices were added to the last region because rounding made edges meet that do not: 0 for nearly every
+    /// input.
     ///
-    /// Each is a point of an edge, rounded to the nearest double in both coordinates, so that edge moved by half a unit in
-    /// the last place there. Other vertices are never moved: they are the input's, or crossings rounded once.
+    /// Each is a point of an edge with both coordinates rounded to the nearest double, which moves the edge there by at most
+    /// half a unit in the last place. All other vertices are the input's, or crossings rounded once.
     ///
     /// ```
     /// use polycsg::{Csg, FillRule, Scratch};

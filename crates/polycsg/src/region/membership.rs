@@ -1,8 +1,8 @@
-//! Which sides of a directed piece of an edge lie inside a set.
+//! Which sides of a directed sub-edge lie inside a set.
 
 use std::ops::Not;
 
-/// How a directed sub-edge lies in a set: which of its two sides are inside.
+/// Which of the two sides of a directed sub-edge lie inside a set.
 ///
 /// | | left side | right side |
 /// | --- | --- | --- |
@@ -11,8 +11,8 @@ use std::ops::Not;
 /// | `OnPlus` | inside | outside |
 /// | `OnMinus` | outside | inside |
 ///
-/// A Boolean acts on each side by itself, which is the whole of Table 3.1 of Barreto (2008), completed for ON against
-/// ON by sign, for difference and for symmetric difference:
+/// A Boolean acts on each side by itself. This yields all of Table 3.1 of Barreto (2008), completed for ON against ON of
+/// either sign, for difference and for symmetric difference:
 ///
 /// ```
 /// use polycsg::Membership::{In, OnMinus, OnPlus, Out};
@@ -37,7 +37,7 @@ pub enum Membership {
 }
 
 impl Membership {
-    /// From the two sides: is the left one inside, is the right one.
+    /// The membership by its two sides: whether the left one is inside, and whether the right one is.
     pub fn from_sides(left: bool, right: bool) -> Membership {
         match (left, right) {
             (true, true) => Membership::In,
@@ -61,32 +61,32 @@ impl Membership {
         Membership::from_sides(operation(self.left(), other.left()), operation(self.right(), other.right()))
     }
 
-    /// Membership in A ∪ B from those in A and in B.
+    /// The membership in A ∪ B from those in A and in B.
     pub fn union(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a | b)
     }
 
-    /// Membership in A ∩ B from those in A and in B.
+    /// The membership in A ∩ B from those in A and in B.
     pub fn intersection(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a & b)
     }
 
-    /// Membership in A − B from those in A and in B.
+    /// The membership in A − B from those in A and in B.
     pub fn difference(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a & !b)
     }
 
-    /// Membership in A ⊕ B from those in A and in B.
+    /// The membership in A ⊕ B from those in A and in B.
     pub fn symmetric_difference(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a ^ b)
     }
 
-    /// Membership in the complement.
+    /// The membership in the complement.
     pub fn complement(self) -> Membership {
         Membership::from_sides(!self.left(), !self.right())
     }
 
-    /// The same sub-edge seen in the other direction: the sides change places.
+    /// The membership of the same sub-edge in the opposite direction: its sides change places.
     pub fn reversed(self) -> Membership {
         Membership::from_sides(self.right(), self.left())
     }

@@ -1,4 +1,4 @@
-//! The result: polygons with holes, islands in holes, and so on.
+//! Regions: polygons with holes, islands in the holes, and so on.
 
 pub(crate) mod area;
 pub(crate) mod membership;
@@ -11,17 +11,17 @@ use rings::{Rings, ring_edges};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// A regularised set of points of the plane: polygons with holes, islands in the holes, to any depth.
+/// A set of points of the plane: polygons with holes, islands in the holes, to any depth.
 ///
 /// Always valid: rings are simple and meet one another in common vertices only; outer rings run counter-clockwise,
 /// holes clockwise, so that the interior is on the left of every edge; the interior of each polygon is connected.
-/// (With y upwards. Where y points downwards, as on screens, read clockwise for counter-clockwise; nothing else changes.)
+/// (With y upwards. Where y points downwards, as on screens, swap clockwise and counter-clockwise; nothing else changes.)
 ///
 /// Always canonical: each ring starts at its leftmost (then lowest) vertex, polygons are sorted by depth and then by
 /// that vertex, the holes of each by theirs. Equal sets with equal vertices are equal values.
 ///
-/// Input vertices on the boundary are kept, also in the middle of a straight edge. Coordinates are in any unit; areas are in
-/// its square. The default is the empty set.
+/// Input vertices on the boundary are kept, even in the middle of a straight edge. Coordinates may be in any unit, and areas
+/// are in its square. The default is the empty set.
 ///
 /// ```
 /// use polycsg::{FillRule, Location, Region, DVec2};
@@ -72,7 +72,7 @@ impl<'r> Polygon<'r> {
         (self.first + 1..self.end).map(move |ring| rings.ring(ring))
     }
 
-    /// How many polygons surround it: 0 outermost, 1 for an island in a hole of such a one, and so on.
+    /// How many polygons surround it: 0 for an outermost one, 1 for an island in a hole of that, and so on.
     pub fn depth(&self) -> usize {
         self.depth
     }
@@ -111,13 +111,13 @@ impl Region {
 
     /// The area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
     ///
-    /// Summed with 106 bits from the rings as they are: the relative error stays below 2^-52 as long as no ring has more
-    /// vertices, times the area of the box around it, than 10^12 times the area.
+    /// The sum carries 106 bits. The relative error stays below 2^-52 unless some ring's number of vertices, times the area of
+    /// the box around it, exceeds 10^12 times the area.
     pub fn area(&self) -> f64 {
         enclosed_area(self.rings().map(ring_edges))
     }
 
-    /// Where a point lies, exactly; a point that is not finite lies outside. O(n).
+    /// Whether a point lies inside, outside or on the boundary, exactly. A point that is not finite lies outside. O(n).
     ///
     /// ```
     /// use polycsg::{DVec2, FillRule, Location, Region};
@@ -167,18 +167,18 @@ impl Region {
     }
 }
 
-/// What is wrong with a region; no operation of this crate yields such a one.
+/// What is wrong with a region. No operation of this crate returns an invalid region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Invalid {
-    /// Two edges meet otherwise than in a common vertex; edges count through [`Region::rings`].
+    /// Two edges meet elsewhere than in a common vertex. Edges are counted through [`Region::rings`].
     Contact {
         /// One edge.
         edge: usize,
         /// The other.
         other: usize,
     },
-    /// Direction, nesting or order of the rings is not the one promised.
+    /// The direction, nesting or order of the rings is not the promised one.
     Structure,
 }
 

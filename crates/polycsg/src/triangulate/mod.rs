@@ -11,14 +11,14 @@ use glam::DVec2;
 use indexed::IndexedRegion;
 
 impl Region {
-    /// Triangles that cover the region and nothing else, without overlap, each counter-clockwise.
+    /// Triangles that cover exactly the region, without overlap, each counter-clockwise.
     ///
-    /// Their vertices are the region's own: none is added, and two triangles meet in a whole edge, in a vertex or not at
-    /// all. For every region: with n vertices, p polygons and h holes there are n + 2 (h − p) triangles if no rings touch.
+    /// No vertex is added, and two triangles meet in a whole edge, in a vertex or not at all. This works for every region. With
+    /// n vertices, p polygons and h holes there are n + 2 (h − p) triangles if no rings touch.
     ///
     /// The triangulation is constrained Delaunay: of all that keep the region's edges it has the largest smallest
-    /// angle. Exceptions are regions whose coordinates differ by more than 2^340 in size. If x and y can be scaled
-    /// apart to mend that, the triangulation is Delaunay in the plane so scaled; else it is any.
+    /// angle. Exceptions are regions whose coordinates differ in size by a factor of more than 2^340. If scaling x and y apart brings
+    /// them closer, the triangulation is Delaunay in the plane scaled like that. Otherwise it is any triangulation.
     ///
     /// Expected O(n log n). Needs the feature `triangulate`.
     ///
