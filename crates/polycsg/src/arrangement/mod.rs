@@ -1,4 +1,4 @@
-//! Stage 4: the arrangement: the rings cut into sub-edges at the nodes, and around each junction the half-edges by angle.
+//! Stage 4: the arrangement, which is the rings cut into sub-edges at the nodes, and the half-edges around each junction.
 //!
 //! ```text
 //!            h1                  A sub-edge runs along one ring from one contact to the next; sub-edge i starts in contact i.
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! A node where just two edges cross needs no list: the two sub-edges that start there tell everything. All other nodes are
-//! junctions. Sub-edges that coincide leave a junction in one direction and are overlapping sub-edges: the one with the smallest id
-//! stands for all.
+//! junctions. Overlapping sub-edges leave a junction in one direction. The one with the smallest id is their representative:
+//! it //! stands for all.
 
 pub(crate) mod labels;
 
@@ -46,7 +46,7 @@ pub(crate) struct Arrangement {
     /// Per junction where its half-edges start in `around`.
     starts: Vec<u32>,
     around: Vec<u32>,
-    /// Per sub-edge the one that stands for it and the next that coincides; empty when there are no junctions.
+    /// Per sub-edge its representative and the next that coincides; empty when there are no junctions.
     representatives: Vec<u32>,
     next: Vec<u32>,
     /// The half-edges that leave one junction.
@@ -166,8 +166,7 @@ impl Arrangement {
         self.around = around;
     }
 
-    /// Bundles sub-edges by half-edges in order that leave a junction in one direction; at the sub-edges' other ends it was or will
-    /// be done alike.
+    /// Links overlapping sub-edges, given by their half-edges in order; at their other ends it was or will be done alike.
     fn unite(&mut self, overlapping: &[(Segment, u32)]) {
         let representative = overlapping[0].1 >> 1;
         for pair in overlapping.windows(2) {
@@ -271,21 +270,21 @@ impl Arrangement {
         }
     }
 
-    /// The sub-edge that stands for all that coincide with this one.
+    /// The representative of all sub-edges that overlap this one.
     #[inline]
     pub(crate) fn representative(&self, sub_edge: u32) -> u32 {
         self.representatives.get(sub_edge as usize).copied().unwrap_or(sub_edge)
     }
 
-    /// A sub-edge that represents itself, and all that coincide with it.
+    /// A representative, and all that overlap it.
     #[inline]
     pub(crate) fn overlapping(&self, sub_edge: u32) -> impl Iterator<Item = u32> + '_ {
         let next = |&a: &u32| self.next.get(a as usize).copied().filter(|&n| n != NONE);
         std::iter::successors(Some(sub_edge), next)
     }
 
-    /// Whether a sub-edge of overlapping sub-edges runs in the direction of another: whether they start in one node, or for loops, leave
-    /// it in one direction.
+    /// Whether one of several overlapping sub-edges runs in the direction of another: whether they start in one node or, for
+    /// loops, leave it in one direction.
     #[inline]
     pub(crate) fn is_along(&self, edges: &Edges, sub_edge: u32, other: u32) -> bool {
         sub_edge == other || {

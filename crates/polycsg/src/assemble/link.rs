@@ -31,7 +31,7 @@ pub(crate) struct SimpleRing {
     pub(crate) chain: u32,
 }
 
-/// A chain at a node where several leave: whether it leaves, too.
+/// A half-edge at a node where several leave: the end of a chain, and whether the chain leaves there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct IncidentHalfEdge {
     pub(crate) node: u32,
@@ -57,20 +57,20 @@ pub(crate) struct Cycles {
     cut: Cut,
 }
 
-/// The walk so far, as a chain of chains without a repeated node.
+/// The walk so far: chains without a repeated node.
 #[derive(Debug, Default)]
 struct Cut {
-    /// Per node its place in the chain, or none.
+    /// Per node its place in the path, or none.
     depth: Vec<u32>,
-    chain: Vec<u32>,
+    path: Vec<u32>,
 }
 
 impl Cut {
-    /// Appends a chain; where it comes back to a node of the chain, what lies from that place on is a ring.
+    /// Appends a chain; where it comes back to a node of the path, what lies from that place on is a ring.
     fn visit(&mut self, outline: &Outline, chain: u32) -> Option<usize> {
         let about = outline.chains()[chain as usize];
-        self.depth[about.start as usize] = index(self.chain.len());
-        self.chain.push(chain);
+        self.depth[about.start as usize] = index(self.path.len());
+        self.path.push(chain);
         let depth = self.depth[about.end as usize];
         (depth != NONE).then_some(depth as usize)
     }
@@ -132,12 +132,12 @@ impl Cycles {
         self.walked.resize(chains, false);
         self.leaving.clear();
         self.leaving.resize(nodes, NONE);
-        self.cut.chain.clear();
+        self.cut.path.clear();
         self.cut.depth.clear();
         self.cut.depth.resize(nodes, NONE);
     }
 
-    /// Finds the chain that follows each chain by the turn rule.
+    /// Finds the chain that comes after each one by the turn rule.
     fn find_successors(&mut self, outline: &Outline) {
         self.half_edges.clear();
         for (chain, about) in (0..).zip(outline.chains()) {
@@ -213,12 +213,12 @@ impl Cycles {
         }
     }
 
-    /// Moves the chain's chains from `depth` on to a ring of their own.
+    /// Moves the path's chains from `depth` on to a ring of their own.
     fn close_ring(&mut self, outline: &Outline, depth: usize, cycle: u32) {
         let start = self.rings.points().len();
         let mut chains = 0..0;
         let mut smallest = (DVec2::MAX, NONE, NONE);
-        for chain in self.cut.chain.drain(depth..) {
+        for chain in self.cut.path.drain(depth..) {
             self.cut.depth[outline.chains()[chain as usize].start as usize] = NONE;
             self.ring_of_chain[chain as usize] = index(self.about.len());
             let points = outline.points(chain);

@@ -78,7 +78,7 @@ pub(crate) fn nest(
         chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
         strips.build(chains.boxes());
         let Nesting { below, asked, .. } = &mut *nest.nesting;
-        below.look(chains, strips, slabs, rings.points(), asked);
+        below.shoot(chains, strips, slabs, rings.points(), asked);
     }
     for i in 0..nest.nesting.order.len() {
         nest.place(nest.nesting.order[i])?;

@@ -88,7 +88,7 @@ impl Outline {
         }
         self.unsorted.retain(|edge| edge[0] != edge[1]);
         if may_coincide {
-            self.cancel();
+            self.cancel_opposite();
         }
         self.node_count = self.numbered.len();
         self.points.clear();
@@ -99,7 +99,7 @@ impl Outline {
     }
 
     /// Removes pairs of opposite edges.
-    fn cancel(&mut self) {
+    fn cancel_opposite(&mut self) {
         let ends = |e: &[u32; 2]| (e[0].min(e[1]), e[0].max(e[1]));
         self.unsorted.sort_unstable_by_key(|e| (ends(e), e[0]));
         let mut kept: Vec<[u32; 2]> = Vec::with_capacity(self.unsorted.len());

@@ -167,6 +167,14 @@ impl Selection {
 }
 
 impl LabelledArrangement<'_> {
+    /// Adds the pieces of one ring: maximal runs of selected sub-edges that run alike and pass straight through their nodes.
+    ///
+    /// ```text
+    ///   sub-edges    0    1    2    3    4    5        + selected along the ring, - against it, . not selected
+    ///                +    +    .    -    +    +
+    ///   runs        [first]       [3]  [ last ]        `last` goes on in `first` if the ring passes through at its start,
+    ///                                                  and both together are one piece
+    /// ```
     fn select_along(&self, ring: u32, pieces: &mut Vec<Piece>) {
         let sub_edges = self.arrangement.of_ring(ring);
         let about = self.edges.rings()[ring as usize];
@@ -179,7 +187,7 @@ impl LabelledArrangement<'_> {
         let mut run: Option<SubEdgeRun> = None;
         let mut first_run: Option<SubEdgeRun> = None;
         let mut put = |run: SubEdgeRun| {
-            // The first run may yet be found to continue the last one.
+            // A run from the ring's first sub-edge may yet turn out to continue the last one, as a ring has no first edge.
             if run.start == sub_edges.start && first_run.is_none() {
                 first_run = Some(run)
             } else {
@@ -201,7 +209,9 @@ impl LabelledArrangement<'_> {
                 }
             };
         }
+        // The loop ends with one run open. Join it with the first one where the ring closes.
         match (first_run, run) {
+            // One run all around: the ring is a piece without nodes, unless something meets it at its start.
             (None, Some(run)) if run.start == sub_edges.start && run.end == sub_edges.start => {
                 let whole = self.passes_through(sub_edges.start, sub_edges.end - 1);
                 pieces.push(if whole { Piece::whole(ring, about, run.along) } else { self.piece(ring, run) });

@@ -51,14 +51,13 @@ pub(crate) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Indexes the edges, and decides by a sample how their pairs are found. Expected O(n log n).
+    /// Indexes the edges by their chains, and decides by a sample how their pairs are found. Expected O(n log n).
     pub(crate) fn index(
         edges: &'a Edges,
         chains: &'a mut MonotoneChains,
         strips: &'a mut Strips,
         budget: WorkBudget,
     ) -> Candidates<'a> {
-        chains.build(edges.points(), edges.spans());
         strips.build(chains.boxes());
         let phase = Sample::of(edges, chains, strips).choice(budget);
         if phase == BroadPhase::Edges {

@@ -1,9 +1,9 @@
-//! Pairs of edges so close, or so flat to one another, that rounding crossings may make their pieces meet.
+//! Close pairs: pairs of edges so near to one another, or at so flat an angle, that rounding may make their pieces meet.
 //!
-//! All pairs of edges whose boxes meet are looked at when contacts are found, and rounded pieces stay in their edges'
-//! boxes; pairs that are not clear of one another (see [`Margins`]) are noted here, by tests that err on the safe side. When
-//! no piece of theirs meets another after rounding, nothing on the whole boundary does. [`SlabDecomposition`] report fewer pairs than
-//! boxes; what else comes near an edge is looked for there.
+//! Rounded pieces stay in their edges' boxes, and all pairs of edges whose boxes meet are compared when contacts are found.
+//! Pairs that are not clear of one another (see [`Margins`]) are noted here, by tests that err on the safe side. When no
+//! pieces of theirs meet after rounding, nothing on the whole boundary does. The [`SlabDecomposition`] reports fewer pairs
+//! than boxes do; what else comes near an edge is looked for there.
 
 use super::contact::{Contact, PartnerKind};
 use crate::edges::{EdgeRing, Edges};
@@ -15,11 +15,11 @@ use glam::DVec2;
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct ClosePairs {
-    /// Whether all edges are suspected.
+    /// Whether all edges count as close.
     all: bool,
     pairs: Vec<[u32; 2]>,
     margins: Margins,
-    /// Things that happen close together.
+    /// The places close together on an edge.
     pub(crate) close: Vec<ClosePlaces>,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct CloseGroups {
 }
 
 impl ClosePairs {
-    /// Starts over for coordinates up to a size; where pairs are not wanted, all edges are suspected.
+    /// Starts over for coordinates up to a size; where pairs are not wanted, all edges count as close.
     pub(crate) fn start(&mut self, size: f64, wanted: bool) {
         self.all = !wanted;
         self.pairs.clear();
@@ -56,7 +56,7 @@ impl ClosePairs {
         self.margins = Margins::for_size(size);
     }
 
-    /// Whether all edges are suspected, not the listed pairs alone.
+    /// Whether all edges count as close, not the listed pairs alone.
     pub(crate) fn all(&self) -> bool {
         self.all
     }
@@ -75,8 +75,8 @@ impl ClosePairs {
         }
     }
 
-    /// Notes what comes near an edge where [`SlabDecomposition`] take the place of boxes, and lets them report the rest; suspects all
-    /// edges where these are too many.
+    /// Notes what comes near an edge where the [`SlabDecomposition`] takes the place of boxes, and lets it report the rest. Where
+    /// these are too many, all edges count as close.
     pub(crate) fn find_beside(&mut self, edges: &Edges, slabs: &mut SlabDecomposition) {
         let margins = self.margins;
         self.all = self.all
@@ -160,7 +160,7 @@ impl ClosePairs {
         self.find_around(edges, ring, edge);
     }
 
-    /// Notes all pairs of edges that meet close together; suspects all edges where they are many.
+    /// Notes all pairs of edges that meet close together; where they are many, all edges count as close.
     pub(crate) fn add_group(&mut self, group: &[u32]) {
         const MOST: usize = 64;
         self.all |= group.len() > MOST;

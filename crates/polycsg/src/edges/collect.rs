@@ -58,7 +58,7 @@ fn sort_by_place(rings: &mut [RingKey]) {
 }
 
 impl Edges {
-    /// Reads the operands, without the rings that miss the window. Repeated points are dropped, and rings that have
+    /// Reads the operands, without the rings that miss the result's bounds. Repeated points are dropped, and rings that have
     /// fewer than three others left.
     pub(crate) fn collect(
         &mut self,

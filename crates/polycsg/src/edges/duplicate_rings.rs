@@ -1,11 +1,12 @@
-//! Rings with the same points: one stands for all, so that a million copies of a ring cost little more than one.
+//! Duplicate rings, which have the same points: one represents all, so that a million of them cost little more than one.
 
 use super::{Also, EdgeRing, Edges};
 use crate::base::hash::mixed;
 use crate::base::id::index;
+use crate::spatial::chains::MonotoneChains;
 use glam::DVec2;
 
-/// A ring that has the points of another one.
+/// A ring with the same points as an earlier one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DuplicateRing {
     pub(crate) ring: u32,
@@ -19,38 +20,36 @@ pub(crate) struct DuplicateRing {
 pub(crate) struct DuplicateRings {
     keys: Vec<(u64, u32)>,
     found: Vec<DuplicateRing>,
-    /// Per ring its lexicographically smallest vertex.
-    leftmost: Vec<u32>,
 }
 
 impl DuplicateRings {
-    /// Lets of rings with the same points one stand for all.
-    pub(crate) fn unite(&mut self, edges: &mut Edges) {
-        if edges.rings().len() > 1 && !self.find(edges).is_empty() {
-            edges.unite(&self.found);
-        }
+    /// Lets one of several duplicate rings represent all, and tells whether there were any.
+    pub(crate) fn unite(&mut self, edges: &mut Edges, chains: &MonotoneChains) -> bool {
+        let found = self.find(edges, chains);
+        edges.unite(found);
+        !found.is_empty()
     }
 
-    /// Finds the rings that are copies of another ring, the first of its kind.
+    /// Finds the duplicates of each first ring of its kind.
     ///
-    /// Rings are compared from their leftmost points, so that a copy may be missed if it visits that point twice.
-    fn find(&mut self, edges: &Edges) -> &[DuplicateRing] {
+    /// Rings are compared from their leftmost points, so that a duplicate may be missed if it visits that point twice.
+    fn find(&mut self, edges: &Edges, chains: &MonotoneChains) -> &[DuplicateRing] {
         self.found.clear();
         self.keys.clear();
-        self.leftmost.clear();
-        self.leftmost.extend(edges.rings().iter().map(|ring| leftmost(edges.points(), *ring)));
-        let vertices = self.leftmost.iter().zip(0..);
-        self.keys.extend(vertices.map(|(&vertex, ring)| (key(edges, vertex), ring)));
-        self.keys.sort_unstable();
+        if edges.rings().len() > 1 {
+            let keys = (0..index(edges.rings().len())).map(|ring| (key(edges, chains, ring), ring));
+            self.keys.extend(keys);
+            self.keys.sort_unstable();
+        }
         for group in self.keys.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
             let mut kinds: Vec<u32> = Vec::new();
             for &(_, ring) in group {
                 let mut same = kinds.iter().filter_map(|&of| {
-                    direction(edges, [of, ring].map(|ring| self.leftmost[ring as usize]))
+                    direction(edges, [of, ring].map(|ring| chains.leftmost(ring)))
                         .map(|along| DuplicateRing { ring, of, along })
                 });
                 match same.next() {
-                    Some(copy) => self.found.push(copy),
+                    Some(duplicate) => self.found.push(duplicate),
                     None => kinds.push(ring),
                 }
             }
@@ -60,15 +59,18 @@ impl DuplicateRings {
 }
 
 impl Edges {
-    /// Lets rings stand for their copies too, and drops these; where they cancel, a ring that changes nothing is left, as its
+    /// Lets rings represent their duplicates, and drops these. Where they cancel, a ring that changes nothing is left, as its
     /// vertices count.
-    pub(crate) fn unite(&mut self, copies: &[DuplicateRing]) {
+    fn unite(&mut self, duplicates: &[DuplicateRing]) {
+        if duplicates.is_empty() {
+            return;
+        }
         let mut dropped = vec![false; self.rings.len()];
-        for copy in copies {
-            dropped[copy.ring as usize] = true;
-            let EdgeRing { counter, winds, .. } = self.rings[copy.ring as usize];
-            let winds = if copy.along { winds } else { -winds };
-            let of = &mut self.rings[copy.of as usize];
+        for duplicate in duplicates {
+            dropped[duplicate.ring as usize] = true;
+            let EdgeRing { counter, winds, .. } = self.rings[duplicate.ring as usize];
+            let winds = if duplicate.along { winds } else { -winds };
+            let of = &mut self.rings[duplicate.of as usize];
             match counter {
                 Some(counter) if Some(counter) != of.counter => {
                     let next = std::mem::replace(&mut of.also, index(self.also.len()));
@@ -100,21 +102,9 @@ impl Edges {
     }
 }
 
-/// The lexicographically smallest vertex of a ring, the first if there are several.
-fn leftmost(points: &[DVec2], ring: EdgeRing) -> u32 {
-    let mut best = ring.start;
-    for vertex in ring.start + 1..ring.end {
-        let (p, q) = (points[vertex as usize], points[best as usize]);
-        if p.x < q.x || (p.x == q.x && p.y < q.y) {
-            best = vertex;
-        }
-    }
-    best
-}
-
-/// Equal for rings with the same points, whatever their direction and start; a ring by its leftmost vertex.
-fn key(edges: &Edges, vertex: u32) -> u64 {
-    let about = edges.ring(vertex);
+/// Equal for rings with the same points, whatever their direction and start.
+fn key(edges: &Edges, chains: &MonotoneChains, ring: u32) -> u64 {
+    let (about, vertex) = (edges.rings()[ring as usize], chains.leftmost(ring));
     let [before, after] = [about.previous(vertex), about.next(vertex)].map(|v| mixed(edges.point(v)));
     let both = before.wrapping_add(after).wrapping_add(u64::from(about.end - about.start));
     (mixed(edges.point(vertex)) ^ both).wrapping_mul(0x9e37_79b9_7f4a_7c15)

@@ -39,7 +39,7 @@ pub(crate) struct EdgeRing {
     pub(crate) origin: Origin,
 }
 
-/// A counter that the edges of a ring change for a copy of it.
+/// A counter that the edges of a ring change for a duplicate of it.
 #[derive(Clone, Copy, Debug)]
 struct Also {
     counter: u32,

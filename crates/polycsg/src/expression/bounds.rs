@@ -1,13 +1,13 @@
-//! Stage 0: which rings cannot matter, by their boxes alone.
+//! Result bounds: a box around the result, and which rings cannot matter as they miss it.
 //!
 //! ```text
-//!   a & (b | c)   +---a---+       Outside of a's box the set is empty, whatever b and c are: the set lies in the
-//!        +--b--+  |   +---|--c-+  *window*, the box that the boxes of all operands leave it. A ring whose box misses
-//!        +-----+  +---+---+    |  the window winds around none of its points and touches nothing in it, so the
-//!                     +--------+  result without it is the same result.
+//!   a & (b | c)   +---a---+       Outside of a's box the result is empty, whatever b and c are. So the boxes of the
+//!        +--b--+  |   +---|--c-+  operands bound the result. A ring whose box misses these bounds winds around none
+//!        +-----+  +---+---+    |  of their points and touches nothing in them, so the result without that ring is
+//!                     +--------+  the same.
 //! ```
 //!
-//! Rings that only touch the window stay: their vertices are put into the edges that they touch.
+//! Rings that only touch the bounds stay: their vertices are put into the edges that they touch.
 
 use super::circuit::Kind;
 use super::csg::{Csg, Token};
@@ -55,7 +55,7 @@ impl Bounds {
 pub(crate) struct ResultBounds {
     /// Per gate the box outside of which it does not hold; none where no gate needs all of its members.
     bounds: Vec<Bounds>,
-    /// Per gate whether the window depends on its box: not if its opposite is asked for.
+    /// Per gate whether the bounds depend on its box: not if its opposite is asked for.
     tells: Vec<bool>,
     /// Tests compare with the arrangement of all rings.
     #[cfg(test)]
@@ -63,7 +63,7 @@ pub(crate) struct ResultBounds {
 }
 
 impl ResultBounds {
-    /// Finds the window of an expression. O(n) for n points of operands that bound it, if any do.
+    /// Finds the bounds of an expression's result. O(n) for n points of operands that bound it, if any do.
     pub(crate) fn find(&mut self, csg: &Csg<'_>, winding: &WindingNumbers) {
         self.bounds.clear();
         #[cfg(test)]
@@ -105,7 +105,7 @@ impl ResultBounds {
     /// Whether a ring may matter.
     #[inline]
     pub(crate) fn meets(&self, ring: &[DVec2]) -> bool {
-        let window = self.bounds.first();
-        window.is_none_or(|window| window.contains(ring[0]) || !window.misses(Bounds::of(ring)))
+        let result = self.bounds.first();
+        result.is_none_or(|result| result.contains(ring[0]) || !result.misses(Bounds::of(ring)))
     }
 }

@@ -1,4 +1,4 @@
-//! The gates of an expression: how a change of one member's truth travels to the root.
+//! The Boolean circuit of an expression: how a change of one member travels to the root.
 //!
 //! ```text
 //!   or ── and ── xor ── …     Seen from its largest member gate, a gate is one of four functions: always false, always
@@ -6,7 +6,7 @@
 //!    a     b      c           a tree over the path keeps the partial compositions.
 //! ```
 //!
-//! A change mends O(log n) compositions on each of the O(log n) paths between its gate and the root, and ends where a
+//! A change recomputes O(log n) compositions on each of the O(log n) paths between its gate and the root, and ends where a
 //! composition stays what it was: expressions of any depth cost little more than flat ones.
 
 use crate::base::id::index;
@@ -19,7 +19,7 @@ pub(crate) enum Kind {
     Odd,
 }
 
-/// What one truth makes of another: its values for false and for true, in two bits.
+/// A function of one Boolean: its values for false and for true, in two bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Function(u8);
 

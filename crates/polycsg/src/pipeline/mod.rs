@@ -18,6 +18,7 @@ use crate::error::Error;
 use crate::expression::csg::{Csg, Token};
 use crate::expression::winding::WindingNumbers;
 use crate::region::Region;
+use crate::spatial::chains::MonotoneChains;
 use scratch::{ArrangementBuffers, ContactBuffers, EdgeBuffers, ExpressionBuffers, Scratch, SpatialBuffers};
 
 /// The expression as a region.
@@ -34,7 +35,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Resu
     if let Some(region) = untouched(csg, winding, &edges.edges) {
         return Ok(region);
     }
-    let edges = reduce(edges);
+    let edges = reduce(edges, &mut spatial.chains);
     let request = Request { limit, close_pairs: true, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
@@ -57,7 +58,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Resu
 pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
-    let edges = reduce(edges);
+    let edges = reduce(edges, &mut spatial.chains);
     let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
@@ -72,7 +73,7 @@ pub(crate) fn memberships<'s>(
     let Scratch { expression, edges, spatial, contacts, arrangement, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
     let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
-    arrange(reduce(edges), winding, spatial, contacts, arrangement, request)
+    arrange(reduce(edges, &mut spatial.chains), winding, spatial, contacts, arrangement, request)
 }
 
 /// Stage 1: the state of a walk, outside of everything, and the edges that matter.
@@ -87,10 +88,16 @@ fn collect<'s>(
     winding
 }
 
-/// Without opposite edges, where many cancel, and of rings with the same points with one.
-fn reduce(EdgeBuffers { edges, opposite, duplicates, .. }: &mut EdgeBuffers) -> &Edges {
+/// Lets opposite edges cancel where many do, and one ring represent its duplicates; what is left stands in monotone chains.
+fn reduce<'s>(
+    EdgeBuffers { edges, opposite, duplicates, .. }: &'s mut EdgeBuffers,
+    chains: &mut MonotoneChains,
+) -> &'s Edges {
     opposite.cancel(edges);
-    duplicates.unite(edges);
+    chains.build(edges.points(), edges.spans());
+    if duplicates.unite(edges, chains) {
+        chains.build(edges.points(), edges.spans());
+    }
     edges
 }
 

@@ -147,9 +147,9 @@ fn expression<'a>(leaves: &'a [Region], operators: &[u8]) -> Csg<'a> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// Rings that miss the window change nothing, not even by a vertex.
+    /// Rings that miss the result's bounds change nothing, not even by a vertex.
     #[test]
-    fn the_window_changes_nothing(
+    fn bounds_change_nothing(
         leaves in prop::collection::vec((0..12_i32, 0..12_i32, prop::collection::vec((0..6_i32, 0..6_i32), 3..9)), 2..9),
         operators in prop::collection::vec(any::<u8>(), 8),
     ) {

@@ -1,4 +1,4 @@
-//! Stage 2: runs of a ring's edges that lead from left to right or from right to left, with their boxes.
+//! Monotone chains: consecutive edges of a ring that lead from left to right or from right to left, with their boxes.
 //!
 //! ```text
 //!        ______            Lexicographically monotone: x never turns back (upright edges lead upward or downward,
@@ -11,7 +11,7 @@ use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// More edges make a chain's box too large to tell anything.
+/// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;
 
 /// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a

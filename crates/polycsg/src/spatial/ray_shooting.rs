@@ -1,4 +1,4 @@
-//! What lies right below a point: one vertical look.
+//! Vertical ray shooting: the edge right below a point.
 
 use super::chains::MonotoneChains;
 use super::slabs::SlabDecomposition;
@@ -7,7 +7,7 @@ use crate::predicates::{Segment, Side, height_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;
 
-/// Boxes are looked through up to so many for each edge; then slabs are built.
+/// So many boxes are looked at for each edge; then the slab decomposition takes over.
 const BOXES_PER_EDGE: usize = 32;
 
 /// For each of some vertices the edge right below it, as an index and directed to the right; none may run through them.
@@ -17,12 +17,12 @@ pub(crate) struct VerticalRays {
 }
 
 impl VerticalRays {
-    /// Looks down from vertices, of which none lies inside any edge of the chains.
+    /// Shoots down from vertices, of which none lies inside any edge of the chains.
     ///
-    /// The look keeps right of the vertex, so that an edge counts from its leftmost end to just before its rightmost
+    /// The ray keeps just right of the vertex, so that an edge counts from its leftmost end to just before its rightmost
     /// one; of edges that meet below the vertex the one that is higher right of it is the nearer. Edges that start in
     /// the vertex are passed over.
-    pub(crate) fn look(
+    pub(crate) fn shoot(
         &mut self,
         chains: &MonotoneChains,
         strips: &Strips,

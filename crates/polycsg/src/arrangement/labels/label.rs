@@ -1,7 +1,7 @@
 //! What the walk knows: the labels of sub-edges, and which component lies in which face.
 
-/// What is known of a sub-edge, in bits: the truth on its left and on its right, whether these are known, and whether
-/// any component is nested on it.
+/// What is known of a sub-edge, in bits: whether the expression holds on its left and on its right, whether these two are
+/// known, and whether any component is nested beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Label(pub(super) u8);
 
@@ -17,7 +17,7 @@ impl Label {
     }
 }
 
-/// A component, by its leftmost vertex, that lies in the face left or right of a sub-edge.
+/// A component, by its leftmost vertex, in the face left or right of a sub-edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct NestedComponent {
     pub(super) sub_edge: u32,

@@ -85,7 +85,7 @@ impl Map<'_> {
     }
 }
 
-/// Moves over overlapping sub-edges from its right to its left, or `back`.
+/// Moves over a sub-edge and all that overlap it, from its right to its left, or `back`.
 #[inline]
 pub(super) fn cross_overlapping(sub_edge: u32, back: bool, map: Map<'_>, winding: &mut WindingNumbers) {
     for other in map.arrangement.overlapping(sub_edge) {
@@ -94,7 +94,7 @@ pub(super) fn cross_overlapping(sub_edge: u32, back: bool, map: Map<'_>, winding
     }
 }
 
-/// Whether the expression holds to the right of overlapping sub-edges, from the left of which the walk looks.
+/// Whether the expression holds to the right of a sub-edge and all that overlap it; the walk is on its left.
 #[inline]
 pub(super) fn holds_behind(sub_edge: u32, map: Map<'_>, winding: &mut WindingNumbers) -> bool {
     if map.arrangement.overlapping(sub_edge).nth(1).is_none() {

@@ -1,18 +1,19 @@
-//! Stage 5: which sides of each sub-edge lie inside the set.
+//! Stage 5: the membership of each sub-edge.
 //!
-//! One walk over the arrangement with one state, the winding numbers of all operands (see [`WindingNumbers`]), which always
-//! is that of the place just left of the sub-edge being walked on:
+//! One walk over the arrangement keeps one state: the winding numbers of all operands (see [`WindingNumbers`]) just left of
+//! the sub-edge that it is on.
 //!
 //! ```text
-//!            |               Over a crossing the state changes by the edge that crosses, and whichever of the
-//!     left   ^  g-           crossing ring's sub-edges has the same place on its left is walked next, if it is not known.
-//!   of e     |               A walk around a ring comes back with the state that it left with.
-//!   ---g---->+------         At a junction the walk goes around the node, over one bundle after the other, and
-//!            |               walks each of its sub-edges on to their far ends and back.
+//!            |               At a crossing the winding numbers change by the edge that crosses. Of the crossing ring,
+//!     left   ^  g-           the sub-edge that has the same place on its left is walked next, if it is not known yet.
+//!   of e     |               A walk all around a ring comes back with the state that it left with.
+//!   ---g---->+------         At a junction the walk goes around the node, over one group of overlapping sub-edges
+//!            |               after the other, and walks each of them on to its far end and back.
 //!            ^ e
 //! ```
 //!
-//! A component that lies inside a face of another one is nested on a sub-edge of that face.
+//! A component that lies inside a face of another one is nested in it: it is walked from the sub-edge right below its leftmost
+//! vertex.
 
 mod label;
 pub(crate) mod map;
@@ -66,7 +67,7 @@ pub(crate) struct LabelledArrangement<'a> {
 }
 
 impl Labels {
-    /// Labels every sub-edge with the sides of it on which `winding` holds.
+    /// Labels every sub-edge with the sides of it on which the expression holds.
     pub(crate) fn classify(
         &mut self,
         map: Map<'_>,
@@ -133,14 +134,14 @@ impl Labels {
         self.leftmost.retain(|&vertex| vertex != NONE);
     }
 
-    /// Hangs each component on the sub-edge below it, or finds that there is none.
+    /// Finds the sub-edge right below each component, or that there is none.
     fn find_nested(&mut self, map: Map<'_>, slabs: &mut SlabDecomposition) {
         self.nested.clear();
         self.outermost.clear();
         if let [single] = self.leftmost[..] {
             return self.outermost.push(single);
         }
-        self.below.look(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost);
+        self.below.shoot(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost);
         for (i, &vertex) in self.leftmost.iter().enumerate() {
             match self.below.edge(i).map(|edge| map.sub_edge_of(edge, vertex)) {
                 None => self.outermost.push(vertex),

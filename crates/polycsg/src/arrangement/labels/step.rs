@@ -13,9 +13,9 @@ pub(super) enum Step {
     Return { sub_edge: u32, first: u32 },
     /// Go around a junction: from the left of the group of half-edges before `place`, over so many half-edges.
     Around { junction: u32, place: u32, left: u32 },
-    /// Cross overlapping sub-edges from its right to its left.
+    /// Cross a sub-edge and all that overlap it, from its right to its left.
     Cross { sub_edge: u32 },
-    /// Cross it from its left to its right.
+    /// Cross them from its left to its right.
     CrossBack { sub_edge: u32 },
     /// Start with a component, outside of it.
     Component { vertex: u32 },

@@ -26,6 +26,17 @@ impl Labels {
     }
 
     /// Walks over one crossing after the other until there is something else to do first.
+    ///
+    /// At a crossing the other ring is entered, too, at the sub-edge that has the walk's place on its left:
+    ///
+    /// ```text
+    ///        ^ other             g comes from the right: `other`, which starts here, has the place left of e on its
+    ///  left  |                   left. It is entered before the crossing is passed. Where g comes from the left, the
+    ///  ──e──>+──next──>          sub-edge before `other`, which ends here, has the place left of `next` on its left. It
+    ///        | g                 is entered after the crossing is passed.
+    /// ```
+    ///
+    /// The step pushed last is done first and restores the state, so that the `Ahead` below it goes on from the same place.
     fn walk_ahead(&mut self, mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
         loop {
             let next = map.arrangement.following(map.edges, sub_edge);
@@ -38,11 +49,12 @@ impl Labels {
             };
             let from_left = map.arrangement.crossed_from_left(next);
             if !from_left && !self.is_walked(other) {
-                // It has this side of the crossing on its left.
+                // It has the place left of `sub_edge` on its left, so it is entered before the crossing is passed.
                 self.steps.push(Step::Ahead { sub_edge, first });
                 return self.enter(other, map, winding);
             }
             map.edges.cross(map.arrangement.edge(other), !from_left, winding);
+            // If nothing is pushed above this depth, there is nothing to do first: go on without the stack.
             let mut depth = self.steps.len();
             if next != first {
                 self.steps.push(Step::Ahead { sub_edge: next, first });
@@ -60,6 +72,7 @@ impl Labels {
         }
     }
 
+    /// The same against the ring, for what lies before the sub-edge where a walk started, back to a junction.
     fn walk_behind(&mut self, mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
         loop {
             let other = match map.arrangement.met(sub_edge) {
@@ -146,7 +159,7 @@ impl Labels {
         }
     }
 
-    /// Labels a sub-edge from the place on its left, and takes up what is nested on it.
+    /// Labels a sub-edge from the place on its left, and takes up what is nested beside it.
     #[inline]
     fn label(&mut self, sub_edge: u32, map: Map<'_>, winding: &mut WindingNumbers) {
         if map.arrangement.representative(sub_edge) != sub_edge {

@@ -1,4 +1,4 @@
-//! Cuts what conflicts until nothing does.
+//! Cuts fragments that are in conflict until none is.
 
 use super::Repair;
 use super::fragment::{Class, Fragment, in_conflict};
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 impl Repair {
     /// Puts the pieces into an outline: no two of its edges meet but in their ends.
     ///
-    /// At first only what is near the suspected edges is looked at, as nothing else can be in a conflict; then only what is
+    /// At first only what is near the edges of close pairs is looked at, as nothing else can be in a conflict; then only what is
     /// near the last cuts. Fragments that rounding made vertical and that overlap are not cut at abscissae; they are cut in
     /// the end.
     pub(super) fn cut(
@@ -52,7 +52,7 @@ impl Repair {
         }
     }
 
-    /// What is near the fragments of suspected edges.
+    /// What is near the fragments of the edges of close pairs.
     fn near_close_pairs(&self, close_pairs: &ClosePairs) -> Near {
         if close_pairs.all() {
             return Near::everything();

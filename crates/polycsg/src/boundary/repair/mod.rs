@@ -41,9 +41,9 @@ pub(crate) struct Repair {
     conflicts: Vec<[u32; 2]>,
     /// The cuts to be made next, sorted.
     cuts: Vec<CutAt>,
-    /// The suspected edges, sorted.
+    /// The edges of close pairs, sorted.
     edges: Vec<u32>,
-    /// How many vertices were put into edges since the count was set to 0.
+    /// How many vertices were put into edges for the last region.
     pub(crate) vertices: usize,
 }
 

@@ -7,12 +7,12 @@ use crate::base::id::index;
 use crate::contacts::close_pairs::ClosePairs;
 use crate::spatial::slabs::SlabDecomposition;
 
-/// So many pairs of fragments for each suspected pair of edges are quickly compared.
+/// So many pairs of fragments for each close pair of edges are quickly compared.
 const PAIRS: usize = 64;
 
 impl Repair {
-    /// Whether rounding left every piece where it was, as seen from the others: of the suspected pairs of edges, which are
-    /// the only ones that can, no two fragments meet but in a vertex of both.
+    /// Whether rounding left every piece where it was, as seen from the others: of the close pairs of edges, which are
+    /// the only ones that can meet, no two fragments do but in a vertex of both.
     pub(super) fn is_sound(
         &mut self,
         rounded: Rounded<'_>,
@@ -33,7 +33,7 @@ impl Repair {
         sound
     }
 
-    /// Whether all suspected pairs of edges are sound; none where their fragments are too many to compare each with each.
+    /// Whether all close pairs of edges are sound; none where their fragments are too many to compare each with each.
     fn are_all_sound(&mut self, rounded: Rounded<'_>, close_pairs: &ClosePairs) -> Option<bool> {
         self.edges.clear();
         self.edges.extend(close_pairs.pairs().iter().flatten());

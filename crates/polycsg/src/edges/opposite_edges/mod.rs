@@ -1,7 +1,7 @@
-//! Stage 1, where it pays: opposite edges of one counter cancel before anything looks at them.
+//! Opposite edges of one counter cancel before they are compared with others, where many do.
 //!
 //! ```text
-//!     +-->--+-->--+         The cells of a grid, the countries of a map: what two of them have in common changes the
+//!     +-->--+-->--+         The cells of a grid or the countries of a map: an edge that two of them share changes the
 //!     |     ^|    |         winding number forth and back, so the sum of all rings is that of the outer edges alone.
 //!     ^  a  |v b  v         What is left of the rings is linked to closed rings again; at each point as many edges are
 //!     |     |     |         left that arrive as that leave.

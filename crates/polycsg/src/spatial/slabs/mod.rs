@@ -1,11 +1,11 @@
-//! An index over edges for inputs where boxes tell nothing: long edges beside one another.
+//! The slab decomposition: which edges may meet, for inputs where boxes do not prune: long, nearly parallel edges.
 //!
-//! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), cut in three again
-//! and again. In the widest slabs that it crosses from side to side, an edge *spanning segments*:
+//! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), and each slab is
+//! cut in three again and again. In the widest slabs that it crosses from side to side, an edge is a *spanning segment*:
 //!
 //! ```text
 //!    slab            a, b, d, c span and do not meet: they are the slab's stairs, in one order at both sides.
-//!   |      d_|__     e spanning segments and crosses: it is compared with the stairs that it has between its two heights,
+//!   |      d_|__     e spans and crosses: it is compared with the stairs that it has between its two heights,
 //!   |_c__----|-      and handed on to the parts of the slab for what else it may meet.
 //!  _|--  _f /|       f ends here: it is compared with the stairs between its heights where it enters and where it
 //!   |b__/__/_|__     ends, and handed on likewise.
@@ -13,16 +13,24 @@
 //!   |    e   |       So an edge costs O(log n) in each of O(log n) slabs, and each crossing O(log n) at most.
 //! ```
 //!
-//! Edges on the line of a stair *follow* it: whatever meets the stair is compared with them too, and like the stair they are
-//! not handed on. Otherwise edges that coincide would be compared in every slab.
+//! The stairs are those of I. J. Balaban, "An optimal algorithm for finding segment intersections", SoCG 1995: spanning
+//! segments that do not cross within their slab, in one order, with which all other segments of the slab are compared by
+//! search, while what is no stair goes on to the parts. The differences: Balaban cuts in two and passes the order of the
+//! segments from slab to slab, so that intersections cost O(1) each; here each slab sorts its spanning segments anew, as
+//! stairs it takes the longest sequence that does not cross rather than a greedy one, slabs are cut in three, and spanning
+//! segments on the line of a stair are set apart:
+//!
+//! Edges on the line of a stair are *coincident* with it. Whatever meets the stair is compared with them too, and like the
+//! stair they are not handed on. Otherwise edges on one line would be compared in every slab.
 //!
 //! Heights are floats with a bound on their error. Where they do not tell two edges apart, the sides of their ends do, so
 //! that thousands of edges within a few roundings of one another still have an order. The index reports too much and never
 //! too little. Two edges with a common end are reported only if they may meet elsewhere too, so that a fan of edges costs
 //! no more than other edges.
 //!
-//! When asked for what comes near one another without meeting, there is no such order: edges within the error, which is
-//! widened then, are reported, and those that are as near to a stair from side to side follow it.
+//! The index can also report edges that come near one another without meeting. Then there is no such order: edges whose
+//! heights agree within a wider error are reported, and those that are as near to a stair from side to side count as
+//! coincident with it.
 
 mod beside;
 mod column;
@@ -76,14 +84,16 @@ pub(crate) struct SlabDecomposition {
     has_slopes: bool,
     /// The edges of the slab at hand, of its half at hand, and so on, with their places in `segments` for ids.
     open: Vec<RankedSegment>,
+    /// The segments that span the slab at hand, and those of them that are its stairs.
     spanning: Vec<SpanningSegment>,
     stairs: Vec<SpanningSegment>,
     /// The spanning segments' heights at the left side and their places.
     keys: Vec<(f64, u32)>,
-    /// The spanning segments that follow a stair, by its place.
+    /// The segments that are coincident with a stair, by its place.
     coincident: Vec<(usize, RankedSegment)>,
     /// Per stair where those end that come after it and share its left end, and its right one.
     fans: Vec<[u32; 2]>,
+    /// For the longest sequence of stairs: the last of the best sequence of each length, and what comes before each.
     tops: Vec<u32>,
     before: Vec<u32>,
     found: Found,

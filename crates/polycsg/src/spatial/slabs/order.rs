@@ -32,7 +32,8 @@ impl Order<'_> {
             || (low <= high + self.slack && self.is_just_below(a.segment, b.segment, side, slab))
     }
 
-    /// The same of spanning segments that heights do not tell apart. Where they share an end, their order is that at their other ends.
+    /// The same of spanning segments that heights do not tell apart. Where they share an end, their order is that at their
+    /// other ends.
     fn is_just_below(&self, a: RankedSegment, b: RankedSegment, side: usize, slab: Slab) -> bool {
         let shares = |side: usize| a.ranks[side] == b.ranks[side];
         shares(side)

@@ -1,4 +1,4 @@
-//! The edges that span a slab: which of them are its stairs, which follow one, and what else comes near them.
+//! The edges that span a slab: which of them are its stairs, which are coincident with a stair, and what else meets them.
 
 use super::order::Order;
 use super::segments::{Line, NONE, RankedSegment, Slab, SpanningSegment};
@@ -25,8 +25,8 @@ impl SlabDecomposition {
         self.sort_spanning(slab);
     }
 
-    /// Sorts keys, which are smaller than spanning segments; then exactly what heights do not tell apart, unless all that comes near is
-    /// asked for.
+    /// Sorts keys, which are smaller than spanning segments. What heights do not tell apart is then sorted exactly, unless all
+    /// that comes near is asked for.
     fn sort_spanning(&mut self, slab: Slab) {
         let SlabDecomposition { spanning, stairs, keys, ends, slack, reach, .. } = self;
         keys.clear();
@@ -51,8 +51,11 @@ impl SlabDecomposition {
         }
     }
 
-    /// Moves as many spanning segments as may be, none of which meets another, to the stairs: the longest increasing subsequence by
-    /// patience sorting.
+    /// Moves as many spanning segments as may be, none of which meets another, to the stairs.
+    ///
+    /// The segments are in order at the left side. Those that are in order at the right side, too, are an increasing
+    /// subsequence; the longest one is found by patience sorting: `tops` has for each length the segment that ends a sequence
+    /// of that length lowest at the right side, `before` the segment that precedes each in its sequence.
     pub(super) fn choose_stairs(&mut self, slab: Slab) {
         let SlabDecomposition { spanning, stairs, tops, before, .. } = self;
         let order = Order { ends: &self.ends, slack: self.slack, is_exact: self.reach == 0.0 };
@@ -89,7 +92,7 @@ impl SlabDecomposition {
         self.find_fans();
     }
 
-    /// Takes the spanning segments that follow a stair.
+    /// Takes the spanning segments that are coincident with a stair.
     pub(super) fn sort_out_coincident(&mut self, slab: Slab) {
         let mut spanning = std::mem::take(&mut self.spanning);
         self.coincident.clear();
@@ -102,8 +105,8 @@ impl SlabDecomposition {
         self.coincident.sort_unstable_by_key(|&(place, segment)| (place, segment.id));
     }
 
-    /// The stair that a span follows: one that ends alike and is near at both sides or, where spanning segments have an exact order, on
-    /// its line.
+    /// The stair that a spanning segment is coincident with: one that ends alike and is near at both sides or, where there is an
+    /// exact order, on its line.
     fn coincides_with(&self, span: &SpanningSegment, slab: Slab) -> Option<usize> {
         let order = self.order();
         let is_near = |stair: &SpanningSegment| {
@@ -133,8 +136,8 @@ impl SlabDecomposition {
         end == at || (self.reach == 0.0 && self.ends[end as usize].x == self.ends[at as usize].x)
     }
 
-    /// Finds the pairs of coincident segments and stairs, and of coincident segments of one stair or of stairs near one another, that may meet in
-    /// a slab.
+    /// Finds the pairs that may meet in a slab of coincident segments and stairs, and of coincident segments of one stair or of
+    /// stairs near one another.
     pub(super) fn compare_coincident(&mut self, slab: Slab) {
         for i in 0..self.coincident.len() {
             self.compare(self.coincident[i].1, slab, false);
