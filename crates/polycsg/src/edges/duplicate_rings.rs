@@ -4,7 +4,6 @@ use super::{Also, EdgeRing, Edges};
 use crate::base::hash::mixed;
 use crate::base::id::index;
 use crate::spatial::chains::MonotoneChains;
-use glam::DVec2;
 
 /// A ring with the same points as an earlier one.
 #[derive(Clone, Copy, Debug)]

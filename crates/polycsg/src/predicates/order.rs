@@ -76,6 +76,7 @@ pub(crate) fn crossing_x_order(e: Segment, f: Segment, x: f64) -> Ordering {
 }
 
 /// The edge directed from its lexicographically smaller end.
+#[inline]
 pub(crate) fn rightward(e: Segment) -> Segment {
     if lexicographic(e[0], e[1]) == Ordering::Greater { [e[1], e[0]] } else { e }
 }

@@ -202,6 +202,7 @@ enum Look {
 }
 
 /// What a ray down from `p`, just right of it, does with an edge.
+#[inline]
 fn look_down(edge: Segment, p: DVec2) -> Look {
     let [a, b] = rightward(edge);
     if p == a || p == b {
