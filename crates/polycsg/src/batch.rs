@@ -21,6 +21,7 @@ impl Csg<'_> {
     /// assert!(Csg::evaluate_all(&jobs).iter().all(|common| common.area() == 2.0));
     /// # Ok::<(), polycsg::Error>(())
     /// ```
+    #[must_use]
     pub fn evaluate_all(jobs: &[Csg<'_>]) -> Vec<Region> {
         jobs.par_iter().map_init(Scratch::default, |scratch, job| job.evaluate_with(scratch)).collect()
     }

@@ -14,6 +14,7 @@ use glam::DVec2;
 
 /// A part of a classified segment, between neighbouring contacts with the region's boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Interval {
     /// Where it starts, rounded if it is a crossing.
     pub start: DVec2,

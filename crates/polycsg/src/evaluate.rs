@@ -13,6 +13,7 @@ impl Csg<'_> {
     ///
     /// # Panics
     /// Beyond 2^32 − 2 edges and contacts, which take hundreds of gigabytes; nothing else panics.
+    #[must_use]
     pub fn evaluate(&self) -> Region {
         self.evaluate_with(&mut Scratch::default())
     }
@@ -113,21 +114,25 @@ impl Region {
     /// assert_eq!(a.symmetric_difference(&b).area(), 4.0);
     /// # Ok::<(), polycsg::Error>(())
     /// ```
+    #[must_use]
     pub fn union(&self, other: &Region) -> Region {
         (Csg::from(self) | Csg::from(other)).evaluate()
     }
 
     /// A ∩ B, all points in both.
+    #[must_use]
     pub fn intersection(&self, other: &Region) -> Region {
         (Csg::from(self) & Csg::from(other)).evaluate()
     }
 
     /// A − B, all points in this region but not in the other.
+    #[must_use]
     pub fn difference(&self, other: &Region) -> Region {
         (Csg::from(self) - Csg::from(other)).evaluate()
     }
 
     /// A ⊕ B, all points in exactly one of the two.
+    #[must_use]
     pub fn symmetric_difference(&self, other: &Region) -> Region {
         (Csg::from(self) ^ Csg::from(other)).evaluate()
     }

@@ -15,6 +15,7 @@ use select::{Piece, Selection};
 /// It is part or all of one input edge, and may run against it, as the edges of a subtracted operand do. Where input edges
 /// coincide, one of them is named.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BoundaryEdge {
     /// Where it starts: an input vertex, or a crossing rounded to nearest.
     pub start: DVec2,
@@ -31,6 +32,7 @@ pub struct BoundaryEdge {
 /// Every vertex is rounded once to the nearest double. Edges that rounding made meet are not repaired, and no rings are
 /// built. The edges form closed walks, so that sums over edges (areas, moments, contour integrals) are right.
 #[derive(Clone, Copy, Debug)]
+#[must_use = "a boundary is read through its edges"]
 pub struct Boundary<'s> {
     selection: &'s Selection,
     edges: &'s Edges,
@@ -65,11 +67,13 @@ impl<'s> Boundary<'s> {
     }
 
     /// Whether the set is empty.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.selection.pieces().is_empty()
     }
 
     /// The enclosed area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
+    #[must_use]
     pub fn area(&self) -> f64 {
         let walks = self.selection.pieces().iter().map(|&piece| {
             let points = self.selection.points(self.edges, self.contacts, piece);

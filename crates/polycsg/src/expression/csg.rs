@@ -101,6 +101,7 @@ impl Token<'_> {
 /// # Ok::<(), polycsg::Error>(())
 /// ```
 #[derive(Clone, Debug)]
+#[must_use = "an expression does nothing until it is evaluated"]
 pub struct Csg<'a> {
     // Postfix, so that neither evaluating nor dropping a deep expression recurses; open at both ends, so that it grows
     // either way at the price of what is added.

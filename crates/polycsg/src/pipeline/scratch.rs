@@ -114,6 +114,7 @@ impl Scratch {
     /// assert_eq!(scratch.repaired_vertices(), 0);
     /// # Ok::<(), polycsg::Error>(())
     /// ```
+    #[must_use]
     pub fn repaired_vertices(&self) -> usize {
         self.boundary.repair.vertices
     }

@@ -38,6 +38,7 @@ pub enum Membership {
 
 impl Membership {
     /// The membership by its two sides: whether the left one is inside, and whether the right one is.
+    #[must_use]
     pub fn from_sides(left: bool, right: bool) -> Membership {
         match (left, right) {
             (true, true) => Membership::In,
@@ -48,11 +49,13 @@ impl Membership {
     }
 
     /// Whether the left side is inside.
+    #[must_use]
     pub fn left(self) -> bool {
         matches!(self, Membership::In | Membership::OnPlus)
     }
 
     /// Whether the right side is inside.
+    #[must_use]
     pub fn right(self) -> bool {
         matches!(self, Membership::In | Membership::OnMinus)
     }
@@ -62,31 +65,37 @@ impl Membership {
     }
 
     /// The membership in A ∪ B from those in A and in B.
+    #[must_use]
     pub fn union(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a | b)
     }
 
     /// The membership in A ∩ B from those in A and in B.
+    #[must_use]
     pub fn intersection(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a & b)
     }
 
     /// The membership in A − B from those in A and in B.
+    #[must_use]
     pub fn difference(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a & !b)
     }
 
     /// The membership in A ⊕ B from those in A and in B.
+    #[must_use]
     pub fn symmetric_difference(self, other: Membership) -> Membership {
         self.by_side(other, |a, b| a ^ b)
     }
 
     /// The membership in the complement.
+    #[must_use]
     pub fn complement(self) -> Membership {
         Membership::from_sides(!self.left(), !self.right())
     }
 
     /// The membership of the same sub-edge in the opposite direction: its sides change places.
+    #[must_use]
     pub fn reversed(self) -> Membership {
         Membership::from_sides(self.right(), self.left())
     }

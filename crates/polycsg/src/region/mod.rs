@@ -62,6 +62,7 @@ pub struct Polygon<'r> {
 
 impl<'r> Polygon<'r> {
     /// The outer ring, counter-clockwise, three points or more, the first not repeated.
+    #[must_use]
     pub fn outer(&self) -> &'r [DVec2] {
         self.rings.ring(self.first)
     }
@@ -73,6 +74,7 @@ impl<'r> Polygon<'r> {
     }
 
     /// How many polygons surround it: 0 for an outermost one, 1 for an island in a hole of that, and so on.
+    #[must_use]
     pub fn depth(&self) -> usize {
         self.depth
     }
@@ -105,6 +107,7 @@ impl Region {
     }
 
     /// Whether the set is empty.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.polygons.is_empty()
     }
@@ -127,16 +130,19 @@ impl Region {
     /// assert_eq!(triangle.locate(DVec2::new(1.5, 0.5_f64.next_down())), Location::Outside);
     /// # Ok::<(), polycsg::Error>(())
     /// ```
+    #[must_use]
     pub fn locate(&self, point: DVec2) -> Location {
         if !point.is_finite() {
             return Location::Outside;
         }
         let mut above = false;
-        for edge in self.rings().flat_map(ring_edges) {
-            match look_down(edge, point) {
-                Look::On => return Location::Boundary,
-                Look::Hits => above = !above,
-                Look::Misses => {}
+        for ring in self.rings() {
+            for edge in ring_edges(ring) {
+                match look_down(edge, point) {
+                    Look::On => return Location::Boundary,
+                    Look::Hits => above = !above,
+                    Look::Misses => {}
+                }
             }
         }
         if above { Location::Inside } else { Location::Outside }

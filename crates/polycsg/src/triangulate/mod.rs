@@ -32,6 +32,7 @@ impl Region {
     /// assert_eq!(triangles.into_iter().map(area).sum::<f64>(), frame.area());
     /// # Ok::<(), polycsg::Error>(())
     /// ```
+    #[must_use]
     pub fn triangulate(&self) -> Vec<[DVec2; 3]> {
         let outline = IndexedRegion::of(self);
         let triangles = delaunay::triangles(&outline).unwrap_or_else(|| sweep::triangles(&outline));
