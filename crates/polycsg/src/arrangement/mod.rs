@@ -11,7 +11,7 @@
 //!
 //! A node where just two edges cross needs no list: the two sub-edges that start there tell everything. All other nodes are
 //! junctions. Overlapping sub-edges leave a junction in one direction. The one with the smallest id is their representative:
-//! it //! stands for all.
+//! only this one is walked and labelled.
 
 pub(crate) mod labels;
 

@@ -1,6 +1,6 @@
-//! Stage 9: which hole belongs to which outer ring, which polygon lies in which hole.
+//! Stage 9: which hole belongs to which outer ring, and which polygon lies in which hole.
 //!
-//! Rings are taken by their leftmost point. A hole that was cut from the same cycle as an outer ring belongs to it;
+//! Rings are placed in the order of their leftmost points. A hole that was cut from the same cycle as an outer ring belongs to it;
 //! for any other ring the edge right below its leftmost point tells the face that surrounds it:
 //!
 //! ```text

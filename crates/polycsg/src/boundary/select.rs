@@ -11,7 +11,7 @@ use crate::region::membership::Membership;
 use glam::DVec2;
 use std::ops::Range;
 
-/// A directed piece of the boundary: a part of one ring, from node to node or all of it.
+/// A directed piece of the boundary: part of one ring, from node to node, or all of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
     pub(crate) ring: u32,
@@ -81,7 +81,7 @@ pub(crate) struct Selection {
 const UNUSED: DVec2 = DVec2::NEG_INFINITY;
 const WANTED: DVec2 = DVec2::INFINITY;
 
-/// So many nodes are a part of the work.
+/// So many nodes are rounded at a time.
 const NODES: usize = 4096;
 
 /// A run of selected sub-edges, being built: from the start of one sub-edge to that of another.
@@ -119,7 +119,7 @@ impl Selection {
         }
     }
 
-    /// Of a piece the points of its edges, in its own direction.
+    /// The points of a piece, in its own direction.
     pub(crate) fn points<'a>(
         &'a self,
         edges: &'a Edges,

@@ -37,7 +37,7 @@ pub(crate) enum EdgePlace {
     Vertex(u32),
 }
 
-/// What meets in some nodes.
+/// The edges that meet in some nodes.
 #[derive(Debug, Default)]
 pub(super) struct CloseGroups {
     /// Per node that stands for all at its point whether it is one of these.
@@ -91,7 +91,7 @@ impl ClosePairs {
             || !slabs.widen(margins.close);
     }
 
-    /// ClosePairs all edges, and has [`SlabDecomposition`] report only what meets; false if they do.
+    /// Counts all edges as close, and lets the slab decomposition report only what meets; false if it does so already.
     pub(crate) fn give_up(&mut self, slabs: &mut SlabDecomposition) -> bool {
         self.all = true;
         slabs.narrow()

@@ -1,4 +1,4 @@
-//! Where two things happen on an edge close together, all edges that meet there may do so once more when they are rounded.
+//! Where two contacts lie close together on an edge, all edges that meet there may meet once more when they are rounded.
 
 use super::Contacts;
 use super::close_pairs::{CloseGroups, ClosePairs, ClosePlaces, EdgePlace};
@@ -9,43 +9,43 @@ impl Contacts {
     /// Notes all pairs of edges that meet in one of two places close together.
     pub(super) fn find_at_close_places(&mut self, edges: &Edges, close_pairs: &mut ClosePairs) {
         let close = std::mem::take(&mut close_pairs.close);
-        let mut meeting = std::mem::take(&mut self.close_groups);
+        let mut groups = std::mem::take(&mut self.close_groups);
         if self.degenerate && !close.is_empty() {
-            self.gather(edges, &close, &mut meeting);
+            self.gather(edges, &close, &mut groups);
         }
         for ClosePlaces { edge, places } in &close {
             if close_pairs.all() {
                 break; // by now so many meet in one place that each of its edges would gather them all
             }
-            meeting.group.clear();
-            meeting.group.push(*edge);
-            places.iter().for_each(|&at| self.add_edges(edges, at, &mut meeting));
-            meeting.group.sort_unstable();
-            meeting.group.dedup();
-            close_pairs.add_group(&meeting.group);
+            groups.group.clear();
+            groups.group.push(*edge);
+            places.iter().for_each(|&at| self.add_edges(edges, at, &mut groups));
+            groups.group.sort_unstable();
+            groups.group.dedup();
+            close_pairs.add_group(&groups.group);
         }
         close_pairs.close = close;
-        self.close_groups = meeting;
+        self.close_groups = groups;
     }
 
     /// Gathers the edges that start, end or lie in the nodes of some places.
-    fn gather(&self, edges: &Edges, close: &[ClosePlaces], meeting: &mut CloseGroups) {
-        meeting.is_close.clear();
-        meeting.is_close.resize(self.nodes.len(), false);
+    fn gather(&self, edges: &Edges, close: &[ClosePlaces], groups: &mut CloseGroups) {
+        groups.is_close.clear();
+        groups.is_close.resize(self.nodes.len(), false);
         for node in close.iter().flat_map(|close| close.places).filter_map(|at| self.node_of(at)) {
-            meeting.is_close[node as usize] = true;
+            groups.is_close[node as usize] = true;
         }
-        meeting.edges.clear();
+        groups.edges.clear();
         for contact in &self.found {
             let node = self.node(contact.node);
-            if meeting.is_close[node as usize] {
-                meeting.edges.push([node, contact.edge]);
+            if groups.is_close[node as usize] {
+                groups.edges.push([node, contact.edge]);
                 if contact.partner.kind() == PartnerKind::Start {
-                    meeting.edges.push([node, edges.ring(contact.edge).previous(contact.edge)]);
+                    groups.edges.push([node, edges.ring(contact.edge).previous(contact.edge)]);
                 }
             }
         }
-        meeting.edges.sort_unstable();
+        groups.edges.sort_unstable();
     }
 
     fn node_of(&self, at: EdgePlace) -> Option<u32> {
@@ -56,8 +56,8 @@ impl Contacts {
     }
 
     /// Adds the edges that meet in a place to the group.
-    fn add_edges(&self, edges: &Edges, at: EdgePlace, meeting: &mut CloseGroups) {
-        let CloseGroups { edges: gathered, group, .. } = meeting;
+    fn add_edges(&self, edges: &Edges, at: EdgePlace, groups: &mut CloseGroups) {
+        let CloseGroups { edges: gathered, group, .. } = groups;
         match (self.node_of(at), at) {
             (Some(node), _) if self.degenerate => {
                 let first = gathered.partition_point(|pair| pair[0] < node);

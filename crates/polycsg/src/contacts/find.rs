@@ -1,4 +1,4 @@
-//! Which pairs of edges are compared: those whose chains' boxes meet, or those that slabs find.
+//! Compares the candidate pairs of edges: those whose boxes meet, or those that the slab decomposition finds.
 
 use super::Contacts;
 use super::candidates::Candidates;
@@ -66,7 +66,7 @@ impl Contacts {
         })
     }
 
-    /// The same: pairs of edges are compared strip by strip on all threads, and what was found is noted strip by strip.
+    /// The same on all threads: they compare pairs of edges strip by strip, and the results are noted in the order of the strips.
     fn find_on_threads(
         &mut self,
         candidates: Candidates<'_>,

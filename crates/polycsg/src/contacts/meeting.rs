@@ -89,7 +89,7 @@ impl Contacts {
         }
     }
 
-    /// Contacts at ends: `sides` are those of f's ends against e and of e's ends against f.
+    /// Records contacts at ends: `sides` are those of f's ends against e and of e's ends against f.
     fn touch(&mut self, edges: &Edges, [e, f]: [u32; 2], sides: [Side; 4]) {
         for (side, (edge, vertex)) in
             sides.into_iter().zip([(e, f), (e, edges.head(f)), (f, e), (f, edges.head(e))])

@@ -16,7 +16,7 @@ use glam::DVec2;
 pub(super) enum Meeting {
     Apart,
     Crossing(Crossing),
-    /// Not clear, by the areas of each one's ends against the other.
+    /// Not clear; with the areas of each one's ends against the other.
     Close {
         ends_of_f: [Area; 2],
         ends_of_e: [Area; 2],
@@ -65,7 +65,7 @@ pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meet
     }
 }
 
-/// Whether two edges cross, whatever rounding does.
+/// Whether two edges certainly cross, whatever rounding does.
 pub(crate) fn cross_clearly(edges: &Edges, pair: [u32; 2], margins: Margins) -> bool {
     matches!(meeting(edges, pair, margins), Meeting::Crossing(_))
 }

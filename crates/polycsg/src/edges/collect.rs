@@ -1,4 +1,4 @@
-//! Reads the operands' rings, near ones one after the other.
+//! Reads the operands' rings. Rings that are near in the plane are stored one after the other.
 
 use super::{END, EdgeRing, Edges, Origin};
 use crate::base::id::index;
@@ -8,7 +8,7 @@ use crate::expression::winding::WindingNumbers;
 use crate::region::rings::Rings;
 use glam::DVec2;
 
-/// Up to so many rings keep their order; more are sorted so that what lies close in the plane lies close in memory.
+/// More rings than this are sorted, so that what lies close in the plane lies close in memory.
 const FEW_RINGS: usize = 64;
 
 /// A ring by its first point.

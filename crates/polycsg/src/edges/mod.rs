@@ -10,14 +10,14 @@ use crate::predicates::Segment;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Edges and explicit vertices under one numbering: edge `e` runs from point `e` to point `e + 1`.
+/// All edges and their vertices, under one numbering: edge `e` runs from the point in slot `e` to that in slot `e + 1`.
 ///
-/// The rings lie one after the other, each with its first point once more behind the last: a slot that is neither an
-/// edge nor a vertex of its own.
+/// The rings lie one after the other, each with its first point once more behind the last. That last slot is neither an edge
+/// nor a vertex of its own.
 #[derive(Debug, Default)]
 pub(crate) struct Edges {
     points: Vec<DVec2>,
-    /// Per slot.
+    /// Per slot its ring.
     ring: Vec<u32>,
     rings: Vec<EdgeRing>,
     /// Per slot where the edge comes from; empty while all of each ring's points are there.
@@ -25,7 +25,7 @@ pub(crate) struct Edges {
     also: Vec<Also>,
 }
 
-/// A ring: its edges are `start..end`, in slot `end` its first point stands again.
+/// A ring. Its edges are `start..end`; slot `end` holds its first point again.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeRing {
     pub(crate) start: u32,
@@ -190,7 +190,7 @@ impl Edges {
         }
     }
 
-    /// Whether the expression holds to the right of an edge, from the left of which the walk looks.
+    /// Whether the expression holds to the right of an edge; the walk is on its left.
     #[inline]
     pub(crate) fn holds_behind(&self, edge: u32, winding: &mut WindingNumbers) -> bool {
         let ring = self.ring(edge);

@@ -1,4 +1,4 @@
-//! The state of a walk over the arrangement: how often each operand covers the place, and whether the whole
+//! The state of a walk over the arrangement: the winding number of each operand at the walk's place, and whether the whole
 //! expression holds there.
 //!
 //! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions) and stand
@@ -14,7 +14,7 @@ enum Rule {
     NonZero,
     Positive,
     Odd,
-    /// As many as that: all of so many regions.
+    /// So many: all of so many regions.
     Equal(i32),
 }
 

@@ -54,7 +54,8 @@ impl MonotoneChain {
         points[self.slot(i) as usize]
     }
 
-    /// The edge, as an index and directed to the right, whose leftmost end lies at or left of `x` and whose rightmost end lies right of it.
+    /// The edge, as an index and directed to the right, whose leftmost end lies at or left of `x` and whose rightmost end lies
+    /// right of it.
     pub(crate) fn edge_at(&self, points: &[DVec2], x: f64) -> Option<(u32, Segment)> {
         let right = (0..=self.len()).find(|&i| self.point(points, i).x > x)?;
         let i = right.checked_sub(1)?;

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 /// So many boxes are looked at for each edge; then the slab decomposition takes over.
 const BOXES_PER_EDGE: usize = 32;
 
-/// For each of some vertices the edge right below it, as an index and directed to the right; none may run through them.
+/// For each of some vertices the edge right below it. No edge may run through the vertices.
 #[derive(Debug, Default)]
 pub(crate) struct VerticalRays {
     edges: Vec<Option<u32>>,

@@ -1,4 +1,4 @@
-//! An index over boxes: vertical strips, in each the boxes by their lower side.
+//! An index over boxes: vertical strips, each with its boxes sorted by their lower sides.
 //!
 //! ```text
 //!   strip 0   strip 1   strip 2          A box stands in each strip that it touches.
@@ -16,7 +16,7 @@ use crate::base::threads::Threads;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Entries of a strip that this many make worth sorting into one more strip.
+/// A strip for each so many boxes.
 const BOXES_PER_STRIP: usize = 192;
 
 /// So many boxes are quicker compared than sorted.

@@ -102,7 +102,7 @@ impl Labels {
         }
     }
 
-    /// Whether the chain on which a crossing lies was walked, or is being walked.
+    /// Whether the chain of a sub-edge was walked, or is being walked.
     #[inline]
     fn is_walked(&self, sub_edge: u32) -> bool {
         self.walked[self.chain[sub_edge as usize] as usize]

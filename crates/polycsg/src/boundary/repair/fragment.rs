@@ -34,7 +34,7 @@ pub(super) struct Class {
     pub(super) moved: bool,
 }
 
-/// Whether two segments have more in common than single ends, or nothing.
+/// Whether two segments meet elsewhere than in common ends.
 pub(super) fn in_conflict([s, t]: [Segment; 2]) -> bool {
     let (p, q) = (side(s[0], s[1], t[0]), side(s[0], s[1], t[1]));
     if p == q && p != Side::On {

@@ -1,4 +1,4 @@
-//! The rounded pieces as fragments between cuts.
+//! The rounded boundary in fragments between cuts.
 
 use super::fragment::{CutAt, Fragment, Part};
 use crate::base::id::index;
@@ -9,7 +9,7 @@ use crate::predicates::{Ratio, crossing_ratio};
 use glam::DVec2;
 use std::cmp::Ordering;
 
-/// What the stage looks at.
+/// The rounded boundary, which may need repair.
 #[derive(Clone, Copy)]
 pub(crate) struct Rounded<'a> {
     pub(crate) edges: &'a Edges,
@@ -50,7 +50,7 @@ impl Rounded<'_> {
         }
     }
 
-    /// The one id of a vertex that all have who end there.
+    /// The id of a vertex, the same for all pieces that end there.
     fn vertex(&self, end: End) -> u32 {
         let node = match end {
             End::Node(node) => Some(node),

@@ -10,7 +10,7 @@
 //!   --------             -/\----                 ------+---+
 //! ```
 //!
-//! Why this ends, and ends well. Exactly, pieces meet only in common vertices, so between two cuts at equal abscissae
+//! This ends, and the result is right. Before rounding, pieces meet only in common vertices, so between two cuts at equal abscissae
 //! two fragments keep one order; rounding each coordinate to nearest is monotone, so they keep it weakly at both
 //! ends: they may share ends or coincide, never cross. When two fragments still conflict, some end of one lies
 //! strictly inside the abscissae of the other, so a cut is added; there are finitely many (piece, vertex) pairs.

@@ -36,7 +36,7 @@ impl Near {
         Near { tree: Some(tree), looked_at: 0, asked: 0 }
     }
 
-    /// Whether the box of a segment meets one of the boxes. When that takes too long, says so of any segment.
+    /// Whether the box of a segment meets one of the boxes. When finding out takes too long, the answer is yes from then on.
     pub(super) fn meets(&mut self, [a, b]: Segment) -> bool {
         let Some(tree) = &self.tree else { return true };
         self.asked += 1;

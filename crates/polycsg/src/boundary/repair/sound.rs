@@ -1,4 +1,4 @@
-//! Whether rounding broke anything.
+//! Whether rounding made pieces of the boundary meet.
 
 use super::Repair;
 use super::fragment::{Fragment, in_conflict};
@@ -33,7 +33,7 @@ impl Repair {
         sound
     }
 
-    /// Whether all close pairs of edges are sound; none where their fragments are too many to compare each with each.
+    /// Whether all close pairs of edges are sound, or `None` where their fragments are too many to compare each with each.
     fn are_all_sound(&mut self, rounded: Rounded<'_>, close_pairs: &ClosePairs) -> Option<bool> {
         self.edges.clear();
         self.edges.extend(close_pairs.pairs().iter().flatten());

@@ -8,8 +8,8 @@
 //!     +--<--+--<--+
 //! ```
 //!
-//! Whether it pays is told by the edges at a few points, chosen by their digits, so that the order of the input, its
-//! scale and quarter turns do not matter.
+//! A sample of the edges at a few points decides whether this pays. The points are chosen by their digits, so that the order
+//! of the input, its scale and quarter turns do not matter.
 
 mod cells;
 mod table;
@@ -25,7 +25,7 @@ use std::ops::Range;
 use table::Table;
 use touched::Touched;
 
-/// Fewer edges are not worth a look.
+/// Fewer edges are not worth a sample.
 const FEW: usize = 256;
 
 /// Edges at one point in so many are looked at, at most.

@@ -1,5 +1,5 @@
-//! A hash table of edges by their ends, a part of it for each cell of the plane: what lies close in the plane is looked
-//! up close in memory.
+//! A hash table of edges by their ends, with a part for each cell of the plane, so that neighbours in the plane are neighbours
+//! in memory.
 
 use super::cells::Cells;
 use crate::base::hash::mixed;

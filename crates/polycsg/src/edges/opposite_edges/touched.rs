@@ -1,4 +1,4 @@
-//! Vertices that are gone but touch an edge that is left: they are vertices of it from then on, as they are where nothing
+//! Vertices of cancelled edges that touch a remaining edge: they become vertices of that edge, as they do where nothing
 //! cancels.
 
 use super::cells::Cells;
