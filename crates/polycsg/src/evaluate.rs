@@ -9,7 +9,7 @@ use crate::region::Region;
 use glam::DVec2;
 
 impl Csg<'_> {
-    /// The set as a valid [`Region`]. Expected O((n + k) log n) for n edges with k contacts.
+    /// Evaluates the expression to a valid [`Region`]. Expected O((n + k) log n) for n edges with k contacts.
     ///
     /// # Panics
     /// Beyond 2^32 − 2 edges and contacts, which take hundreds of gigabytes; nothing else panics.
@@ -50,8 +50,8 @@ impl Csg<'_> {
 
     /// The directed edges that bound the set, interior to the left, each vertex rounded once.
     ///
-    /// It is cheaper than a region, as it is not checked for what rounding did, and has no rings and no nesting. Use it to
-    /// sum over edges, for the area alone, to see whether anything is left, or to see which operand an edge comes from.
+    /// A boundary is cheaper than a region, as nothing is repaired, linked to rings or nested. Use it to sum over edges, for the
+    /// area alone, to see whether anything is left, or to see which operand an edge comes from.
     ///
     /// ```
     /// use polycsg::{Csg, FillRule, Region, Scratch};

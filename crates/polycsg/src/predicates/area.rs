@@ -1,6 +1,6 @@
 //! The exact area, for sums that cancel.
 
-use super::side::Segment;
+use super::segment::Segment;
 use exactfloat::{Integer, lowest_exponent, multiple, nearest};
 
 /// The area that closed walks of directed edges enclose, correctly rounded; infinite beyond the range.

@@ -12,7 +12,7 @@
 //! common point lie `4 u M` apart, and those that do keep different directions from it.
 
 use super::orient::Area;
-use super::side::Segment;
+use super::segment::Segment;
 
 /// The distances of the module's page.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,6 +1,6 @@
 //! The predicates on integers of fixed size, where the coordinates' exponents allow these; none where they do not.
 
-use super::side::{Segment, Side};
+use super::segment::{Segment, Side};
 use exactfloat::fixed::{self, compare_products};
 use glam::DVec2;
 use std::cmp::Ordering;

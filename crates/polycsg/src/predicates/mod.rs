@@ -24,7 +24,7 @@ mod order;
 mod orient;
 mod parameter;
 mod round;
-mod side;
+mod segment;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -39,7 +39,7 @@ pub(crate) use order::{
 pub(crate) use orient::{Area, doubled_area, side, side_of, turn};
 pub(crate) use parameter::Parameter;
 pub(crate) use round::{crossing_point, crossing_ratio};
-pub(crate) use side::{Segment, Side};
+pub(crate) use segment::{Segment, Side};
 
 /// Asks every predicate about one configuration, made of a stream of words.
 ///

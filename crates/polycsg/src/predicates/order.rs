@@ -3,7 +3,7 @@
 use super::fixed;
 use super::orient::{UNIT, side, turn};
 use super::round::{crossing_point, crossing_ratio};
-use super::side::{Segment, Side};
+use super::segment::{Segment, Side};
 use exactfloat::{Integer, Ratio, integers};
 use glam::DVec2;
 use std::cmp::Ordering;

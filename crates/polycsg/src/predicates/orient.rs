@@ -1,7 +1,7 @@
 //! Orientation signs: which side of a line, which turn between two directions.
 
 use super::fixed;
-use super::side::{Segment, Side};
+use super::segment::{Segment, Side};
 use exactfloat::{integers, orient2d, sign};
 use glam::DVec2;
 use std::cmp::Ordering;

@@ -1,7 +1,7 @@
 //! Parameters along an edge with error bounds: the filter before the exact orders.
 
 use super::orient::{Area, UNIT};
-use super::side::Segment;
+use super::segment::Segment;
 use glam::DVec2;
 use std::cmp::Ordering;
 

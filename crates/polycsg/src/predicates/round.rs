@@ -1,6 +1,6 @@
 //! The crossing of two edges, each coordinate rounded once to the nearest double.
 
-use super::side::Segment;
+use super::segment::Segment;
 use exactfloat::{DoubleDouble, Ratio, scaled_integers};
 use glam::DVec2;
 
