@@ -4,7 +4,8 @@ use super::gather::{aim, as_contour};
 use super::hemicube::Hemicube;
 use super::parts::{Division, Part, divide, pieces};
 use super::screen::Screen;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
 /// A hemicube; where proximity is violated, the target's parts of which it shows the middle, each by the contour sum (2.4)
 /// [Baum, Rushmeier & Winget 1989].

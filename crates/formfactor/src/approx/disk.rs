@@ -1,7 +1,9 @@
 //! One disk instead of the target.
 use super::Method;
 use super::parts::pieces;
-use crate::{DifferentialArea, Enclosure, PlanarPolygon};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! Axes about dA's normal.
 use super::random::Random;
-use crate::DifferentialArea;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::f64::consts::TAU;
 

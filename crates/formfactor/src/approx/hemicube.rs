@@ -3,7 +3,8 @@ use super::frame::{Rotation, frame};
 use super::ray::items;
 use super::screen::{Screen, steps};
 use super::{Method, delta};
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 
 /// Five faces of half a cube around dA, of half-width and height 1, cut in cells of which each holds the id of the nearest

@@ -62,7 +62,8 @@ pub use single_plane::SinglePlane;
 pub use visibility_index::VisibilityIndex;
 pub use wallace::Wallace;
 
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
 /// A way to find form factors, by rows, so that a method that sees everything in one pass pays for it once.
 pub trait Method {

@@ -3,7 +3,8 @@ use super::Method;
 use super::frame::{Rotation, along, frame};
 use super::random::Random;
 use super::ray::{along_ray, items, seen};
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::f64::consts::TAU;
 

@@ -3,7 +3,8 @@ use super::Method;
 use super::delta::normalise;
 use super::frame::{Rotation, along, frame};
 use super::monte_carlo::cast;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
 /// A square image of the hemisphere mirrored in the paraboloid z = 1/2 - (x^2 + y^2)/2 [Heidrich & Seidel 1998]: the
 /// direction d is seen at (x, y) = (d_x, d_y) / (1 + d_z), and the cell there receives

@@ -1,6 +1,6 @@
 //! Targets in parts: triangles and parallelograms, which divide into congruent ones.
-use crate::PlanarPolygon;
-use crate::region::leaf;
+use crate::shapes::loops::leaf;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::fmt;
 

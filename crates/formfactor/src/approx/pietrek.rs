@@ -2,7 +2,8 @@
 use super::Method;
 use super::gather::{as_contour, as_disk, by_parts, row_of_targets};
 use super::parts::Division;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
 /// As [`Wallace`](super::Wallace), but a part that is too near for a disk takes the contour sum (2.4) over its corners
 /// [Pietrek 1993].

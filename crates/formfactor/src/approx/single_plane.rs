@@ -3,7 +3,8 @@ use super::Method;
 use super::delta;
 use super::frame::{Rotation, along, frame};
 use super::ray::{Item, items, seen};
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::ops::Range;
 

@@ -2,7 +2,8 @@
 use super::Method;
 use super::gather::{as_disk, by_parts, row_of_targets};
 use super::parts::Division;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
 /// The target in parts, each a disk, with a ray to each part's centre [Wallace 1989; Barreto 2008, (2.3)]:
 ///

@@ -7,10 +7,9 @@ mod contour;
 mod events;
 mod pair;
 mod rule;
-pub(crate) mod shaft;
 
-use crate::Enclosure;
 use crate::error::Error;
+use crate::scene::enclosure::Enclosure;
 
 /// A form factor from a polygon to a polygon.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

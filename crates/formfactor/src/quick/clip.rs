@@ -1,13 +1,13 @@
 //! Clipping of convex polygons by a plane.
 use super::cone::{Corner, size};
-use crate::polygon::ROUNDING;
+use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
 use std::cmp::Ordering;
 
 /// Keeps the part of a convex polygon that is not on the lower side of a plane. `place` says where a vertex lies,
 /// `height` how far from the plane in some measure, within a rounding or two.
 ///
-/// A clip point is where its edge says, within its slack. Ends are taken in the same order for both directions of an edge,
+/// A clip point is where its edge says, within its deviation. Ends are taken in the same order for both directions of an edge,
 /// so that neighbours keep sharing it.
 pub(super) fn clip(
     corners: &mut Vec<Corner>,
@@ -40,5 +40,5 @@ fn cut(inner: DVec3, outer: DVec3, height: impl Fn(DVec3) -> f64) -> Corner {
     let (above, below) = (height(inner), height(outer));
     let along = outer - inner;
     let at = inner + along * (above / (above - below));
-    Corner { at, slack: 2.0 * ROUNDING * (size(inner) + 8.0 * size(along)) }
+    Corner { at, deviation: 2.0 * ROUNDING * (size(inner) + 8.0 * size(along)) }
 }

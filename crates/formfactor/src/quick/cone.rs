@@ -1,5 +1,5 @@
 //! Convex polygons as dA sees them: edges, each with the plane through it and dA.
-use crate::polygon::ROUNDING;
+use crate::numeric::rounding::ROUNDING;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub(super) at: DVec3,
-    pub(super) slack: f64,
+    pub(super) deviation: f64,
 }
 
 /// An edge as dA sees it, the polygon to its left.
@@ -21,7 +21,7 @@ pub(super) struct Edge {
     /// The normal of its plane through dA, toward the polygon: `along x start`.
     pub(super) inward: DVec3,
     /// A bound on the error of `inward . p`, per component of p, and the sum over the components.
-    pub(super) doubt: DVec3,
+    pub(super) errors: DVec3,
     pub(super) error: f64,
     /// The larger size of the two ends.
     reach: f64,
@@ -50,7 +50,7 @@ impl Edge {
     pub(super) fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
-        let doubt = ERROR * terms;
+        let errors = ERROR * terms;
         let reach = size(start).max(size(end));
         let spread = (size(start) + size(along)) * size(along);
         Self {
@@ -58,8 +58,8 @@ impl Edge {
             end,
             along,
             inward: along.cross(start),
-            doubt,
-            error: doubt.element_sum(),
+            errors,
+            error: errors.element_sum(),
             reach,
             spread,
             scale: 1.0 / (reach * reach),
@@ -74,10 +74,10 @@ impl Edge {
     /// Whether both ends of an edge lie on one side for certain, by a coarser bound: which one.
     pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
         let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
-        let doubt = self.error * edge.reach + UNDERFLOW;
-        if start > doubt && end > doubt {
+        let error = self.error * edge.reach + UNDERFLOW;
+        if start > error && end > error {
             Some(Place::Inside)
-        } else if start < -doubt && end < -doubt {
+        } else if start < -error && end < -error {
             Some(Place::Outside)
         } else {
             None
@@ -86,7 +86,7 @@ impl Edge {
 
     /// How far inside a point is, relative to dA, and a bound on the error of that.
     pub(super) fn depth(&self, point: DVec3) -> (f64, f64) {
-        (self.inward.dot(point), self.doubt.dot(point.abs()) + UNDERFLOW)
+        (self.inward.dot(point), self.errors.dot(point.abs()) + UNDERFLOW)
     }
 
     /// A lower bound on the angle that it spans: its sine, by more than the lengths.
@@ -96,10 +96,10 @@ impl Edge {
 
     /// On which side of its plane a point lies.
     pub(super) fn place(&self, point: DVec3) -> Place {
-        let (depth, doubt) = self.depth(point);
-        if depth > doubt {
+        let (depth, error) = self.depth(point);
+        if depth > error {
             Place::Inside
-        } else if depth < -doubt {
+        } else if depth < -error {
             Place::Outside
         } else {
             Place::Open
@@ -126,14 +126,14 @@ pub(super) struct Frame {
     dropped: usize,
 }
 
-/// A rectangle of slopes.
+/// A rectangle of slopes, around the directions to something.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
+pub(super) struct Slopes {
     pub(super) low: DVec2,
     pub(super) high: DVec2,
 }
 
-impl Extent {
+impl Slopes {
     const ALL: Self = Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
 
     pub(super) fn join(self, other: Self) -> Self {
@@ -158,10 +158,10 @@ impl Frame {
     ///
     /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
     /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
-    fn slopes(&self, toward: DVec3) -> Extent {
+    fn slopes(&self, toward: DVec3) -> Slopes {
         let depth = self.forward.dot(toward);
         if depth < 1e-3 * self.size * toward.abs().max_element() {
-            return Extent::ALL;
+            return Slopes::ALL;
         }
         let kept = match self.dropped {
             0 => toward.yz(),
@@ -169,11 +169,11 @@ impl Frame {
             _ => toward.xy(),
         };
         let (slopes, margin) = (kept / depth, DVec2::splat(1e-6 / self.size));
-        Extent { low: slopes - margin, high: slopes + margin }
+        Slopes { low: slopes - margin, high: slopes + margin }
     }
 
     /// Around the slopes of each edge.
-    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Extent>) {
+    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Slopes>) {
         let Some(last) = edges.last() else { return };
         let mut around = self.slopes(last.end);
         for edge in edges {
@@ -202,8 +202,8 @@ pub(super) fn faces(origin: DVec3, corners: &[Corner], edges: &mut Vec<Edge>) {
 pub(super) struct Cones {
     edges: Vec<Edge>,
     ends: Vec<usize>,
-    edge_extents: Vec<Extent>,
-    extents: Vec<Extent>,
+    edge_extents: Vec<Slopes>,
+    extents: Vec<Slopes>,
 }
 
 impl Cones {
@@ -227,8 +227,8 @@ impl Cones {
         let mut start = 0;
         for end in &self.ends {
             frame.measure(&self.edges[start..*end], &mut self.edge_extents);
-            let extent = self.edge_extents[start..].iter().copied().reduce(Extent::join);
-            self.extents.push(extent.unwrap_or(Extent::ALL));
+            let extent = self.edge_extents[start..].iter().copied().reduce(Slopes::join);
+            self.extents.push(extent.unwrap_or(Slopes::ALL));
             start = *end;
         }
     }
@@ -246,11 +246,11 @@ impl Cones {
         &self.edges[self.range(cone)]
     }
 
-    pub(super) fn edge_extents(&self, cone: usize) -> &[Extent] {
+    pub(super) fn edge_extents(&self, cone: usize) -> &[Slopes] {
         &self.edge_extents[self.range(cone)]
     }
 
-    pub(super) fn extent(&self, cone: usize) -> &Extent {
+    pub(super) fn extent(&self, cone: usize) -> &Slopes {
         &self.extents[cone]
     }
 }

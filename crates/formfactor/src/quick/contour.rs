@@ -1,9 +1,11 @@
 //! Lambert's sum in plain doubles, with a bound.
 use super::cone::{Edge, coarse_error};
-use super::span::Span;
-use crate::polygon::ROUNDING;
-use crate::predicates::place;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use super::interval::Interval;
+use crate::form_factor::FormFactor;
+use crate::numeric::predicates::place;
+use crate::numeric::rounding::ROUNDING;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
@@ -105,11 +107,11 @@ impl Sum {
     }
 
     /// What the parts of an edge in a plane with this normal have in common, the sum of whose components' errors is
-    /// within `doubt`.
-    pub(super) fn line(&self, inward: DVec3, doubt: f64) -> Line {
+    /// within `error`.
+    pub(super) fn line(&self, inward: DVec3, error: f64) -> Line {
         let sine = inward.length();
         let inverse = 1.0 / sine;
-        Line { sine, inverse, turned: doubt * inverse, cosine: self.normal.dot(inward) * inverse }
+        Line { sine, inverse, turned: error * inverse, cosine: self.normal.dot(inward) * inverse }
     }
 
     /// A whole edge.
@@ -119,7 +121,7 @@ impl Sum {
 
     /// Adds a part of an edge to those before it, and what is not known about its ends.
     #[inline]
-    pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Span, parts: &mut Parts) {
+    pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Interval, parts: &mut Parts) {
         let stretch = edge.spread * line.inverse;
         let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
         self.error += line.turns(ends, [part.low.error(), part.high.error()], stretch);

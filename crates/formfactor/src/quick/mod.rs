@@ -9,31 +9,35 @@
 //! of the clip errs by little, and the bound counts it; where a whole edge may lie in a plane, the two edges must be one
 //! and the same, or everything goes to the careful route through `polycsg`. So does what is not convex and what would be
 //! known too roughly.
+mod classify;
 mod clip;
 mod cone;
 mod contour;
-mod held;
-mod near;
-mod sieve;
-mod span;
+mod corners;
+mod hidden;
+mod interval;
+mod neighbours;
+pub(crate) mod target;
 mod trace;
 
 pub(crate) use contour::unoccluded;
-pub(crate) use sieve::Target;
 
+use crate::form_factor::FormFactor;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use crate::stats::Stats;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use classify::{Class, classify};
 use cone::{Cones, Corner, Edge};
-use sieve::{Side, Sieved};
+use target::{Side, Target};
 
 /// Buffers, to be used again.
 #[derive(Debug, Default)]
-pub(crate) struct Buffers {
+pub(crate) struct QuickBuffers {
     corners: [Vec<Corner>; 2],
     edges: Vec<Edge>,
     sides: Vec<Side>,
     cones: Cones,
-    trace: trace::Buffers,
+    trace: trace::TraceBuffers,
 }
 
 /// The form factor past what `occluders` finds for the target; `None` where doubles leave it open.
@@ -41,28 +45,28 @@ pub(crate) fn form_factor<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
     occluders: impl FnOnce(&Target) -> I,
-    buffers: &mut Buffers,
+    buffers: &mut QuickBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor>
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
-    let Buffers { corners, edges, sides, cones, trace } = buffers;
+    let QuickBuffers { corners, edges, sides, cones, trace } = buffers;
     let target = Target::new(from, to, corners, edges, sides)?;
     let mut open = 0.0;
     cones.clear();
     for occluder in occluders(&target) {
         stats.looked_at += 1;
-        match sieve::sieve(&target, occluder, corners, cones)? {
-            Sieved::Misses(doubt) => {
+        match classify(&target, occluder, corners, cones)? {
+            Class::Misses { error } => {
                 stats.culled += 1;
-                open += doubt;
+                open += error;
             }
-            Sieved::Blocks { doubt, is_clipped } => {
+            Class::Blocks { error, is_clipped } => {
                 stats.clipped += u64::from(is_clipped);
-                open += doubt;
+                open += error;
             }
-            Sieved::Covers => {
+            Class::Covers => {
                 stats.total += 1;
                 return Some(FormFactor::default());
             }

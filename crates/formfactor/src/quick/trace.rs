@@ -1,21 +1,21 @@
 //! What is left of every edge: the visible boundary, piece by piece.
-use super::cone::{Cones, Edge, Extent, Frame};
+use super::cone::{Cones, Edge, Frame, Slopes};
 use super::contour::{Parts, Sum};
-use super::held::{Held, held};
-use super::near::Neighbours;
-use super::sieve::Target;
-use super::span::{Span, for_each_gap};
-use crate::FormFactor;
-use crate::exact::unhidden;
-use crate::polygon::ROUNDING;
+use super::hidden::{Hidden, hidden};
+use super::interval::{Interval, for_each_gap};
+use super::neighbours::Neighbours;
+use super::target::Target;
+use crate::exact::whole::unhidden;
+use crate::form_factor::FormFactor;
+use crate::numeric::rounding::ROUNDING;
 use crate::stats::Stats;
 
 /// Buffers, to be used again.
 #[derive(Debug, Default)]
-pub(super) struct Buffers {
+pub(super) struct TraceBuffers {
     neighbours: Neighbours,
-    spans: Vec<Span>,
-    extents: Vec<Extent>,
+    spans: Vec<Interval>,
+    extents: Vec<Slopes>,
 }
 
 /// A bound on the error that is taken as it is, by the angle that the target's boundary spans where that is less than 1:
@@ -28,7 +28,7 @@ pub(super) fn sum(
     target: &Target,
     cones: &mut Cones,
     open: f64,
-    Buffers { neighbours, spans, extents }: &mut Buffers,
+    TraceBuffers { neighbours, spans, extents }: &mut TraceBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
     let mut sum = Sum::new(target.from.normal());
@@ -45,13 +45,13 @@ pub(super) fn sum(
     neighbours.find(cones);
     for (edge, extent) in target.edges.iter().zip(&*extents) {
         let near = (0..cones.len()).filter(|other| cones.extent(*other).meets(extent));
-        trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
+        trace(edge, Interval::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
     }
-    let whole = extents.iter().copied().reduce(Extent::join)?;
+    let whole = extents.iter().copied().reduce(Slopes::join)?;
     for cone in 0..cones.len() {
         let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
         for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
-            let Some(Held::Part(inside)) = held(edge, target.edges)? else { continue };
+            let Some(Hidden::Part(inside)) = hidden(edge, target.edges)? else { continue };
             let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
             trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
         }
@@ -86,19 +86,19 @@ impl Owner {
 /// Adds what the cones leave of a part of an edge.
 fn trace(
     edge: &Edge,
-    whole: Span,
+    whole: Interval,
     owner: Owner,
     near: impl Iterator<Item = usize>,
     cones: &Cones,
-    spans: &mut Vec<Span>,
+    spans: &mut Vec<Interval>,
     sum: &mut Sum,
 ) -> Option<()> {
     spans.clear();
     for other in near {
-        match held(edge, cones.edges(other))? {
-            Some(Held::Part(part)) if part.covers(&whole) => return Some(()),
-            Some(Held::Part(part)) => spans.push(part),
-            Some(Held::Twin { is_same_way }) if owner.loses(other, is_same_way) => return Some(()),
+        match hidden(edge, cones.edges(other))? {
+            Some(Hidden::Part(part)) if part.covers(&whole) => return Some(()),
+            Some(Hidden::Part(part)) => spans.push(part),
+            Some(Hidden::Twin { is_same_way }) if owner.loses(other, is_same_way) => return Some(()),
             _ => (),
         }
     }
@@ -107,7 +107,7 @@ fn trace(
         // What is seen is on the other side.
         line.cosine = -line.cosine;
     }
-    if spans.is_empty() && whole == Span::WHOLE {
+    if spans.is_empty() && whole == Interval::WHOLE {
         sum.add_whole(edge, &line);
     } else {
         let mut parts = Parts::default();

@@ -2,13 +2,13 @@
 
 /// A parameter along an edge, 0 at its start and 1 at its end: somewhere from `least` to `most`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct Parameter {
     pub(super) at: f64,
     pub(super) least: f64,
     pub(super) most: f64,
 }
 
-impl Mark {
+impl Parameter {
     const START: Self = Self { at: 0.0, least: 0.0, most: 0.0 };
     const END: Self = Self { at: 1.0, least: 1.0, most: 1.0 };
 
@@ -51,13 +51,13 @@ fn greater(a: f64, b: f64) -> f64 {
 
 /// A part of an edge; nothing where `high` comes before `low`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
-    pub(super) low: Mark,
-    pub(super) high: Mark,
+pub(super) struct Interval {
+    pub(super) low: Parameter,
+    pub(super) high: Parameter,
 }
 
-impl Span {
-    pub(super) const WHOLE: Self = Self { low: Mark::START, high: Mark::END };
+impl Interval {
+    pub(super) const WHOLE: Self = Self { low: Parameter::START, high: Parameter::END };
 
     /// Whether there is nothing of it for certain.
     pub(super) fn is_nothing(&self) -> bool {
@@ -75,12 +75,12 @@ impl Span {
 /// In the order of their least starts, what is left before a span ends somewhere between its least and its most start: the
 /// others start no earlier. Where it begins lies between the largest ones of the ends so far, least and most.
 #[inline]
-pub(super) fn for_each_gap(whole: Span, spans: &mut [Span], mut found: impl FnMut(Span)) {
+pub(super) fn for_each_gap(whole: Interval, spans: &mut [Interval], mut found: impl FnMut(Interval)) {
     spans.sort_unstable_by(|a, b| a.low.least.total_cmp(&b.low.least));
-    let last = Span { low: whole.high, high: whole.high };
+    let last = Interval { low: whole.high, high: whole.high };
     let mut low = whole.low;
     for span in spans.iter().chain(std::iter::once(&last)) {
-        let gap = Span { low, high: span.low.first(whole.high) };
+        let gap = Interval { low, high: span.low.first(whole.high) };
         if !gap.is_nothing() {
             found(gap);
         }

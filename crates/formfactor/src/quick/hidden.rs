@@ -1,13 +1,13 @@
 //! What a cone holds of an edge.
 use super::cone::{Edge, Place};
-use super::span::{Mark, Span};
-use crate::polygon::ROUNDING;
+use super::interval::{Interval, Parameter};
+use crate::numeric::rounding::ROUNDING;
 
 /// What a cone holds of an edge.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Held {
+pub(super) enum Hidden {
     /// A part, or nothing.
-    Part(Span),
+    Part(Interval),
     /// The edge is one of the cone's own, run along the same way or the other way.
     Twin { is_same_way: bool },
 }
@@ -21,8 +21,8 @@ const CLEAR: f64 = 16.0;
 /// The parameter t = s / (s - e) of a crossing, from the depths s and e of start and end, errs by at most the larger one
 /// of their errors by |s - e|, 1.2 times since s - e itself is known to a sixteenth only, and by the roundings of t.
 #[inline(always)]
-pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
-    let mut span = Span::WHOLE;
+pub(super) fn hidden(edge: &Edge, planes: &[Edge]) -> Option<Option<Hidden>> {
+    let mut span = Interval::WHOLE;
     // Whether it may lie in a plane, and whether it is one of the cone's own edges, run the other way or the same way.
     let (mut is_open, mut twins) = (false, [false; 2]);
     for plane in planes {
@@ -31,23 +31,23 @@ pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
             Some(_) => return Some(None),
             None => (),
         }
-        let (start, start_doubt) = plane.depth(edge.start);
-        let (end, end_doubt) = plane.depth(edge.end);
-        if start > start_doubt && end > end_doubt {
+        let (start, start_error) = plane.depth(edge.start);
+        let (end, end_error) = plane.depth(edge.end);
+        if start > start_error && end > end_error {
             continue;
         }
-        if start < -start_doubt && end < -end_doubt {
+        if start < -start_error && end < -end_error {
             return Some(None);
         }
-        let (across, doubt) = (start - end, start_doubt.max(end_doubt));
-        if across.abs() <= CLEAR * doubt {
+        let (across, error) = (start - end, start_error.max(end_error));
+        if across.abs() <= CLEAR * error {
             is_open = true;
             if let Some(is_same_way) = twin(edge, plane) {
                 twins[usize::from(is_same_way)] = true;
             }
             continue;
         }
-        let met = Mark::new(start / across, 1.2 * doubt / across.abs() + 4.0 * ROUNDING);
+        let met = Parameter::new(start / across, 1.2 * error / across.abs() + 4.0 * ROUNDING);
         if across > 0.0 {
             span.high = span.high.first(met);
         } else {
@@ -58,9 +58,9 @@ pub(super) fn held(edge: &Edge, planes: &[Edge]) -> Option<Option<Held>> {
         return Some(None);
     }
     match (is_open, twins) {
-        (false, _) => Some(Some(Held::Part(span))),
-        (true, [false, true]) => Some(Some(Held::Twin { is_same_way: true })),
-        (true, [true, false]) => Some(Some(Held::Twin { is_same_way: false })),
+        (false, _) => Some(Some(Hidden::Part(span))),
+        (true, [false, true]) => Some(Some(Hidden::Twin { is_same_way: true })),
+        (true, [true, false]) => Some(Some(Hidden::Twin { is_same_way: false })),
         // No edge of the cone, or one that it has both ways: then rounding left it no width.
         (true, _) => None,
     }

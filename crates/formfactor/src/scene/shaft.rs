@@ -1,7 +1,7 @@
 //! What can stand between two sets of points: the polygons that meet their convex hull.
-use crate::PlanarPolygon;
-use crate::predicates::turn;
-use crate::tree::Extent;
+use crate::numeric::predicates::turn;
+use crate::shapes::extent::Extent;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::cmp::Ordering;
 

@@ -1,16 +1,6 @@
 //! Buffers that are used again, by whichever thread comes next.
-use crate::quick;
-use crate::stats::Stats;
-use polycsg::Scratch;
+use crate::buffers::Buffers;
 use std::sync::{Mutex, PoisonError};
-
-/// What one form factor needs, and what it counts.
-#[derive(Debug, Default)]
-pub(crate) struct Buffers {
-    pub(crate) scratch: Scratch,
-    pub(crate) quick: quick::Buffers,
-    pub(crate) stats: Stats,
-}
 
 /// Idle buffers. They carry nothing from one use to the next but their capacity, so that no result depends on them.
 #[derive(Debug, Default)]

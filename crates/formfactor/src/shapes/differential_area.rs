@@ -1,7 +1,7 @@
 //! The differential area that receives: a point and a direction.
-use crate::Error;
-use crate::polygon::in_range;
-use crate::twofold::accurate_dot;
+use crate::error::Error;
+use crate::numeric::offset::accurate_dot;
+use crate::numeric::rounding::{SMALLEST, in_range};
 use glam::DVec3;
 
 /// An infinitesimal one-sided area dA, from which polygons are seen.
@@ -27,7 +27,7 @@ impl DifferentialArea {
             return Err(Error::BadPoint);
         }
         let largest = normal.abs().max_element();
-        if !in_range(normal) || largest < crate::polygon::SMALLEST {
+        if !in_range(normal) || largest < SMALLEST {
             return Err(Error::BadNormal);
         }
         let length = accurate_dot(normal, normal).sqrt();

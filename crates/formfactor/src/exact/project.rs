@@ -1,12 +1,15 @@
 //! The shadow of an occluder on the target's plane: clipped so that coordinates stay bounded, projected from dA.
 //!
-//! The projection is a pure function of the vertex in twofold arithmetic, rounded once: where the exact projection is a
-//! double, it is that double, so that shadows that meet exactly do so in doubles too.
-use crate::cull::Wall;
-use crate::horizon::{Loops, Vertex, clip, seen};
-use crate::twofold::{Offset, Twofold};
-use crate::view::{Spot, View, swept};
-use crate::{PlanarPolygon, doubt};
+//! The projection is a pure function of the vertex in double-doubles, rounded once: where the exact projection is a double,
+//! it is that double, so that shadows that meet exactly do so in doubles too.
+use super::horizon::{Loops, Vertex, clip, seen};
+use super::planarity::loosen;
+use super::projected_vertex::{ProjectedVertex, swept};
+use super::pyramid::Wall;
+use super::view::View;
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::offset::Offset;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -22,16 +25,17 @@ pub(crate) struct Shadow {
 
 /// The shadow of the part of `occluder` between dA and the target's plane, right inside the target; without loops when no
 /// part of it is there. `sides` says on which side of the target's plane the occluder's points lie.
-pub(crate) fn shadow(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> Shadow {
+pub(crate) fn project(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> Shadow {
     let mut loops = before_target(view, occluder, sides);
     for wall in &view.pyramid.walls {
         loops = inside(view, loops, wall);
     }
-    let spots: Vec<Vec<Spot>> =
-        loops.iter().map(|l| l.iter().map(|v| project(view, occluder, v, sides)).collect()).collect();
+    let projected = |v: &Vertex| project_vertex(view, occluder, v, sides);
+    let vertices: Vec<Vec<ProjectedVertex>> =
+        loops.iter().map(|l| l.iter().map(projected).collect()).collect();
     Shadow {
-        loops: spots.iter().map(|l| l.iter().map(|s| s.flat).collect()).collect(),
-        error: spots.iter().map(|l| swept(l)).sum(),
+        loops: vertices.iter().map(|l| l.iter().map(|v| v.flat).collect()).collect(),
+        error: vertices.iter().map(|l| swept(l)).sum(),
         is_clipped: sides.contains(&Ordering::Less),
     }
 }
@@ -44,9 +48,9 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> L
         // Every vertex is a given one here.
         let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| sides[i]);
         let height = |i: usize| view.to.plane().side(occluder.points()[i]).value;
-        loops = clip(&loops, place, |v| v.given.map_or(Twofold::ZERO, height));
+        loops = clip(&loops, place, |v| v.given.map_or(DoubleDouble::ZERO, height));
     }
-    doubt::loosen(view, occluder, &mut loops);
+    loosen(view, occluder, &mut loops);
     loops
 }
 
@@ -57,7 +61,7 @@ fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
     if loops.iter().flatten().all(|v| rounded(v) == Ordering::Greater) {
         return loops;
     }
-    let out = Twofold::difference(wall.bound, view.from.position()[wall.axis]);
+    let out = DoubleDouble::difference(wall.bound, view.from.position()[wall.axis]);
     let height = |v: &Vertex| {
         let height = v.offset.0[wall.axis] * view.height - out * v.depth;
         if wall.is_upper { -height } else { height }
@@ -67,13 +71,18 @@ fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
 }
 
 /// Where the ray from dA through a vertex meets the target's plane.
-fn project(view: &View, occluder: &PlanarPolygon, vertex: &Vertex, sides: &[Ordering]) -> Spot {
+fn project_vertex(
+    view: &View,
+    occluder: &PlanarPolygon,
+    vertex: &Vertex,
+    sides: &[Ordering],
+) -> ProjectedVertex {
     let on_plane = vertex.given.filter(|i| sides[*i] == Ordering::Equal);
     let flat = on_plane.map_or_else(|| flat(view, *vertex), |i| view.to.flat(occluder.points()[i]));
     // Clip lines lie well outside of the target: so does whatever the bounds move.
     let [low, high] = view.pyramid.bounds;
     let kept = DVec2::new(flat.x.max(low.x).min(high.x), flat.y.max(low.y).min(high.y));
-    Spot::measured(view.from, view.to, kept, vertex)
+    ProjectedVertex::measured(view.from, view.to, kept, vertex)
 }
 
 /// u = O_u + W_u H / depth(W), rounded once.
@@ -81,11 +90,11 @@ fn flat(view: &View, Vertex { offset, depth, .. }: Vertex) -> DVec2 {
     let scale = view.height / depth;
     let [u, v, _] = view.to.axes();
     let coordinate =
-        |axis: usize| (Twofold::from(view.from.position()[axis]) + offset.0[axis] * scale).round();
+        |axis: usize| (DoubleDouble::from(view.from.position()[axis]) + offset.0[axis] * scale).round();
     DVec2::new(coordinate(u), coordinate(v))
 }
 
 /// The distance from dA toward the target's plane, in the same measure as the view's height.
-fn depth(view: &View, offset: Offset) -> Twofold {
+fn depth(view: &View, offset: Offset) -> DoubleDouble {
     -view.to.plane().normal.dot(offset)
 }

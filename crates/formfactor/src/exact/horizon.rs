@@ -1,9 +1,11 @@
 //! Clipping to dA's horizon, and clipping in general.
-use crate::DifferentialArea;
-use crate::lambert::Sight;
-use crate::polygon::{PlanarPolygon, ROUNDING, SMALLEST};
-use crate::predicates::{over_horizon, place};
-use crate::twofold::{Offset, Twofold};
+use super::lambert::Direction;
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::offset::Offset;
+use crate::numeric::predicates::{over_horizon, place};
+use crate::numeric::rounding::{ROUNDING, SMALLEST};
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -14,9 +16,32 @@ pub(crate) struct Vertex {
     /// Index among the polygon's points of the vertex that it is, `None` for a clip point.
     pub(crate) given: Option<usize>,
     /// How far it may lie from where it stands: from the polygon moved onto its plane.
-    pub(crate) slack: f64,
+    pub(crate) deviation: f64,
     /// For an occluder's vertex, its depth toward the target's plane in the measure of the view's height.
-    pub(crate) depth: Twofold,
+    pub(crate) depth: DoubleDouble,
+}
+
+/// Directions shorter than this are made longer, before their squares underflow.
+const SHORT: f64 = 1e-100;
+
+impl Vertex {
+    /// The direction to it, rounded to doubles, of a length that can be squared.
+    pub(crate) fn direction(&self) -> Direction {
+        let toward = self.offset.round();
+        let lost: f64 = self.offset.0.iter().map(|x| (x.hi - x.round() + x.lo).abs()).sum();
+        let error = (lost + self.deviation) / toward.length() * (1.0 + 8.0 * ROUNDING);
+        // A clip point is within 2^-98 of its edge; 2^-96 leaves room for its being near.
+        let clipped = if self.given.is_none() { ROUNDING * ROUNDING * 1024.0 } else { 0.0 };
+        if toward.abs().max_element() >= SHORT {
+            return Direction { toward, error: error + clipped };
+        }
+        // Powers of two: nothing is rounded that matters.
+        let mut longer = toward;
+        while longer.abs().max_element() < SHORT && longer != DVec3::ZERO {
+            longer /= SMALLEST;
+        }
+        Direction { toward: longer, error: (lost + self.deviation) / toward.abs().max_element() + clipped }
+    }
 }
 
 /// Loops of vertices as seen from dA.
@@ -28,8 +53,8 @@ pub(crate) fn seen(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
     let mut vertex = |p: &DVec3| Vertex {
         offset: Offset::between(from.position(), *p),
         given: index.next(),
-        slack: polygon.deviation(),
-        depth: Twofold::ZERO,
+        deviation: polygon.deviation(),
+        depth: DoubleDouble::ZERO,
     };
     polygon.loops().map(|l| l.iter().map(&mut vertex).collect()).collect()
 }
@@ -48,7 +73,7 @@ pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops,
     // Every vertex is a given one here.
     let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| places[i]);
     let height = |i: usize| over_horizon(normal, position, polygon.points()[i]).value;
-    (clip(&loops, place, |v| v.given.map_or(Twofold::ZERO, height)), true)
+    (clip(&loops, place, |v| v.given.map_or(DoubleDouble::ZERO, height)), true)
 }
 
 /// The part of loops that is not on the lower side of a plane (Sutherland and Hodgman). `place` says where a vertex lies,
@@ -60,7 +85,7 @@ pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops,
 pub(crate) fn clip(
     loops: &Loops,
     place: impl Fn(&Vertex) -> Ordering,
-    height: impl Fn(&Vertex) -> Twofold,
+    height: impl Fn(&Vertex) -> DoubleDouble,
 ) -> Loops {
     let kept = loops.iter().map(|l| clip_loop(l, &place, &height));
     kept.filter(|l| l.len() > 2).collect()
@@ -69,7 +94,7 @@ pub(crate) fn clip(
 fn clip_loop(
     vertices: &[Vertex],
     place: impl Fn(&Vertex) -> Ordering,
-    height: impl Fn(&Vertex) -> Twofold,
+    height: impl Fn(&Vertex) -> DoubleDouble,
 ) -> Vec<Vertex> {
     let mut kept = Vec::with_capacity(vertices.len() + 2);
     let Some(last) = vertices.last() else { return kept };
@@ -90,37 +115,16 @@ fn clip_loop(
 }
 
 /// The point of an edge where its height is zero.
-fn cut(inner: &Vertex, outer: &Vertex, height: impl Fn(&Vertex) -> Twofold) -> Vertex {
+fn cut(inner: &Vertex, outer: &Vertex, height: impl Fn(&Vertex) -> DoubleDouble) -> Vertex {
     let (above, below) = (height(inner), height(outer));
     let share = above / (above - below);
     Vertex {
         offset: inner.offset.toward(outer.offset, share),
         given: None,
-        slack: inner.slack.max(outer.slack),
+        deviation: inner.deviation.max(outer.deviation),
         depth: inner.depth + share * (outer.depth - inner.depth),
     }
 }
-
-/// The direction to a vertex, rounded to doubles, of a length that can be squared.
-pub(crate) fn sight(vertex: &Vertex) -> Sight {
-    let toward = vertex.offset.round();
-    let lost: f64 = vertex.offset.0.iter().map(|x| (x.hi - x.round() + x.lo).abs()).sum();
-    let blur = (lost + vertex.slack) / toward.length() * (1.0 + 8.0 * ROUNDING);
-    // A clip point is within 2^-98 of its edge; 2^-96 leaves room for its being near.
-    let clipped = if vertex.given.is_none() { ROUNDING * ROUNDING * 1024.0 } else { 0.0 };
-    if toward.abs().max_element() >= SHORT {
-        return Sight { toward, blur: blur + clipped };
-    }
-    // Powers of two: nothing is rounded that matters.
-    let mut longer = toward;
-    while longer.abs().max_element() < SHORT && longer != DVec3::ZERO {
-        longer /= SMALLEST;
-    }
-    Sight { toward: longer, blur: (lost + vertex.slack) / toward.abs().max_element() + clipped }
-}
-
-/// Directions shorter than this are made longer, before their squares underflow.
-const SHORT: f64 = 1e-100;
 
 #[cfg(test)]
 mod tests {

@@ -1,12 +1,14 @@
 //! Many polygons that see and hide each other.
-use crate::area::shaft::Shaft;
-use crate::body::Bodies;
-use crate::cull::Pyramid;
-use crate::exact::{by_csg, unseen};
-use crate::pool::{Buffers, Pool};
-use crate::quick::{self, Target};
-use crate::tree::Tree;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon, Stats};
+use super::body::Bodies;
+use super::pool::Pool;
+use super::shaft::Shaft;
+use super::tree::Tree;
+use crate::exact::deviation::unseen;
+use crate::form_factor::FormFactor;
+use crate::pipeline::{self, Reach};
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
+use crate::stats::Stats;
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -57,7 +59,7 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor(&self, from: &DifferentialArea, id: usize) -> FormFactor {
-        self.find(from, id, &self.polygons[id]).0
+        self.past_found(from, id, &self.polygons[id]).0
     }
 
     /// [`Self::form_factor`], and what had to be looked at and what was left out to find it.
@@ -66,7 +68,7 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor_with_stats(&self, from: &DifferentialArea, id: usize) -> (FormFactor, Stats) {
-        self.find(from, id, &self.polygons[id])
+        self.past_found(from, id, &self.polygons[id])
     }
 
     /// The form factor to `part`, a part of polygon `id` that lies in its plane; that polygon does not hide it.
@@ -77,10 +79,26 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
-        self.find(from, id, part).0
+        self.past_found(from, id, part).0
     }
 
-    fn find(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> (FormFactor, Stats) {
+    /// The form factor to a part past what the tree finds.
+    fn past_found(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> (FormFactor, Stats) {
+        let found = |reach: &Reach| self.tree.find(|extent| reach.misses_box(extent, self.deviation));
+        self.past_any_of(from, id, part, found)
+    }
+
+    /// The form factor to a part of polygon `id` past those of `candidates` that can hide it.
+    fn past_any_of<I>(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        part: &PlanarPolygon,
+        candidates: impl Fn(&Reach) -> I,
+    ) -> (FormFactor, Stats)
+    where
+        I: IntoIterator<Item = usize>,
+    {
         let unhidden = Stats { none: 1, ..Stats::default() };
         if self.is_edge_on(from, id) {
             return (FormFactor::default(), unhidden);
@@ -90,16 +108,9 @@ impl Enclosure {
         if whole.plane().side_of(from.position()) != Ordering::Greater {
             return (unseen(from, whole), unhidden);
         }
-        self.pool.lend(|Buffers { quick, scratch, stats }| {
-            *stats = Stats::default();
-            let slack = self.deviation;
-            let near = |t: &Target| self.others(from, id, self.tree.find(|e| t.misses_box(e, slack)));
-            let found = quick::form_factor(from, part, near, quick, stats).unwrap_or_else(|| {
-                let slack = self.deviation + part.deviation();
-                let near = |p: &Pyramid| self.others(from, id, self.tree.find(|e| p.misses_box(e, slack)));
-                by_csg(from, part, near, scratch, stats)
-            });
-            (found, *stats)
+        self.pool.lend(|buffers| {
+            let occluders = |reach: &Reach| self.others(from, id, candidates(reach));
+            (pipeline::past(from, part, occluders, buffers), buffers.stats)
         })
     }
 
@@ -142,18 +153,7 @@ impl Enclosure {
 
     /// The form factor to polygon `id` past those that can stand in between.
     pub(crate) fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
-        if self.is_edge_on(from, id) {
-            return FormFactor::default();
-        }
-        let to = &self.polygons[id];
-        if to.plane().side_of(from.position()) != Ordering::Greater {
-            return unseen(from, to);
-        }
-        self.pool.lend(|Buffers { quick, scratch, stats }| {
-            let others = || self.others(from, id, near.iter().copied());
-            quick::form_factor(from, to, |_| others(), quick, stats)
-                .unwrap_or_else(|| by_csg(from, to, |_| others(), scratch, stats))
-        })
+        self.past_any_of(from, id, &self.polygons[id], |_| near.iter().copied()).0
     }
 
     /// Those of the polygons that can hide polygon `id`.

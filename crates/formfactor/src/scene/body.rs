@@ -3,7 +3,8 @@
 //! A ray that leaves a body through its far side has entered it through its near side: with dA outside, the far side hides
 //! nothing more. Where two faces of the near side meet, their common edge is no part of the visible boundary, so that what
 //! is left of the body is its silhouette.
-use crate::{DifferentialArea, PlanarPolygon};
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

@@ -6,13 +6,14 @@
 //!
 //! **The bound.** Two things are wrong with a term. *Arithmetic*: cross and dot products are compensated, each within two
 //! roundings, so that the term errs by at most 24 roundings of beta, and by what cancellation leaves of the compensation.
-//! *Blur*: the direction to a vertex is off by at most some angle. Moving the ends of an arc of angle beta by e0 and e1
+//! *Direction*: the one to a vertex is off by at most some angle. Moving the ends of an arc of angle beta by e0 and e1
 //! sweeps two spherical triangles, each of area at most 2 asin(tan(e/2) tan(beta/2)); as cos <= 1, the form factor
 //! changes by at most the swept area over pi. Sets differ by no more than what their boundaries swept, whatever their
 //! holes and crossings, and a union by no more than the sum over its members.
-use crate::FormFactor;
-use crate::polygon::ROUNDING;
-use crate::twofold::{Twofold, accurate_cross, accurate_dot};
+use crate::form_factor::FormFactor;
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::offset::{accurate_cross, accurate_dot};
+use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -21,50 +22,50 @@ const COMPENSATED: f64 = ROUNDING * ROUNDING * 64.0;
 
 /// The direction to a vertex of a contour, and a bound on its angle to the true one.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sight {
+pub(crate) struct Direction {
     pub(crate) toward: DVec3,
-    pub(crate) blur: f64,
+    pub(crate) error: f64,
 }
 
 /// Lambert's sum over directed edges, in any order.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContourSum {
     normal: DVec3,
-    sum: Twofold,
+    sum: DoubleDouble,
     error: f64,
 }
 
 impl ContourSum {
     pub(crate) fn new(normal: DVec3) -> Self {
-        Self { normal, sum: Twofold::ZERO, error: 0.0 }
+        Self { normal, sum: DoubleDouble::ZERO, error: 0.0 }
     }
 
     /// Adds the edge from `a` to `b`, the region to its left seen from the target's front.
-    pub(crate) fn add(&mut self, a: Sight, b: Sight) {
+    pub(crate) fn add(&mut self, a: Direction, b: Direction) {
         let arc = Arc::between(a, b);
-        self.error += arc.swept(a.blur + b.blur);
+        self.error += arc.swept(a.error + b.error);
         if arc.sine > 0.0 {
             let cosine = accurate_dot(self.normal, arc.cross) / arc.sine;
-            self.sum = self.sum - Twofold::from(arc.angle() * cosine / TAU);
+            self.sum = self.sum - DoubleDouble::from(arc.angle() * cosine / TAU);
             self.error += arc.angle() / TAU * (24.0 * ROUNDING + arc.cancelled());
         }
     }
 
     /// Adds an edge on the horizon, the region above it.
     ///
-    /// Its plane is the horizon's and its cosine 1, so that it counts its angle, which errs by the blur of its ends. The
-    /// chains of edges before and after it end on their own: the arc by which blur moves such an end is not shared with a
+    /// Its plane is the horizon's and its cosine 1, so that it counts its angle, which errs by that of its ends. The
+    /// chains of edges before and after it end on their own: the arc by which such an end may be off is not shared with a
     /// neighbour, and its term is at most its angle over 2 pi.
-    pub(crate) fn add_horizon(&mut self, a: Sight, b: Sight) {
+    pub(crate) fn add_horizon(&mut self, a: Direction, b: Direction) {
         let arc = Arc::between(a, b);
-        self.sum = self.sum + Twofold::from(arc.angle() / TAU);
-        self.error += (24.0 * ROUNDING * arc.angle() + COMPENSATED + 2.0 * (a.blur + b.blur)) / TAU;
+        self.sum = self.sum + DoubleDouble::from(arc.angle() / TAU);
+        self.error += (24.0 * ROUNDING * arc.angle() + COMPENSATED + 2.0 * (a.error + b.error)) / TAU;
     }
 
     /// The whole of a closed loop.
-    pub(crate) fn add_loop(&mut self, sights: &[Sight]) {
-        let Some(last) = sights.last() else { return };
-        sights.iter().fold(*last, |a, b| {
+    pub(crate) fn add_loop(&mut self, directions: &[Direction]) {
+        let Some(last) = directions.last() else { return };
+        directions.iter().fold(*last, |a, b| {
             self.add(a, *b);
             *b
         });
@@ -98,7 +99,7 @@ pub(crate) struct Arc {
 }
 
 impl Arc {
-    pub(crate) fn between(a: Sight, b: Sight) -> Self {
+    pub(crate) fn between(a: Direction, b: Direction) -> Self {
         let cross = accurate_cross(a.toward, b.toward);
         let cosine = accurate_dot(a.toward, b.toward);
         Self { cross, sine: length(cross), cosine, lengths: a.toward.length() * b.toward.length() }
@@ -113,30 +114,34 @@ impl Arc {
         COMPENSATED * self.lengths / self.sine
     }
 
-    /// A bound on the change of a form factor when the ends move by angles whose sum is `blur`.
-    fn swept(&self, blur: f64) -> f64 {
-        if blur == 0.0 { 0.0 } else { swept_within(blur, self.sine / (self.lengths + self.cosine).max(0.0)) }
+    /// A bound on the change of a form factor when the ends move by angles whose sum is `moved`.
+    fn swept(&self, moved: f64) -> f64 {
+        if moved == 0.0 {
+            0.0
+        } else {
+            swept_within(moved, self.sine / (self.lengths + self.cosine).max(0.0))
+        }
     }
 }
 
-/// A bound on the change of a form factor when the ends of an arc move within their blur.
-pub(crate) fn swept(a: Sight, b: Sight) -> f64 {
-    let blur = a.blur + b.blur;
-    if blur == 0.0 {
+/// A bound on the change of a form factor when the ends of an arc move within their errors.
+pub(crate) fn swept(a: Direction, b: Direction) -> f64 {
+    let moved = a.error + b.error;
+    if moved == 0.0 {
         return 0.0;
     }
     // Plain products err by a few roundings of the lengths.
     let lengths = a.toward.length() * b.toward.length();
     let error = 16.0 * ROUNDING * lengths;
     let sine = a.toward.cross(b.toward).length() + error;
-    swept_within(blur, sine / (lengths + a.toward.dot(b.toward) - error).max(0.0))
+    swept_within(moved, sine / (lengths + a.toward.dot(b.toward) - error).max(0.0))
 }
 
 /// The bound for an arc with this tangent of half its angle; 1 when the ends may move too far for it to hold.
 ///
-/// Up to s = blur (tan(beta/2) + blur) = 1/4 the two triangles have less than 3/2 s of area.
-fn swept_within(blur: f64, half_tangent: f64) -> f64 {
-    let swept = blur * (half_tangent + blur);
+/// Up to s = moved (tan(beta/2) + moved) = 1/4 the two triangles have less than 3/2 s of area.
+fn swept_within(moved: f64, half_tangent: f64) -> f64 {
+    let swept = moved * (half_tangent + moved);
     // Written so that NaN, an edge through dA, is not small.
     if swept <= 0.25 { 1.5 / PI * swept } else { 1.0 }
 }

@@ -1,7 +1,8 @@
 //! Questions about loops in the plane.
+use crate::numeric::predicates::turn_in_plane;
 use glam::DVec2;
 use polycsg::{Csg, FillRule, Scratch};
-use robust::{Coord, orient2d};
+use std::cmp::Ordering;
 
 /// The area inside an odd number of loops, which are finite.
 pub(crate) fn area(loops: &[Vec<DVec2>]) -> f64 {
@@ -27,17 +28,8 @@ pub(crate) fn is_convex(points: &[DVec2]) -> bool {
         end.x > start.x || (end.x == start.x && end.y > start.y)
     };
     let starts = (0..count).filter(|i| !rightward(*i) && rightward(i + 1)).count();
-    let turn = |i: usize| turn(point(i), point(i + 1), point(i + 2));
-    starts == 1 && (0..count).all(|i| turn(i) >= 0.0) && (0..count).any(|i| turn(i) > 0.0)
-}
-
-/// Positive for a turn to the left; exact in its sign within this window of magnitudes, outside of it NaN.
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    let exact = |x: f64| x == 0.0 || (x.abs() > 1e-90 && x.abs() < 1e90);
-    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
-    if [a, b, c].iter().all(|p| exact(p.x) && exact(p.y)) {
-        orient2d(coord(a), coord(b), coord(c))
-    } else {
-        f64::NAN
-    }
+    let turn = |i: usize| turn_in_plane(point(i), point(i + 1), point(i + 2));
+    starts == 1
+        && (0..count).all(|i| turn(i) != Ordering::Less)
+        && (0..count).any(|i| turn(i) == Ordering::Greater)
 }

@@ -1,15 +1,12 @@
 //! Planar polygons: loops with holes, and the plane that they share.
-use crate::predicates::Plane;
-use crate::twofold::{Offset, Twofold};
-use crate::{Error, region};
+use super::loops;
+use crate::error::Error;
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::offset::Offset;
+use crate::numeric::predicates::Plane;
+use crate::numeric::rounding::{ROUNDING, SMALLEST, in_range};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
-
-/// The smallest extent and the inverse of the largest coordinate that are accepted: 2^-200.
-pub(crate) const SMALLEST: f64 = 6.223_015_277_861_142e-61;
-
-/// Half an ulp of 1.
-pub(crate) const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// How many roundings of its largest coordinate a polygon's vertex may lie off the polygon's plane.
 const PLANARITY: f64 = 64.0;
@@ -30,7 +27,7 @@ pub struct PlanarPolygon {
     /// The two kept axes, in the order that keeps loop 0 counter-clockwise, and the dropped one.
     axes: [usize; 3],
     /// How much the dropped coordinate falls per step in a kept one.
-    slopes: [Twofold; 2],
+    slopes: [DoubleDouble; 2],
     /// How far a vertex may lie from where it stands, after both are put on the plane.
     deviation: f64,
     convex: bool,
@@ -59,7 +56,7 @@ impl PlanarPolygon {
         let slopes = [u, v].map(|axis| plane.normal.0[axis] / plane.normal.0[w]);
         let order = (0..points.len()).collect();
         let mut polygon = Self { points, ends, plane, normal, axes, slopes, deviation, convex: false, order };
-        polygon.convex = polygon.ends.len() == 1 && region::is_convex(&polygon.flat_loops()[0]);
+        polygon.convex = polygon.ends.len() == 1 && loops::is_convex(&polygon.flat_loops()[0]);
         // A spike of many decades may have an area that rounds to 0, or a Newell normal that lies in the dropped axis' plane.
         let area = polygon.area();
         if !area.is_finite() || area == 0.0 {
@@ -85,7 +82,7 @@ impl PlanarPolygon {
     /// The area of the points inside an odd number of loops, in the coordinates' units squared.
     #[must_use]
     pub fn area(&self) -> f64 {
-        region::area(&self.flat_loops()) * self.steepness()
+        loops::area(&self.flat_loops()) * self.steepness()
     }
 
     /// The edges of every loop, those between equal points left out.
@@ -160,19 +157,14 @@ impl PlanarPolygon {
         let [u, v, w] = self.axes;
         let anchor = self.plane.corners[0];
         let [along_u, along_v] = self.slopes;
-        let run = along_u * Twofold::difference(flat.x, anchor[u])
-            + along_v * Twofold::difference(flat.y, anchor[v]);
-        let mut offset = [Twofold::ZERO; 3];
-        offset[u] = Twofold::difference(flat.x, position[u]);
-        offset[v] = Twofold::difference(flat.y, position[v]);
-        offset[w] = Twofold::difference(anchor[w], position[w]) - run;
+        let run = along_u * DoubleDouble::difference(flat.x, anchor[u])
+            + along_v * DoubleDouble::difference(flat.y, anchor[v]);
+        let mut offset = [DoubleDouble::ZERO; 3];
+        offset[u] = DoubleDouble::difference(flat.x, position[u]);
+        offset[v] = DoubleDouble::difference(flat.y, position[v]);
+        offset[w] = DoubleDouble::difference(anchor[w], position[w]) - run;
         Offset(offset)
     }
-}
-
-/// Whether every coordinate is a number that the arithmetic here keeps from overflow.
-pub(crate) fn in_range(point: DVec3) -> bool {
-    point.is_finite() && point.abs().max_element() <= 1.0 / SMALLEST
 }
 
 fn collect<L, P>(loops: L) -> Result<(Vec<DVec3>, Vec<usize>), Error>
@@ -198,10 +190,10 @@ where
     Ok((points, ends))
 }
 
-/// The unit normal of a loop by Newell's sum, in twofold arithmetic.
+/// The unit normal of a loop by Newell's sum, in double-double arithmetic.
 fn newell(outer: &[DVec3]) -> Result<DVec3, Error> {
     let spokes = outer[1..].windows(2);
-    let sum = spokes.fold(Offset([Twofold::ZERO; 3]), |sum, pair| {
+    let sum = spokes.fold(Offset([DoubleDouble::ZERO; 3]), |sum, pair| {
         let (part, _) = Offset::between(outer[0], pair[0]).cross(Offset::between(outer[0], pair[1]));
         Offset([0, 1, 2].map(|i| sum.0[i] + part.0[i]))
     });

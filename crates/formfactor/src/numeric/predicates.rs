@@ -1,13 +1,14 @@
-//! The only place that decides a sign in space: filter in doubles, filter in twofold arithmetic, then big integers. Enums
+//! The only place that decides a sign in space: filter in doubles, filter in double-double arithmetic, then big integers. Enums
 //! out, no tolerance.
 //!
 //! Every decision is one polynomial: the height (b - a) x (c - a) . (x - y), degree 3 in the input's doubles. The filter
-//! errs by less than 2^-96 of the sum of the terms' magnitudes (see [`crate::twofold::size`] for why underflow is within
+//! errs by less than 2^-96 of the sum of the terms' magnitudes (see [`super::offset::size`] for why underflow is within
 //! that too); what it leaves open goes to integers, where nothing is rounded.
-use crate::polygon::ROUNDING;
-use crate::twofold::{Offset, Twofold, sizes};
+use super::double_double::DoubleDouble;
+use super::offset::{Offset, sizes};
+use super::rounding::ROUNDING;
 use dashu_int::{IBig, Sign};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 
 /// Relative error of the filter: 2^-96.
@@ -21,11 +22,11 @@ const QUICK_UNDERFLOW: f64 = 1e-240;
 /// A height with its sign decided exactly; `value` is within the filter's error, and zero when the sign is `Equal`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Height {
-    pub(crate) value: Twofold,
+    pub(crate) value: DoubleDouble,
     pub(crate) sign: Ordering,
 }
 
-/// The plane through three points, and its normal (b - a) x (c - a) in twofold arithmetic.
+/// The plane through three points, and its normal (b - a) x (c - a) in double-double arithmetic.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     pub(crate) corners: [DVec3; 3],
@@ -34,7 +35,7 @@ pub(crate) struct Plane {
     terms: DVec3,
     /// The normal in doubles, and what its product with a rounded offset errs by, per component of the offset.
     rounded: DVec3,
-    doubt: DVec3,
+    rounded_error: DVec3,
 }
 
 impl Plane {
@@ -45,8 +46,8 @@ impl Plane {
         let certain = |i: usize| normal.0[i].hi.abs() > FILTER * terms[i];
         let spanned = (0..3).any(certain) || exact_cross(corners).iter().any(|c| *c != IBig::ZERO);
         let rounded = normal.round();
-        let doubt = QUICK * rounded.abs() + FILTER * terms;
-        spanned.then_some(Self { corners, normal, terms, rounded, doubt })
+        let rounded_error = QUICK * rounded.abs() + FILTER * terms;
+        spanned.then_some(Self { corners, normal, terms, rounded, rounded_error })
     }
 
     /// The normal dotted with `to - from`: positive when the way from `from` to `to` leads to the normal's side.
@@ -80,7 +81,7 @@ impl Plane {
     pub(crate) fn quick_side(&self, point: DVec3) -> Option<Ordering> {
         let offset = point - self.corners[0];
         let value = self.rounded.dot(offset);
-        let error = self.doubt.dot(offset.abs()) + QUICK_UNDERFLOW;
+        let error = self.rounded_error.dot(offset.abs()) + QUICK_UNDERFLOW;
         if value > error {
             Some(Ordering::Greater)
         } else if value < -error {
@@ -98,7 +99,7 @@ impl Plane {
     /// The height of `point` over the plane, with the sign of [`Self::side_of`].
     pub(crate) fn side(&self, point: DVec3) -> Height {
         if self.corners.contains(&point) {
-            return Height { value: Twofold::ZERO, sign: Ordering::Equal };
+            return Height { value: DoubleDouble::ZERO, sign: Ordering::Equal };
         }
         self.height(self.corners[0], point)
     }
@@ -117,9 +118,15 @@ pub(crate) fn place(normal: DVec3, position: DVec3, point: DVec3) -> Ordering {
 /// The height of `point` over the horizon through `position` across `normal`, a vector taken exactly as given.
 pub(crate) fn over_horizon(normal: DVec3, position: DVec3, point: DVec3) -> Height {
     let offset = Offset::between(position, point);
-    let value = Offset(normal.to_array().map(Twofold::from)).dot(offset);
+    let value = Offset(normal.to_array().map(DoubleDouble::from)).dot(offset);
     let terms = sizes(normal).dot(offset.sizes());
     decide(value, terms, || exact_dot(normal, position, point))
+}
+
+/// Whether the way from `a` over `b` to `c` turns left (`Greater`), goes straight on or back, or turns right.
+pub(crate) fn turn_in_plane(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
+    let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
+    robust::orient2d(coord(a), coord(b), coord(c)).total_cmp(&0.0)
 }
 
 /// Whether `d` is left of, on, or right of the plane through `origin`, `a`, `b`: the sign of (a - o) x (b - o) . (d - o).
@@ -140,9 +147,9 @@ pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
     decide(normal.dot(offset), terms, || exact_height(&[origin, a, b], origin, d)).sign
 }
 
-fn decide(value: Twofold, terms: f64, exact: impl FnOnce() -> Ordering) -> Height {
+fn decide(value: DoubleDouble, terms: f64, exact: impl FnOnce() -> Ordering) -> Height {
     if terms == 0.0 {
-        return Height { value: Twofold::ZERO, sign: Ordering::Equal };
+        return Height { value: DoubleDouble::ZERO, sign: Ordering::Equal };
     }
     if value.hi.abs() > FILTER * terms {
         return Height { value, sign: value.hi.total_cmp(&0.0) };
@@ -150,7 +157,7 @@ fn decide(value: Twofold, terms: f64, exact: impl FnOnce() -> Ordering) -> Heigh
     let sign = exact();
     let certain = value.hi.partial_cmp(&0.0) == Some(sign);
     // Where only the integers know the sign, any value of that sign within the filter's error serves.
-    let least = Twofold::from(match sign {
+    let least = DoubleDouble::from(match sign {
         Ordering::Less => -FILTER * terms,
         Ordering::Equal => 0.0,
         Ordering::Greater => FILTER * terms,

@@ -13,11 +13,13 @@
 //! 64/15 rho^-2n / (1 - rho^-2) of the largest value in an ellipse with semi-axes that add to rho [Trefethen 2013, theorem
 //! 19.3]; here rho >= 1.99 R. Relatively, that is below 64 (1 + R)^2 rho^-2n. Triangles are halved until they are no longer
 //! than a tenth of their distance; then R >= 10, and 8 nodes err by 2e-17. At a hundredth R >= 100, and 5 nodes err by 7e-18.
-use crate::gauss::{RULE_5, RULE_8};
-use crate::polygon::ROUNDING;
-use crate::twofold::{Offset, Twofold, accurate_dot, sizes};
-use crate::view::View;
-use crate::{DifferentialArea, FormFactor};
+use super::view::View;
+use crate::form_factor::FormFactor;
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::gauss::{RULE_5, RULE_8};
+use crate::numeric::offset::{Offset, accurate_dot, sizes};
+use crate::numeric::rounding::ROUNDING;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -28,8 +30,8 @@ const TINY: f64 = 0.01;
 /// Roundings of a term and of the sums, and the rules' errors.
 const ROUNDINGS: f64 = 96.0;
 
-/// Relative error of products of three twofold numbers, by their terms: 2^-96.
-const TWOFOLD: f64 = 1.262_177_448_353_619e-29;
+/// Relative error of products of three double-doubles, by their terms: 2^-96.
+const PRODUCT: f64 = 1.262_177_448_353_619e-29;
 
 /// More triangles than this are not worth their while.
 const MOST: usize = 2000;
@@ -57,7 +59,7 @@ pub(crate) fn form_factor(view: &View) -> Option<FormFactor> {
     let mut open: Vec<Triangle> = (1..rest.len())
         .map(|i| triangle([*first, rest[i - 1], rest[i]], heights.of([0, i, i + 1])))
         .collect();
-    let (mut sum, mut error, mut count) = (Twofold::ZERO, 0.0, 0);
+    let (mut sum, mut error, mut count) = (DoubleDouble::ZERO, 0.0, 0);
     while let Some(triangle) = open.pop() {
         count += 1;
         if count + open.len() > MOST {
@@ -65,9 +67,9 @@ pub(crate) fn form_factor(view: &View) -> Option<FormFactor> {
         }
         match triangle.integrals() {
             Some([part, mass]) => {
-                let [volume, doubt] = triangle.volume;
-                sum = sum + Twofold::from(volume * part);
-                error += doubt * part + (volume + doubt) * mass * heights.doubt;
+                let [volume, volume_error] = triangle.volume;
+                sum = sum + DoubleDouble::from(volume * part);
+                error += volume_error * part + (volume + volume_error) * mass * heights.error;
             }
             None => open.extend(triangle.halves()),
         }
@@ -84,16 +86,16 @@ struct Heights {
     normal: DVec3,
     values: Vec<f64>,
     /// A bound on the error of each beyond roundings of itself.
-    doubt: f64,
+    error: f64,
 }
 
 impl Heights {
     fn over_horizon(from: &DifferentialArea, offsets: &[Offset]) -> Self {
         let normal = from.given_normal();
-        let along = Offset(normal.to_array().map(Twofold::from));
+        let along = Offset(normal.to_array().map(DoubleDouble::from));
         let values = offsets.iter().map(|offset| along.dot(*offset).round().max(0.0)).collect();
         let terms = offsets.iter().map(|offset| sizes(normal).dot(offset.sizes()));
-        Self { normal, values, doubt: TWOFOLD * terms.fold(0.0, f64::max) }
+        Self { normal, values, error: PRODUCT * terms.fold(0.0, f64::max) }
     }
 
     fn of(&self, corners: [usize; 3]) -> [f64; 3] {
@@ -104,7 +106,7 @@ impl Heights {
 fn triangle(corners: [Offset; 3], heights: [f64; 3]) -> Triangle {
     let [a, b, c] = corners;
     let (normal, terms) = a.to(b).cross(a.to(c));
-    let volume = [normal.dot(a).round().abs(), TWOFOLD * terms.dot(a.sizes())];
+    let volume = [normal.dot(a).round().abs(), PRODUCT * terms.dot(a.sizes())];
     Triangle { corners: corners.map(Offset::round), heights, volume }
 }
 

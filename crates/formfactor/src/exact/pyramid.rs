@@ -1,9 +1,8 @@
-//! Which polygons can block: the target's pyramid, facing, total cover. What is not needed is not done.
-use crate::predicates::turn;
-use crate::project::{Shadow, shadow};
-use crate::tree::Extent;
-use crate::view::View;
-use crate::{DifferentialArea, PlanarPolygon, doubt};
+//! The planes through dA that bound what can matter for a target: what lies outside of one is dropped unseen.
+use crate::numeric::predicates::turn;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::extent::Extent;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 
@@ -56,16 +55,16 @@ impl Side {
     }
 
     /// On which side an offset from the origin lies; `Equal` when rounding leaves it open, or when it lies within
-    /// `slack` of the plane. 1e-13 of the terms is far more than the few roundings that they take.
-    pub(crate) fn of_offset(&self, offset: DVec3, slack: f64) -> Ordering {
-        let (height, size) = (self.normal.dot(offset), offset.abs() + DVec3::splat(slack * 1e13));
+    /// `deviation` of the plane. 1e-13 of the terms is far more than the few roundings that they take.
+    pub(crate) fn of_offset(&self, offset: DVec3, deviation: f64) -> Ordering {
+        let (height, size) = (self.normal.dot(offset), offset.abs() + DVec3::splat(deviation * 1e13));
         if height.abs() <= 1e-13 * self.terms.dot(size) { Ordering::Equal } else { height.total_cmp(&0.0) }
     }
 
     /// Whether the whole box between two offsets is outside: its innermost corner is, by the largest error of any.
-    fn excludes_box(&self, low: DVec3, high: DVec3, slack: f64) -> bool {
+    fn excludes_box(&self, low: DVec3, high: DVec3, deviation: f64) -> bool {
         let innermost = (self.normal * low).max(self.normal * high).element_sum();
-        let size = low.abs().max(high.abs()) + DVec3::splat(slack * 1e13);
+        let size = low.abs().max(high.abs()) + DVec3::splat(deviation * 1e13);
         innermost < -1e-13 * self.terms.dot(size)
     }
 }
@@ -100,32 +99,33 @@ impl Pyramid {
     }
 
     /// Whether a polygon lies wholly below the horizon, outside one side, or behind the target, for certain.
-    fn misses(&self, polygon: &PlanarPolygon, slack: f64) -> bool {
+    pub(crate) fn misses(&self, polygon: &PlanarPolygon, deviation: f64) -> bool {
         let outside = |side: &Side, origin: DVec3| {
-            polygon.points().iter().all(|p| side.of_offset(*p - origin, slack) == Ordering::Less)
+            polygon.points().iter().all(|p| side.of_offset(*p - origin, deviation) == Ordering::Less)
         };
         outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
     }
 
     /// Whether everything in a box is missed for certain.
-    pub(crate) fn misses_box(&self, extent: &Extent, slack: f64) -> bool {
-        let outside =
-            |side: &Side, origin: DVec3| side.excludes_box(extent.low - origin, extent.high - origin, slack);
+    pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
+        let outside = |side: &Side, origin: DVec3| {
+            side.excludes_box(extent.low - origin, extent.high - origin, deviation)
+        };
         outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
     }
 
-    /// An edge of a convex target which `polygon` touches from outside, at most: by exact decision, but for `slack`.
-    fn touched_edge(
+    /// An edge of a convex target which `polygon` touches from outside, at most: by exact decision, but for `deviation`.
+    pub(crate) fn touched_edge(
         &self,
         to: &PlanarPolygon,
         polygon: &PlanarPolygon,
-        slack: f64,
+        deviation: f64,
     ) -> Option<(DVec3, DVec3)> {
         if !has_few_edges(to) {
             return None;
         }
         let points = || polygon.points().iter().copied();
-        let place = |side: &Side, p: DVec3| side.of_offset(p - self.position, slack);
+        let place = |side: &Side, p: DVec3| side.of_offset(p - self.position, deviation);
         let outside = |side: &Side, a: DVec3, b: DVec3, p: DVec3| {
             place(side, p) == Ordering::Less
                 || p == a
@@ -163,51 +163,4 @@ fn walls(
         Wall { axis, bound, is_upper, side: Side { normal, terms: along.abs() + across.abs() } }
     };
     [wall(u, low.x, false), wall(u, high.x, true), wall(v, low.y, false), wall(v, high.y, true)]
-}
-
-/// What a polygon hides of a target.
-#[derive(Clone, Debug)]
-pub(crate) enum Hidden {
-    /// Nothing; rounding leaves at most this form factor open.
-    Nothing(f64),
-    /// Its shadow, if it is not all of it.
-    Shadow(Shadow),
-    /// All of it: decided exactly.
-    All,
-}
-
-/// What `occluder` hides of the target.
-///
-/// Coplanar with dA or with the target, behind the target's plane, or outside of one of a convex target's edges, it hides
-/// nothing: decided exactly, touching included.
-pub(crate) fn hidden(view: &View, occluder: &PlanarPolygon) -> Hidden {
-    let slack = occluder.deviation() + view.to.deviation();
-    if view.pyramid.misses(occluder, slack) {
-        return Hidden::Nothing(0.0);
-    }
-    if let Some((a, b)) = view.pyramid.touched_edge(view.to, occluder, slack) {
-        return Hidden::Nothing(doubt::of_touch(view, a, b, occluder));
-    }
-    let facing = occluder.plane().side_of(view.from.position());
-    let sides: Vec<Ordering> = occluder.points().iter().map(|p| view.to.plane().side_of(*p)).collect();
-    let open = doubt::of_facing(view.from.position(), occluder) + doubt::of_contact(view, occluder);
-    if facing == Ordering::Equal
-        || sides.iter().all(|s| *s != Ordering::Greater)
-        || doubt::is_coplanar(view, occluder)
-    {
-        return Hidden::Nothing(open);
-    }
-    let before = sides.iter().all(|s| *s != Ordering::Less);
-    if before && slack == 0.0 && occluder.is_convex() && covers(view, occluder, facing) {
-        return Hidden::All;
-    }
-    let shadow = shadow(view, occluder, &sides);
-    Hidden::Shadow(Shadow { error: shadow.error + open, ..shadow })
-}
-
-/// Whether every vertex of the target lies in the cone of dA over a convex occluder before the target's plane.
-fn covers(view: &View, occluder: &PlanarPolygon, facing: Ordering) -> bool {
-    let origin = view.from.position();
-    // Seen from its front a loop is counter-clockwise, so that its cone's inside is to the right of a x b.
-    occluder.edges().all(|(a, b)| view.to.points().iter().all(|p| turn(origin, a, b, *p) != facing))
 }

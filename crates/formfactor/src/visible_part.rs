@@ -1,12 +1,13 @@
-//! The visible part of a target: the target less the union of the shadows, by polycsg.
-use crate::exact::{Shadows, shadows};
-use crate::lambert::ContourSum;
-use crate::project::Shadow;
-use crate::region::leaf;
-use crate::view::View;
-use crate::{DifferentialArea, PlanarPolygon, Stats};
+//! The visible part of a target as a region.
+use crate::exact::shadows::{Shadows, shadows};
+use crate::exact::view::View;
+use crate::exact::visible::union;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::loops::leaf;
+use crate::shapes::polygon::PlanarPolygon;
+use crate::stats::Stats;
 use glam::DVec3;
-use polycsg::{Csg, Region, Scratch};
+use polycsg::Region;
 
 /// What a differential area sees of a target: a region of the target's plane, and where it lies in space.
 #[derive(Clone, Debug)]
@@ -49,24 +50,4 @@ fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Plan
         Shadows::Total => Region::default(),
         Shadows::Some(shadows, _) => (leaf(&view.flat) - union(&shadows)).evaluate(),
     }
-}
-
-/// Lambert's sum over the visible part's directed boundary: no rings are built.
-pub(crate) fn visible_sum(view: &View, shadows: &[Shadow], scratch: &mut Scratch) -> ContourSum {
-    boundary_sum(view, &(leaf(&view.flat) - union(shadows)), scratch)
-}
-
-/// Lambert's sum over the boundary of a set of the target's plane.
-pub(crate) fn boundary_sum(view: &View, set: &Csg<'_>, scratch: &mut Scratch) -> ContourSum {
-    let boundary = set.boundary(scratch);
-    let mut sum = ContourSum::new(view.from.normal());
-    for edge in boundary.edges() {
-        sum.add(view.sight(edge.start), view.sight(edge.end));
-    }
-    sum
-}
-
-/// All that the shadows cover.
-pub(crate) fn union(shadows: &[Shadow]) -> Csg<'_> {
-    Csg::union(shadows.iter().map(|s| leaf(&s.loops)))
 }

@@ -1,0 +1,81 @@
+//! Vectors of double-doubles, and products of vectors of doubles that err by no more than two roundings.
+use super::double_double::{DoubleDouble, two_product, two_sum};
+use glam::DVec3;
+use std::ops::Add;
+
+/// A vector of double-doubles: where something lies as seen from dA.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Offset(pub(crate) [DoubleDouble; 3]);
+
+impl Offset {
+    /// `to - from` exactly.
+    pub(crate) fn between(from: DVec3, to: DVec3) -> Self {
+        Self([0, 1, 2].map(|i| DoubleDouble::difference(to[i], from[i])))
+    }
+
+    /// The way to another offset.
+    pub(crate) fn to(self, other: Self) -> Self {
+        Self([0, 1, 2].map(|i| other.0[i] - self.0[i]))
+    }
+
+    /// The nearest vector of doubles.
+    pub(crate) fn round(self) -> DVec3 {
+        DVec3::from_array(self.0.map(DoubleDouble::round))
+    }
+
+    /// The magnitudes of its components, as they enter the error of a product.
+    pub(crate) fn sizes(self) -> DVec3 {
+        sizes(self.round())
+    }
+
+    pub(crate) fn dot(self, other: Self) -> DoubleDouble {
+        (0..3).map(|i| self.0[i] * other.0[i]).fold(DoubleDouble::ZERO, Add::add)
+    }
+
+    /// The cross product, and the sums of its terms' magnitudes: each component errs by less than 2^-99 of its sum.
+    pub(crate) fn cross(self, other: Self) -> (Self, DVec3) {
+        let (a, b) = (self.0, other.0);
+        let term = |i: usize| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let terms = size(a[j].hi) * size(b[k].hi) + size(a[k].hi) * size(b[j].hi);
+            (a[j] * b[k] - a[k] * b[j], terms)
+        };
+        let parts = [0, 1, 2].map(term);
+        (Self(parts.map(|t| t.0)), DVec3::from_array(parts.map(|t| t.1)))
+    }
+
+    /// The point at `share` of the way to `other`, within 2^-98 of the two lengths.
+    pub(crate) fn toward(self, other: Self, share: DoubleDouble) -> Self {
+        Self([0, 1, 2].map(|i| self.0[i] + share * (other.0[i] - self.0[i])))
+    }
+}
+
+/// The magnitude of a factor as it enters a bound: zero for zero, else at least 2^-250, so that the product of three
+/// neither underflows itself nor is less than what underflow loses in the product that it bounds.
+pub(crate) fn size(x: f64) -> f64 {
+    const LEAST: f64 = 5.527_147_875_260_445e-76;
+    if x == 0.0 { 0.0 } else { x.abs().max(LEAST) }
+}
+
+pub(crate) fn sizes(v: DVec3) -> DVec3 {
+    DVec3::new(size(v.x), size(v.y), size(v.z))
+}
+
+/// `a x b`, each component within two roundings of itself and 2^-104 of its terms.
+pub(crate) fn accurate_cross(a: DVec3, b: DVec3) -> DVec3 {
+    let component = |i: usize| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (p, q) = (two_product(a[j], b[k]), two_product(a[k], b[j]));
+        let high = two_sum(p.hi, -q.hi);
+        high.hi + (high.lo + (p.lo - q.lo))
+    };
+    DVec3::new(component(0), component(1), component(2))
+}
+
+/// `a . b` within two roundings of itself and 2^-103 of its terms.
+pub(crate) fn accurate_dot(a: DVec3, b: DVec3) -> f64 {
+    let (x, y, z) = (two_product(a.x, b.x), two_product(a.y, b.y), two_product(a.z, b.z));
+    let first = two_sum(x.hi, y.hi);
+    let second = two_sum(first.hi, z.hi);
+    second.hi + (second.lo + first.lo + (x.lo + y.lo + z.lo))
+}
