@@ -1,5 +1,5 @@
 //! One disk instead of the target.
-use super::Method;
+use super::method::Method;
 use super::parts::pieces;
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;

@@ -1,5 +1,5 @@
 //! The exact method, as one among the others.
-use super::Method;
+use super::method::Method;
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 

@@ -1,8 +1,9 @@
 //! An item buffer on half a cube.
+use super::delta;
 use super::frame::{Rotation, frame};
+use super::method::Method;
 use super::ray::items;
 use super::screen::{Screen, steps};
-use super::{Method, delta};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;

@@ -38,6 +38,7 @@ mod exact;
 mod frame;
 mod gather;
 mod hemicube;
+mod method;
 mod monte_carlo;
 mod paraboloid;
 mod parts;
@@ -54,6 +55,7 @@ pub use disk::Disk;
 pub use exact::Exact;
 pub use frame::Rotation;
 pub use hemicube::Hemicube;
+pub use method::Method;
 pub use monte_carlo::{MonteCarlo, Sampling};
 pub use paraboloid::Paraboloid;
 pub use parts::Division;
@@ -61,18 +63,3 @@ pub use pietrek::Pietrek;
 pub use single_plane::SinglePlane;
 pub use visibility_index::VisibilityIndex;
 pub use wallace::Wallace;
-
-use crate::scene::enclosure::Enclosure;
-use crate::shapes::differential_area::DifferentialArea;
-
-/// A way to find form factors, by rows, so that a method that sees everything in one pass pays for it once.
-pub trait Method {
-    /// The method and its parameters, for a table.
-    fn name(&self) -> String;
-
-    /// The form factors from `from` to the polygons `targets` of the enclosure, in that order.
-    ///
-    /// # Panics
-    /// When there is no polygon with one of the ids.
-    fn row(&self, enclosure: &Enclosure, from: &DifferentialArea, targets: &[usize]) -> Vec<f64>;
-}

@@ -1,6 +1,6 @@
 //! Rays at random.
-use super::Method;
 use super::frame::{Rotation, along, frame};
+use super::method::Method;
 use super::random::Random;
 use super::ray::{along_ray, items, seen};
 use crate::scene::enclosure::Enclosure;

@@ -1,7 +1,7 @@
 //! The hemisphere in one image.
-use super::Method;
 use super::delta::normalise;
 use super::frame::{Rotation, along, frame};
+use super::method::Method;
 use super::monte_carlo::cast;
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;

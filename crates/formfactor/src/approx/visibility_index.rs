@@ -1,6 +1,6 @@
 //! Parts split where rays disagree.
-use super::Method;
 use super::gather::{aim, as_contour, as_disk, row_of_targets};
+use super::method::Method;
 use super::parts::{Part, pieces};
 use super::ray::RayTarget;
 use crate::scene::enclosure::Enclosure;

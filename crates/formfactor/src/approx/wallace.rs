@@ -1,6 +1,6 @@
 //! Disks instead of the target's parts.
-use super::Method;
 use super::gather::{as_disk, by_parts, row_of_targets};
+use super::method::Method;
 use super::parts::Division;
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;

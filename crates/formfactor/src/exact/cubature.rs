@@ -15,11 +15,11 @@
 //! than a tenth of their distance; then R >= 10, and 8 nodes err by 2e-17. At a hundredth R >= 100, and 5 nodes err by 7e-18.
 use super::view::View;
 use crate::form_factor::FormFactor;
-use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::gauss::{RULE_5, RULE_8};
 use crate::numeric::offset::{Offset, accurate_dot, sizes};
 use crate::numeric::rounding::ROUNDING;
 use crate::shapes::differential_area::DifferentialArea;
+use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -1,11 +1,11 @@
 //! Clipping to dA's horizon, and clipping in general.
 use super::lambert::Direction;
-use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::offset::Offset;
 use crate::numeric::predicates::{over_horizon, place};
 use crate::numeric::rounding::{ROUNDING, SMALLEST};
 use crate::shapes::differential_area::DifferentialArea;
 use crate::shapes::polygon::PlanarPolygon;
+use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::cmp::Ordering;
 

@@ -11,9 +11,9 @@
 //! changes by at most the swept area over pi. Sets differ by no more than what their boundaries swept, whatever their
 //! holes and crossings, and a union by no more than the sum over its members.
 use crate::form_factor::FormFactor;
-use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::offset::{accurate_cross, accurate_dot};
 use crate::numeric::rounding::ROUNDING;
+use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 

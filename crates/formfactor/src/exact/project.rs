@@ -7,9 +7,9 @@ use super::planarity::loosen;
 use super::projected_vertex::{ProjectedVertex, swept};
 use super::pyramid::Wall;
 use super::view::View;
-use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::offset::Offset;
 use crate::shapes::polygon::PlanarPolygon;
+use exactfloat::DoubleDouble;
 use glam::DVec2;
 use std::cmp::Ordering;
 

@@ -1,10 +1,10 @@
 //! Vertices put on the target's plane, and how far that turns the direction to them.
 use super::horizon::Vertex;
 use super::lambert::{self, Arc, Direction};
-use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::rounding::ROUNDING;
 use crate::shapes::differential_area::DifferentialArea;
 use crate::shapes::polygon::PlanarPolygon;
+use exactfloat::DoubleDouble;
 use glam::DVec2;
 use std::f64::consts::PI;
 

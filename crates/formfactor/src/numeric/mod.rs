@@ -1,5 +1,4 @@
 //! Arithmetic on doubles and twice that, and the signs that it decides.
-pub(crate) mod double_double;
 pub(crate) mod gauss;
 pub(crate) mod offset;
 pub(crate) mod predicates;

@@ -1,5 +1,5 @@
 //! Vectors of double-doubles, and products of vectors of doubles that err by no more than two roundings.
-use super::double_double::{DoubleDouble, two_product, two_sum};
+use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::ops::Add;
 
@@ -65,8 +65,8 @@ pub(crate) fn sizes(v: DVec3) -> DVec3 {
 pub(crate) fn accurate_cross(a: DVec3, b: DVec3) -> DVec3 {
     let component = |i: usize| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let (p, q) = (two_product(a[j], b[k]), two_product(a[k], b[j]));
-        let high = two_sum(p.hi, -q.hi);
+        let (p, q) = (DoubleDouble::product(a[j], b[k]), DoubleDouble::product(a[k], b[j]));
+        let high = DoubleDouble::sum(p.hi, -q.hi);
         high.hi + (high.lo + (p.lo - q.lo))
     };
     DVec3::new(component(0), component(1), component(2))
@@ -74,8 +74,39 @@ pub(crate) fn accurate_cross(a: DVec3, b: DVec3) -> DVec3 {
 
 /// `a . b` within two roundings of itself and 2^-103 of its terms.
 pub(crate) fn accurate_dot(a: DVec3, b: DVec3) -> f64 {
-    let (x, y, z) = (two_product(a.x, b.x), two_product(a.y, b.y), two_product(a.z, b.z));
-    let first = two_sum(x.hi, y.hi);
-    let second = two_sum(first.hi, z.hi);
+    let (x, y, z) =
+        (DoubleDouble::product(a.x, b.x), DoubleDouble::product(a.y, b.y), DoubleDouble::product(a.z, b.z));
+    let first = DoubleDouble::sum(x.hi, y.hi);
+    let second = DoubleDouble::sum(first.hi, z.hi);
     second.hi + (second.lo + first.lo + (x.lo + y.lo + z.lo))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use exactfloat::Integer;
+    use proptest::prelude::*;
+
+    /// Integers that are doubles.
+    fn small() -> impl Strategy<Value = i64> {
+        -(1i64 << 52)..(1i64 << 52)
+    }
+
+    fn double(x: i64) -> f64 {
+        // At most 53 bits: exact.
+        x as f64
+    }
+
+    proptest! {
+        #[test]
+        fn accurate_products_round_the_exact_ones(v in prop::array::uniform6(small())) {
+            let (a, b) = (DVec3::new(double(v[0]), double(v[1]), double(v[2])), DVec3::new(double(v[3]), double(v[4]), double(v[5])));
+            let w: Vec<Integer> = v.iter().map(|x| Integer::from(*x)).collect();
+            let exact = &w[0] * &w[3] + &w[1] * &w[4] + &w[2] * &w[5];
+            let (dot, exact) = (accurate_dot(a, b), exact.to_f64().value());
+            prop_assert!((dot - exact).abs() <= 2.0 * f64::EPSILON * exact.abs());
+            let exact = (&w[1] * &w[5] - &w[2] * &w[4]).to_f64().value();
+            prop_assert!((accurate_cross(a, b).x - exact).abs() <= 2.0 * f64::EPSILON * exact.abs());
+        }
+    }
 }

@@ -4,10 +4,9 @@
 //! Every decision is one polynomial: the height (b - a) x (c - a) . (x - y), degree 3 in the input's doubles. The filter
 //! errs by less than 2^-96 of the sum of the terms' magnitudes (see [`super::offset::size`] for why underflow is within
 //! that too); what it leaves open goes to integers, where nothing is rounded.
-use super::double_double::DoubleDouble;
 use super::offset::{Offset, sizes};
 use super::rounding::ROUNDING;
-use dashu_int::{IBig, Sign};
+use exactfloat::{DoubleDouble, Integer, integers, orient2d, sign};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 
@@ -44,7 +43,7 @@ impl Plane {
         let [a, b, c] = corners;
         let (normal, terms) = Offset::between(a, b).cross(Offset::between(a, c));
         let certain = |i: usize| normal.0[i].hi.abs() > FILTER * terms[i];
-        let spanned = (0..3).any(certain) || exact_cross(corners).iter().any(|c| *c != IBig::ZERO);
+        let spanned = (0..3).any(certain) || spans_a_plane(corners);
         let rounded = normal.round();
         let rounded_error = QUICK * rounded.abs() + FILTER * terms;
         spanned.then_some(Self { corners, normal, terms, rounded, rounded_error })
@@ -125,8 +124,8 @@ pub(crate) fn over_horizon(normal: DVec3, position: DVec3, point: DVec3) -> Heig
 
 /// Whether the way from `a` over `b` to `c` turns left (`Greater`), goes straight on or back, or turns right.
 pub(crate) fn turn_in_plane(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
-    let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
-    robust::orient2d(coord(a), coord(b), coord(c)).total_cmp(&0.0)
+    let turn = orient2d(a.into(), b.into(), c.into());
+    if turn == 0.0 { Ordering::Equal } else { turn.total_cmp(&0.0) }
 }
 
 /// Whether `d` is left of, on, or right of the plane through `origin`, `a`, `b`: the sign of (a - o) x (b - o) . (d - o).
@@ -167,66 +166,32 @@ fn decide(value: DoubleDouble, terms: f64, exact: impl FnOnce() -> Ordering) -> 
 
 /// (b - a) x (c - a) . (to - from), on integers.
 fn exact_height([a, b, c]: &[DVec3; 3], from: DVec3, to: DVec3) -> Ordering {
-    let [a, b, c, from, to] = integers([*a, *b, *c, from, to]);
+    let [a, b, c, from, to] = integers([*a, *b, *c, from, to].map(Into::into));
     let normal = cross(&minus(&b, &a), &minus(&c, &a));
-    order(&dot(&normal, &minus(&to, &from)))
+    sign(&dot(&normal, &minus(&to, &from)))
 }
 
 fn exact_dot(normal: DVec3, position: DVec3, point: DVec3) -> Ordering {
-    let [normal] = integers([normal]);
-    let [position, point] = integers([position, point]);
-    order(&dot(&normal, &minus(&point, &position)))
+    let [normal] = integers([normal.into()]);
+    let [position, point] = integers([position, point].map(Into::into));
+    sign(&dot(&normal, &minus(&point, &position)))
 }
 
-fn exact_cross(corners: [DVec3; 3]) -> [IBig; 3] {
-    let [a, b, c] = integers(corners);
-    cross(&minus(&b, &a), &minus(&c, &a))
+fn spans_a_plane(corners: [DVec3; 3]) -> bool {
+    let [a, b, c] = integers(corners.map(Into::into));
+    cross(&minus(&b, &a), &minus(&c, &a)).iter().any(|component| sign(component).is_ne())
 }
 
-/// The points scaled by one power of two that makes every coordinate an integer.
-fn integers<const N: usize>(points: [DVec3; N]) -> [[IBig; 3]; N] {
-    let exponents = points.iter().flat_map(|p| p.to_array()).filter(|x| *x != 0.0).map(|x| significand(x).1);
-    let least = exponents.min().unwrap_or(0);
-    points.map(|p| {
-        p.to_array().map(|x| {
-            let (significand, exponent) = significand(x);
-            if significand == 0 {
-                IBig::ZERO
-            } else {
-                IBig::from(significand) << usize::from(exponent.abs_diff(least))
-            }
-        })
-    })
-}
-
-/// `x` as an integer times a power of two.
-fn significand(x: f64) -> (i64, i16) {
-    let bits = x.to_bits();
-    let fraction = i64::try_from(bits & ((1 << 52) - 1)).expect("52 bits fit");
-    let biased = i16::try_from((bits >> 52) & 0x7ff).expect("eleven bits fit");
-    let (magnitude, exponent) =
-        if biased == 0 { (fraction, -1074) } else { (fraction | (1 << 52), biased - 1075) };
-    (if x < 0.0 { -magnitude } else { magnitude }, exponent)
-}
-
-fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+fn minus(a: &[Integer; 3], b: &[Integer; 3]) -> [Integer; 3] {
     [0, 1, 2].map(|i| &a[i] - &b[i])
 }
 
-fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+fn cross(a: &[Integer; 3], b: &[Integer; 3]) -> [Integer; 3] {
     [(1, 2), (2, 0), (0, 1)].map(|(j, k)| &a[j] * &b[k] - &a[k] * &b[j])
 }
 
-fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
+fn dot(a: &[Integer; 3], b: &[Integer; 3]) -> Integer {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn order(value: &IBig) -> Ordering {
-    match (value == &IBig::ZERO, value.sign()) {
-        (true, _) => Ordering::Equal,
-        (false, Sign::Negative) => Ordering::Less,
-        (false, Sign::Positive) => Ordering::Greater,
-    }
 }
 
 #[cfg(test)]
@@ -269,6 +234,13 @@ mod tests {
             prop_assert_eq!(turn(from, corners[0], corners[1], to), exact_height(&[from, corners[0], corners[1]], from, to));
             prop_assert_eq!(over_horizon(corners[0], from, to).sign, exact_dot(corners[0], from, to));
             prop_assert_eq!(place(corners[0], from, to), exact_dot(corners[0], from, to));
+        }
+
+        #[test]
+        fn turns_in_the_plane_are_those_in_space(a in point(), b in point(), c in point()) {
+            let [a, b, c] = [a, b, c].map(|p| p.with_z(0.0));
+            let wanted = exact_height(&[a, b, c], DVec3::ZERO, DVec3::Z);
+            prop_assert_eq!(turn_in_plane(a.truncate(), b.truncate(), c.truncate()), wanted);
         }
 
         #[test]
