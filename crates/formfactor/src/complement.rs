@@ -19,8 +19,20 @@ use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// `1 - F` for a polygon with nothing in between: small values keep their digits when the normal is along an axis, as
-/// those of a large convex polygon close above dA.
+/// `1 - F` for a polygon with nothing in between, without the cancellation of a subtraction.
+///
+/// A large convex polygon close above dA leaves little of the hemisphere free. Where dA's normal is along an axis the result
+/// keeps its digits however little that is; elsewhere what rounding the unit normal changes is in the bound.
+///
+/// ```
+/// use formfactor::{DVec3, DifferentialArea, PlanarPolygon, unoccluded_complement};
+/// // A square of side 2e9 at distance 1.
+/// let (from, s) = (DifferentialArea::new(DVec3::ZERO, DVec3::Z)?, 1e9);
+/// let sky = PlanarPolygon::new([[[-s, s, 1.0], [s, s, 1.0], [s, -s, 1.0], [-s, -s, 1.0]]])?;
+/// let free = unoccluded_complement(&from, &sky);
+/// assert!(free.value > 0.0 && free.value < 1e-17 && free.error_bound < 1e-13 * free.value);
+/// # Ok::<(), formfactor::Error>(())
+/// ```
 #[must_use]
 pub fn unoccluded_complement(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
     skirts(from, to).unwrap_or_else(|| {

@@ -1,4 +1,4 @@
-//! The second route: Equation 3.6 through the boundary representation of what is hidden.
+//! A second way to form factors, as a check: Equation 3.6 through the boundary representation of what is hidden.
 use crate::exact::deviation::unseen;
 use crate::exact::lambert::{ContourSum, Direction};
 use crate::exact::shadows::{Shadows, shadows};
@@ -13,13 +13,13 @@ use crate::stats::Stats;
 use glam::DVec2;
 use polycsg::Region;
 
-/// The form factor by the hierarchy of the target's hidden part [Barreto 2008, (3.6)]:
+/// The form factor by a second way, to check [`form_factor`](crate::form_factor): through the rings of the target's hidden
+/// part and their nesting [Barreto 2008, (3.6)].
 ///
 /// F = F(target) - sum of F(outer rings) + sum of F(holes), over the polygons of the target's intersection with the union
 /// of the shadows; islands in holes are polygons again.
 ///
-/// It goes through valid rings and their nesting where [`crate::form_factor`] goes through the bare boundary of the visible
-/// part, and serves to check it. It loses digits when almost all of the target is hidden.
+/// It is slower, and loses digits when almost all of the target is hidden; its bound says so.
 #[must_use]
 pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> FormFactor {
     let Some(view) = View::new(from, to) else {

@@ -10,14 +10,18 @@ use crate::shapes::extent::Extent;
 use crate::shapes::polygon::PlanarPolygon;
 use crate::stats::Stats;
 
-/// The form factor from a differential area to the front of a polygon, past occluders.
+/// The form factor from a differential area to the front of a polygon, with occluders in between.
 ///
 /// An occluder blocks a ray from dA to a point of the target exactly when it meets the ray strictly between them. An
-/// occluder that is coplanar with the target, or whose plane contains dA, blocks nothing. A dA on or behind the target's
-/// plane sees exactly 0, and so does one whose view of the target a single convex occluder covers.
+/// occluder that is coplanar with the target, or whose plane contains dA, blocks nothing.
 ///
-/// The value depends on the order of `occluders` at most within the bounds, and not on their orientation. Takes time
-/// linear in what culling drops, and that of one polygon Boolean for the rest.
+/// The value is exactly 0 for a dA on or behind the target's plane, and where a single convex occluder covers the target.
+/// The order of `occluders` changes the value within the bounds at most; which way they face does not matter.
+///
+/// The time is linear in the number of occluders that are culled, plus that of one polygon Boolean for the rest. For many
+/// targets or points among the same polygons, an [`Enclosure`](crate::Enclosure) finds the occluders faster.
+///
+/// See the [crate's page](crate) for an example.
 #[must_use]
 pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> FormFactor {
     if occluders.is_empty() {
@@ -27,6 +31,18 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
 }
 
 /// The form factor from a differential area to the front of a polygon with nothing in between.
+///
+/// The time is linear in the number of vertices.
+///
+/// ```
+/// use formfactor::{DVec3, DifferentialArea, PlanarPolygon, unoccluded};
+/// // A square of side 2 at distance 1, seen along its axis: 4 / (pi sqrt 2) atan(1 / sqrt 2).
+/// let from = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+/// let square = PlanarPolygon::new([[[-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [-1.0, -1.0, 1.0]]])?;
+/// let f = unoccluded(&from, &square);
+/// assert!((f.value - 0.554_126_423_979_571_9).abs() < 1e-15);
+/// # Ok::<(), formfactor::Error>(())
+/// ```
 #[must_use]
 pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
     quick::unoccluded(from, to).unwrap_or_else(|| past(from, to, |_| [], &mut Buffers::default()))

@@ -12,9 +12,23 @@ use crate::stats::Stats;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A set of polygons, each of which is a target and hides the others.
+/// A set of polygons, each of which is a target and an occluder of the others.
 ///
-/// Many threads may ask one enclosure: it lends them buffers, and what each gets depends on its question alone.
+/// Build it once and query it often: it keeps the polygons in a tree of boxes and reuses its buffers. It is `Sync`: many
+/// threads may query one enclosure, and a result depends on the query alone.
+///
+/// ```
+/// use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
+/// let lamp = PlanarPolygon::new([[[-1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, -1.0, 2.0], [-1.0, -1.0, 2.0]]])?;
+/// let board = PlanarPolygon::new([[[-2.0, -2.0, 1.0], [0.0, -2.0, 1.0], [0.0, 2.0, 1.0], [-2.0, 2.0, 1.0]]])?;
+/// let room = Enclosure::new(vec![lamp, board]);
+/// // The board hides half of the lamp, and turns its back to the floor.
+/// let floor = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+/// let row = room.row(&floor);
+/// assert!((row[0].value - 0.239_456_470_460_773_54 / 2.0).abs() < 1e-15);
+/// assert_eq!(row[1].value, 0.0);
+/// # Ok::<(), formfactor::Error>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Enclosure {
     polygons: Vec<PlanarPolygon>,
@@ -26,7 +40,9 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
-    /// An enclosure of these polygons; a polygon's index is its id. It need not be closed. Takes O(n log^2 n).
+    /// An enclosure of these polygons. A polygon's index is its id. The polygons need not enclose anything.
+    ///
+    /// Takes O(n log^2 n) for n vertices.
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
@@ -50,10 +66,11 @@ impl Enclosure {
         &self.tree
     }
 
-    /// The form factor to polygon `id`; all others, but the one that owns `from`, hide it. Exactly 0 to the owner.
+    /// The form factor from `from` to polygon `id`, with all other polygons as occluders.
     ///
-    /// A polygon in the owner's plane, such as the other side of a thin wall, is seen edge-on even where rounding put
-    /// `from` a last bit off that plane: exactly 0 to it, and it hides nothing.
+    /// The polygon that [owns](DifferentialArea::owned_by) `from` occludes nothing, and the form factor to it is exactly 0. The
+    /// same holds for polygons in the owner's plane, such as the other side of a thin wall, even where rounding put `from` a
+    /// last bit off that plane.
     ///
     /// # Panics
     /// When there is no polygon `id`.
@@ -62,7 +79,7 @@ impl Enclosure {
         self.past_found(from, id, &self.polygons[id]).0
     }
 
-    /// [`Self::form_factor`], and what had to be looked at and what was left out to find it.
+    /// [`Self::form_factor`], with counts of the work that it took.
     ///
     /// # Panics
     /// When there is no polygon `id`.
@@ -71,7 +88,10 @@ impl Enclosure {
         self.past_found(from, id, &self.polygons[id])
     }
 
-    /// The form factor to `part`, a part of polygon `id` that lies in its plane; that polygon does not hide it.
+    /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor_to_part(
         &self,
@@ -114,8 +134,10 @@ impl Enclosure {
         })
     }
 
-    /// The form factors from many points to polygon `id`, each as [`Self::form_factor`] gives it within the bounds. What can
-    /// stand between the points and the polygon is found once for all: the vertices of an element, the points of a patch.
+    /// The form factors from many points to polygon `id`, each equal to that of [`Self::form_factor`] within the bounds.
+    ///
+    /// The occluders that can stand between all points and the polygon are found once. That pays where the points are near
+    /// each other, as the vertices of an element or the sample points of a patch are.
     ///
     /// # Panics
     /// When there is no polygon `id`.
@@ -181,7 +203,7 @@ impl Enclosure {
             .is_some_and(|owner| id == owner || self.polygons[id].lies_in_plane_of(&self.polygons[owner]))
     }
 
-    /// The form factors to every polygon, by id.
+    /// The form factors from `from` to every polygon, by id.
     #[must_use]
     pub fn row(&self, from: &DifferentialArea) -> Vec<FormFactor> {
         (0..self.polygons.len()).map(|id| self.form_factor(from, id)).collect()

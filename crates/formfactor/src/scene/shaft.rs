@@ -32,9 +32,10 @@ impl Shaft {
         Self { extent, planes }
     }
 
-    /// Whether a box is wholly outside, its polygons lying off their vertices by `slack`.
-    pub(crate) fn misses_box(&self, extent: &Extent, slack: f64) -> bool {
-        extent.low.cmpgt(self.extent.high + slack).any() || extent.high.cmplt(self.extent.low - slack).any()
+    /// Whether a box is wholly outside, its polygons lying off their vertices by `deviation`.
+    pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
+        extent.low.cmpgt(self.extent.high + deviation).any()
+            || extent.high.cmplt(self.extent.low - deviation).any()
     }
 
     /// Whether a polygon touches the hull from outside, at most.

@@ -1,12 +1,12 @@
-//! The differential area that receives: a point and a direction.
+//! The differential area dA: a point with a normal.
 use crate::error::Error;
 use crate::numeric::offset::accurate_dot;
 use crate::numeric::rounding::{SMALLEST, in_range};
 use glam::DVec3;
 
-/// An infinitesimal one-sided area dA, from which polygons are seen.
+/// An infinitesimal one-sided area dA, from which polygons are seen: a point with a normal.
 ///
-/// It sees the half-space in front of its horizon, the plane through `position` across `normal`.
+/// It sees the half-space in front of its horizon, the plane through `position` perpendicular to `normal`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DifferentialArea {
     position: DVec3,
@@ -16,9 +16,9 @@ pub struct DifferentialArea {
 }
 
 impl DifferentialArea {
-    /// A differential area at `position` that looks along `normal`, a vector of any length.
+    /// A differential area at `position` that faces along `normal`, a vector of any length.
     ///
-    /// The horizon is decided with `normal` exactly as given; only the value of a form factor uses the unit vector.
+    /// The horizon is decided with `normal` exactly as given. Only the value of a form factor uses the unit vector.
     ///
     /// # Errors
     /// [`Error::BadPoint`] and [`Error::BadNormal`] for NaN, infinity, a zero vector, or magnitudes out of range.
@@ -34,8 +34,10 @@ impl DifferentialArea {
         Ok(Self { position, given_normal: normal, normal: normal / length, owner: None })
     }
 
-    /// The same area, lying on polygon `polygon` of the enclosure it is used with: that polygon never blocks it, and it
-    /// sees nothing of it. Functions without an enclosure ignore the owner.
+    /// The same area, on polygon `polygon` of the enclosure that it is used with.
+    ///
+    /// The owner never blocks, and the form factor to it is 0. Name the owner whenever dA lies on a polygon: its position may
+    /// be a last bit off the plane. Functions without an enclosure ignore the owner.
     #[must_use]
     pub fn owned_by(mut self, polygon: usize) -> Self {
         self.owner = Some(polygon);
@@ -54,7 +56,7 @@ impl DifferentialArea {
         self.normal
     }
 
-    /// The enclosure's polygon it lies on, if one was named.
+    /// The id of the polygon on which it lies, if one was named.
     #[must_use]
     pub fn owner(&self) -> Option<usize> {
         self.owner

@@ -13,10 +13,23 @@ const PLANARITY: f64 = 64.0;
 
 /// A planar polygon with holes and islands: the points inside an odd number of its loops.
 ///
-/// Loop 0 is counter-clockwise seen from the front; the other loops may run either way. As a target a polygon is
-/// one-sided, as an occluder two-sided. A triangle is exact as given. A larger polygon stands for its vertices moved
-/// along the normal onto its plane: it is refused when one lies further off than 64 roundings of its largest coordinate,
-/// and what the move changes is part of every `error_bound`.
+/// Loop 0 runs counter-clockwise seen from the front; the other loops may run either way. As a target a polygon is
+/// one-sided, as an occluder two-sided.
+///
+/// A triangle is exact as given. A polygon of more vertices stands for its vertices moved along the normal onto its plane. It
+/// is refused when a vertex lies further off than 64 roundings of its largest coordinate, and what the move changes is part
+/// of every `error_bound`.
+///
+/// ```
+/// use formfactor::PlanarPolygon;
+/// // A square that faces up, with a square hole.
+/// let outer = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [4.0, 4.0, 1.0], [0.0, 4.0, 1.0]];
+/// let hole = [[1.0, 1.0, 1.0], [3.0, 1.0, 1.0], [3.0, 3.0, 1.0], [1.0, 3.0, 1.0]];
+/// let frame = PlanarPolygon::new([outer, hole])?;
+/// assert_eq!(frame.area(), 12.0);
+/// assert_eq!(frame.normal(), formfactor::DVec3::Z);
+/// # Ok::<(), formfactor::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PlanarPolygon {
     points: Vec<DVec3>,
@@ -36,10 +49,10 @@ pub struct PlanarPolygon {
 }
 
 impl PlanarPolygon {
-    /// A polygon from its loops, the first vertex of each not repeated at its end.
+    /// A polygon from its loops. The first vertex of a loop is not repeated at its end.
     ///
     /// # Errors
-    /// See [`Error`]: coordinates out of range, too few vertices, no area, vertices off the plane.
+    /// See [`Error`]: no loops, too few vertices, coordinates out of range, no area, vertices off the plane.
     pub fn new<L, P>(loops: L) -> Result<Self, Error>
     where
         L: IntoIterator,
@@ -67,13 +80,13 @@ impl PlanarPolygon {
         Ok(polygon)
     }
 
-    /// The loops, as given.
+    /// The loops, as given but for -0.0, which became 0.0.
     pub fn loops(&self) -> impl Iterator<Item = &[DVec3]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(start, end)| &self.points[start..*end])
     }
 
-    /// The unit normal, toward the side from which loop 0 is counter-clockwise.
+    /// The unit normal. It points to the front, from where loop 0 runs counter-clockwise.
     #[must_use]
     pub fn normal(&self) -> DVec3 {
         self.normal

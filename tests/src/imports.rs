@@ -1,0 +1,102 @@
+//! Whether the imports of a crate run one way. Each crate's `tests/architecture.rs` includes this file by its path, so that
+//! no published crate depends on this package.
+//!
+//! An order names the folders and files of `src` from the top down, as `folder`, `file` or `folder/file`; where several
+//! entries fit a path, the longest does. A path may lead down or stay within its entry. `lib.rs`, which re-exports, is read
+//! by nobody: a name is imported from the module that defines it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A module, from the root down.
+type Module = Vec<String>;
+
+/// What is wrong with the imports below `src`: paths that lead up or to `lib.rs`, files that the order does not name, and
+/// entries that name nothing.
+pub fn complaints(src: &Path, order: &[&str]) -> Vec<String> {
+    let exists = |entry: &&&str| src.join(entry).is_dir() || src.join(entry).with_extension("rs").is_file();
+    let missing = order.iter().filter(|entry| !exists(entry)).map(|entry| format!("there is no {entry}"));
+    let files = sources(src);
+    let found = files.iter().flat_map(|file| {
+        let text = fs::read_to_string(file).expect("a source file");
+        let module = module_of(file.strip_prefix(src).expect("below src"));
+        upward(&text, &module, order)
+    });
+    missing.chain(found).collect()
+}
+
+/// What is wrong with the paths in the text of a module.
+pub fn upward(text: &str, module: &[String], order: &[&str]) -> Vec<String> {
+    let rank = |path: &[String]| {
+        let fits = |entry: &str| entry.split('/').zip(path).filter(|(a, b)| a == b).count();
+        let whole = (0..order.len()).filter(|&i| fits(order[i]) == order[i].split('/').count());
+        whole.max_by_key(|&i| fits(order[i]))
+    };
+    let name = module.join("/");
+    let Some(own) = rank(module) else { return vec![format!("the order does not name {name}")] };
+    let complaint = |path: Module| match rank(&path) {
+        None => Some(format!("{name} takes {} from lib.rs", path.join("::"))),
+        Some(other) if other < own => Some(format!("{name} imports {} from above", path.join("::"))),
+        Some(_) => None,
+    };
+    paths(text, module).into_iter().filter_map(complaint).collect()
+}
+
+/// All paths that start with `crate` or `super`, in `use` and elsewhere, from the root. A module `tests` inside a file ends it.
+pub fn paths(text: &str, module: &[String]) -> Vec<Module> {
+    let code: Vec<&str> =
+        text.lines().map(|line| line.split_once("//").map_or(line, |(code, _)| code)).collect();
+    let code = code.join("\n");
+    let tests = code.find("\nmod tests {").unwrap_or(code.len());
+    let mut found = Vec::new();
+    for start in [code.match_indices("crate::"), code.match_indices("super::")].into_iter().flatten() {
+        let before = code[..start.0].chars().next_back();
+        if !before.is_some_and(|c| c.is_alphanumeric() || "_:$".contains(c)) {
+            let own = module.iter().cloned().chain((start.0 > tests).then(|| "tests".to_owned()));
+            read(&code[start.0..], own.collect(), &mut found);
+        }
+    }
+    found
+}
+
+/// Reads one path, or a tree of them, that is relative to a module; returns what follows.
+fn read<'t>(text: &'t str, mut path: Module, found: &mut Vec<Module>) -> &'t str {
+    let mut text = text.trim_start();
+    if let Some(group) = text.strip_prefix('{') {
+        text = group;
+        while !text.trim_start().starts_with('}') {
+            text = read(text, path.clone(), found).trim_start_matches(|c| c != ',' && c != '}');
+            text = text.strip_prefix(',').unwrap_or(text);
+        }
+        return &text.trim_start()[1..];
+    }
+    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
+    match &text[..end] {
+        "crate" => path.clear(),
+        "super" => drop(path.pop()),
+        "self" | "" => {}
+        name => path.push(name.to_owned()),
+    }
+    match text[end..].trim_start().strip_prefix("::") {
+        Some(rest) => read(rest, path, found),
+        None => {
+            found.push(path);
+            &text[end..]
+        }
+    }
+}
+
+/// The module of a file below `src`.
+fn module_of(file: &Path) -> Module {
+    let names = file.with_extension("");
+    let names = names.iter().map(|name| name.to_string_lossy().into_owned());
+    names.filter(|name| name != "mod").collect()
+}
+
+/// All files below a folder but `lib.rs` and `main.rs`.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder of sources");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let files = paths.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] });
+    files.filter(|file| !file.ends_with("src/lib.rs") && !file.ends_with("src/main.rs")).collect()
+}
