@@ -1,4 +1,8 @@
-//! Which occluders can matter, as far as doubles decide it.
+//! Classifies occluders, as far as doubles decide it: one misses the target, covers it, or may block a part of it.
+//!
+//! In this order, as each step costs more than the one before: outside of a half-space of the target's? coplanar with dA or
+//! behind the target's plane? cut off what is behind that plane, and push the cone of the rest. Does that cone hold all
+//! corners of the target?
 use super::clip::clip;
 use super::cone::{Cones, Corner, Edge, Place, size};
 use super::corners::{copy, deviation_error};
@@ -40,9 +44,11 @@ pub(super) fn classify(
     }
     let (origin, plane) = (target.from.position(), target.to.plane());
     let facing = occluder.plane().side_of(origin);
+    // On which side of the target's plane its vertices are: what is behind it is cut off.
     let sides = || occluder.points().iter().map(|p| plane.side_of(*p));
     let is_clipped = sides().any(|side| side == Ordering::Less);
     if deviation > 0.0 {
+        // Vertices stand for others nearby. The exact route bounds what that changes at planes that matter.
         let is_clear = |p: &DVec3| {
             plane.quick_side(*p) == Some(Ordering::Greater)
                 && plane.rounded().dot(*p - plane.corners[0]) > 4.0 * deviation * size(plane.rounded())
@@ -58,6 +64,7 @@ pub(super) fn classify(
     if is_clipped {
         clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
     }
+    // From here on the occluder is what is left of it, counter-clockwise seen from dA.
     let edges = cones.push(origin, corners);
     if edges.len() < 3 {
         // So little is before the target that its corners fall together.

@@ -1,4 +1,14 @@
-//! Convex polygons as dA sees them: edges, each with the plane through it and dA.
+//! Convex polygons as dA sees them: cones, bounded by the planes through dA and each edge.
+//!
+//! ```text
+//!    c ______ b       The polygon a b c runs counter-clockwise seen from dA. The plane through dA and the edge from a to b
+//!      \     |        has the normal `inward` = (b - a) x (a - dA), toward the polygon: a point p is inside the cone where
+//!        \   |        inward . (p - dA) > 0 for all edges.
+//!          \ |
+//!            a        A sign is trusted where the dot product is larger than a bound on its error: some roundings of the
+//!                     sum of its terms' magnitudes. Else the place is `Open`.
+//!        dA
+//! ```
 use crate::numeric::rounding::ROUNDING;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! Parts of an edge between ends that are known roughly.
+//! Intervals of an edge whose ends are known within bounds, and what is left between them.
 
 /// A parameter along an edge, 0 at its start and 1 at its end: somewhere from `least` to `most`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl Parameter {
     }
 }
 
-// `f64::min` and `max` look for NaN, which no mark is, at a cost.
+// `f64::min` and `max` look for NaN, which no parameter is, at a cost.
 fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
@@ -49,7 +49,7 @@ fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// A part of an edge; nothing where `high` comes before `low`.
+/// A part of an edge; empty where `high` comes before `low`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
     pub(super) low: Parameter,
@@ -59,31 +59,38 @@ pub(super) struct Interval {
 impl Interval {
     pub(super) const WHOLE: Self = Self { low: Parameter::START, high: Parameter::END };
 
-    /// Whether there is nothing of it for certain.
-    pub(super) fn is_nothing(&self) -> bool {
+    /// Whether it is empty for certain.
+    pub(super) fn is_empty(&self) -> bool {
         self.low.least >= self.high.most
     }
 
-    /// Whether it holds another one for certain.
+    /// Whether another one lies in it for certain.
     pub(super) fn covers(&self, other: &Self) -> bool {
         self.low.most <= other.low.least && self.high.least >= other.high.most
     }
 }
 
-/// Calls back with what `spans` leave of a whole: parts, some of which may be nothing.
+/// Calls back with what the hidden intervals leave of a whole: gaps, some of which may be empty.
 ///
-/// In the order of their least starts, what is left before a span ends somewhere between its least and its most start: the
-/// others start no earlier. Where it begins lies between the largest ones of the ends so far, least and most.
+/// ```text
+/// whole   |-----------------------------------|
+/// hidden      |-----|      |------------|
+///                |------|      |---|
+/// gaps    |---|         |--|            |-----|
+/// ```
+///
+/// The intervals come in the order of their least starts. The gap before one ends somewhere between its least and its most
+/// start: the others start no earlier. The gap begins between the largest of the ends so far, least and most.
 #[inline]
-pub(super) fn for_each_gap(whole: Interval, spans: &mut [Interval], mut found: impl FnMut(Interval)) {
-    spans.sort_unstable_by(|a, b| a.low.least.total_cmp(&b.low.least));
+pub(super) fn for_each_gap(whole: Interval, hidden: &mut [Interval], mut found: impl FnMut(Interval)) {
+    hidden.sort_unstable_by(|a, b| a.low.least.total_cmp(&b.low.least));
     let last = Interval { low: whole.high, high: whole.high };
     let mut low = whole.low;
-    for span in spans.iter().chain(std::iter::once(&last)) {
-        let gap = Interval { low, high: span.low.first(whole.high) };
-        if !gap.is_nothing() {
+    for interval in hidden.iter().chain(std::iter::once(&last)) {
+        let gap = Interval { low, high: interval.low.first(whole.high) };
+        if !gap.is_empty() {
             found(gap);
         }
-        low = low.last(span.high);
+        low = low.last(interval.high);
     }
 }

@@ -14,7 +14,7 @@ mod clip;
 mod cone;
 mod contour;
 mod corners;
-mod hidden;
+mod inside;
 mod interval;
 mod neighbours;
 pub(crate) mod target;

@@ -1,4 +1,4 @@
-//! Which cones may meet.
+//! Which cones may meet: a sweep over the rectangles of slopes around them.
 use super::cone::Cones;
 
 /// Pairs of cones whose rectangles meet.
@@ -6,7 +6,7 @@ use super::cone::Cones;
 pub(super) struct Neighbours {
     order: Vec<usize>,
     pairs: Vec<[usize; 2]>,
-    /// The neighbours of each cone, one cone after the other, and where each one's begin.
+    /// The neighbours of each cone, one cone after the other (compressed rows), and where each cone's begin.
     rows: Vec<usize>,
     starts: Vec<usize>,
 }
@@ -39,6 +39,7 @@ impl Neighbours {
     fn fill_rows(&mut self, count: usize) {
         let Self { pairs, rows, starts, .. } = self;
         starts.clear();
+        // Counts go two places further on, sums of counts one: filling the rows then moves each start to where it belongs.
         starts.resize(count + 2, 0);
         for cone in pairs.iter().flatten() {
             starts[cone + 2] += 1;

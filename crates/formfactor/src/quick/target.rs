@@ -130,12 +130,15 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// What keeps a polygon from hiding anything.
+    /// What keeps a polygon from hiding anything: a side all of whose points are on the outside, or an edge that it touches.
+    ///
+    /// Neighbours of a target in a mesh touch its sides; exact turns decide that they hide nothing.
     pub(super) fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
         let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
         let mut touched = None;
         for (index, side) in self.sides.iter().enumerate() {
             let mut is_outside = true;
+            // Stops at the first vertex inside: this side does not tell them apart.
             let is_inside = occluder.points().iter().any(|p| {
                 let place = side.place(*p - origin, more);
                 is_outside &= place == Place::Outside;

@@ -1,7 +1,8 @@
-//! What is left of every edge: the visible boundary, piece by piece.
+//! The visible boundary, edge by edge: what the occluders leave of the target's edges, and what they and the target leave of
+//! the occluders' edges.
 use super::cone::{Cones, Edge, Frame, Slopes};
 use super::contour::{Parts, Sum};
-use super::hidden::{Hidden, hidden};
+use super::inside::{Inside, inside};
 use super::interval::{Interval, for_each_gap};
 use super::neighbours::Neighbours;
 use super::target::Target;
@@ -14,7 +15,7 @@ use crate::stats::Stats;
 #[derive(Debug, Default)]
 pub(super) struct TraceBuffers {
     neighbours: Neighbours,
-    spans: Vec<Interval>,
+    hidden: Vec<Interval>,
     extents: Vec<Slopes>,
 }
 
@@ -22,13 +23,13 @@ pub(super) struct TraceBuffers {
 /// 2^-40, below 1e-12.
 const FINE: f64 = 8192.0 * ROUNDING;
 
-/// Lambert's sum over the visible boundary of the target behind the cones, `open` being left open by what was culled and
-/// cut; `None` where doubles leave more open.
+/// The form factor of the target behind the cones: Lambert's sum over the visible boundary, with an error of at most `open`
+/// from what was culled and cut. `None` where doubles leave more open.
 pub(super) fn sum(
     target: &Target,
     cones: &mut Cones,
     open: f64,
-    TraceBuffers { neighbours, spans, extents }: &mut TraceBuffers,
+    TraceBuffers { neighbours, hidden, extents }: &mut TraceBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
     let mut sum = Sum::new(target.from.normal());
@@ -45,15 +46,16 @@ pub(super) fn sum(
     neighbours.find(cones);
     for (edge, extent) in target.edges.iter().zip(&*extents) {
         let near = (0..cones.len()).filter(|other| cones.extent(*other).meets(extent));
-        trace(edge, Interval::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
+        trace(edge, Interval::WHOLE, Owner::Target, near, cones, hidden, &mut sum)?;
     }
     let whole = extents.iter().copied().reduce(Slopes::join)?;
     for cone in 0..cones.len() {
         let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
         for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
-            let Some(Hidden::Part(inside)) = hidden(edge, target.edges)? else { continue };
+            // An occluder's edge counts only where the target is behind it. One along an edge of the target is that edge's.
+            let Inside::Part(before) = inside(edge, target.edges)? else { continue };
             let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
-            trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
+            trace(edge, before, Owner::Occluder(cone), near, cones, hidden, &mut sum)?;
         }
     }
     stats.partial += 1;
@@ -62,7 +64,7 @@ pub(super) fn sum(
     sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter.min(1.0))
 }
 
-/// Whose edge is traced.
+/// The polygon whose edge is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Owner {
     Target,
@@ -90,28 +92,28 @@ fn trace(
     owner: Owner,
     near: impl Iterator<Item = usize>,
     cones: &Cones,
-    spans: &mut Vec<Interval>,
+    hidden: &mut Vec<Interval>,
     sum: &mut Sum,
 ) -> Option<()> {
-    spans.clear();
+    hidden.clear();
     for other in near {
-        match hidden(edge, cones.edges(other))? {
-            Some(Hidden::Part(part)) if part.covers(&whole) => return Some(()),
-            Some(Hidden::Part(part)) => spans.push(part),
-            Some(Hidden::Twin { is_same_way }) if owner.loses(other, is_same_way) => return Some(()),
-            _ => (),
+        match inside(edge, cones.edges(other))? {
+            Inside::Part(part) if part.covers(&whole) => return Some(()),
+            Inside::Part(part) => hidden.push(part),
+            Inside::Twin { is_same_way } if owner.loses(other, is_same_way) => return Some(()),
+            Inside::Twin { .. } | Inside::Nothing => (),
         }
     }
     let mut line = sum.line(edge.inward, edge.error);
     if owner != Owner::Target {
-        // What is seen is on the other side.
+        // An occluder's edge has the visible part on its other side.
         line.cosine = -line.cosine;
     }
-    if spans.is_empty() && whole == Interval::WHOLE {
+    if hidden.is_empty() && whole == Interval::WHOLE {
         sum.add_whole(edge, &line);
     } else {
         let mut parts = Parts::default();
-        for_each_gap(whole, spans, |gap| sum.add_part(edge, &line, gap, &mut parts));
+        for_each_gap(whole, hidden, |gap| sum.add_part(edge, &line, gap, &mut parts));
         sum.add_parts(edge, &line, parts);
     }
     Some(())

@@ -1,12 +1,14 @@
-//! What a cone holds of an edge.
+//! The part of an edge inside a cone: what an occluder hides of it, or what the target's cone leaves of it.
 use super::cone::{Edge, Place};
 use super::interval::{Interval, Parameter};
 use crate::numeric::rounding::ROUNDING;
 
-/// What a cone holds of an edge.
+/// What of an edge is inside a cone.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Hidden {
-    /// A part, or nothing.
+pub(super) enum Inside {
+    /// Nothing, for certain.
+    Nothing,
+    /// One interval: a cone is convex. Both ends may be uncertain.
     Part(Interval),
     /// The edge is one of the cone's own, run along the same way or the other way.
     Twin { is_same_way: bool },
@@ -15,20 +17,21 @@ pub(super) enum Hidden {
 /// An edge whose ends differ by this many times their error crosses a plane.
 const CLEAR: f64 = 16.0;
 
-/// What the cone inside `planes` holds of `edge`: no part, for certain, or some. The outer `None` says that the edge may
-/// lie in one of the planes and that more depends on it than the error.
+/// What of `edge` is inside the cone that `planes` bound, by clipping it against one plane after the other. `None` says that
+/// the edge may lie in one of the planes, so that the error of a parameter has no bound.
 ///
 /// The parameter t = s / (s - e) of a crossing, from the depths s and e of start and end, errs by at most the larger one
 /// of their errors by |s - e|, 1.2 times since s - e itself is known to a sixteenth only, and by the roundings of t.
 #[inline(always)]
-pub(super) fn hidden(edge: &Edge, planes: &[Edge]) -> Option<Option<Hidden>> {
-    let mut span = Interval::WHOLE;
+pub(super) fn inside(edge: &Edge, planes: &[Edge]) -> Option<Inside> {
+    let mut left = Interval::WHOLE;
     // Whether it may lie in a plane, and whether it is one of the cone's own edges, run the other way or the same way.
     let (mut is_open, mut twins) = (false, [false; 2]);
     for plane in planes {
+        // A coarse bound on the error decides for most planes.
         match plane.side_of(edge) {
             Some(Place::Inside) => continue,
-            Some(_) => return Some(None),
+            Some(_) => return Some(Inside::Nothing),
             None => (),
         }
         let (start, start_error) = plane.depth(edge.start);
@@ -37,30 +40,31 @@ pub(super) fn hidden(edge: &Edge, planes: &[Edge]) -> Option<Option<Hidden>> {
             continue;
         }
         if start < -start_error && end < -end_error {
-            return Some(None);
+            return Some(Inside::Nothing);
         }
         let (across, error) = (start - end, start_error.max(end_error));
         if across.abs() <= CLEAR * error {
+            // Nearly parallel to the plane and close to it: no crossing can be told.
             is_open = true;
             if let Some(is_same_way) = twin(edge, plane) {
                 twins[usize::from(is_same_way)] = true;
             }
             continue;
         }
-        let met = Parameter::new(start / across, 1.2 * error / across.abs() + 4.0 * ROUNDING);
+        let crossing = Parameter::new(start / across, 1.2 * error / across.abs() + 4.0 * ROUNDING);
         if across > 0.0 {
-            span.high = span.high.first(met);
+            left.high = left.high.first(crossing);
         } else {
-            span.low = span.low.last(met);
+            left.low = left.low.last(crossing);
         }
     }
-    if span.is_nothing() {
-        return Some(None);
+    if left.is_empty() {
+        return Some(Inside::Nothing);
     }
     match (is_open, twins) {
-        (false, _) => Some(Some(Hidden::Part(span))),
-        (true, [false, true]) => Some(Some(Hidden::Twin { is_same_way: true })),
-        (true, [true, false]) => Some(Some(Hidden::Twin { is_same_way: false })),
+        (false, _) => Some(Inside::Part(left)),
+        (true, [false, true]) => Some(Inside::Twin { is_same_way: true }),
+        (true, [true, false]) => Some(Inside::Twin { is_same_way: false }),
         // No edge of the cone, or one that it has both ways: then rounding left it no width.
         (true, _) => None,
     }
