@@ -1,8 +1,8 @@
-//! The methods that the exact one is compared with, each as its source defines it.
+//! Approximate methods to compare the exact one with, each as its source defines it, behind one trait: [`Method`].
 //!
-//! | method | idea | error falls as | what remains |
+//! | method | idea | error falls as | weak point |
 //! | --- | --- | --- | --- |
-//! | [`Disk`] | the target as one disk of its area | not at all | no visibility, no near targets |
+//! | [`Disk`] | the target as one disk of its area | never | visibility is ignored; near targets are wrong |
 //! | [`Wallace`] | parts as disks, a ray to each | 1/n in n parts | shadow edges: a part is seen or not |
 //! | [`Pietrek`] | near parts by the contour sum | 1/n | the same |
 //! | [`VisibilityIndex`] | parts split where rays disagree | 1/n or better in n rays per part | what slips between the rays, at any depth |
@@ -12,8 +12,8 @@
 //! | [`MonteCarlo`] | cosine-weighted rays | n^-1/2 random, n^-3/4 stratified | none |
 //! | [`Paraboloid`] | one image of the hemisphere | 1/resolution | what is smaller than a cell |
 //!
-//! All see an enclosure as the exact method does: targets are one-sided, occluders two-sided, the polygon that owns dA
-//! never blocks. None has a bound: what they return is a number, and its error is for the comparison to find.
+//! All methods follow the exact one's definitions: targets are one-sided, occluders two-sided, the polygon that owns dA never
+//! blocks. None of them has an error bound.
 //!
 //! ```
 //! use formfactor::approx::{Exact, Hemicube, Method, MonteCarlo, Sampling};

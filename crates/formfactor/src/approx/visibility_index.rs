@@ -1,4 +1,4 @@
-//! Parts split where rays disagree.
+//! Parts, split where rays disagree.
 use super::gather::{aim, as_contour, as_disk, row_of_targets};
 use super::method::Method;
 use super::parts::{Part, pieces};
@@ -6,18 +6,17 @@ use super::ray::RayTarget;
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 
-/// As [`Pietrek`](super::Pietrek), and a part is also quartered while its *visibility index*, the fraction of sample rays
-/// that reach it, is neither 0 nor 1 [Wang; Lee & Chuang 2004].
+/// Does as [`Pietrek`](super::Pietrek) does, and quarters a part while its *visibility index*, the fraction of sample rays that
+/// reach it, is neither 0 nor 1 [Wang; Lee & Chuang 2004].
 ///
 /// The rays go to the middles of `samples` x `samples` congruent pieces of the part, those below the horizon left out.
-/// At the limit of depth a part counts by its index. What slips between the rays to a part is never looked for, be it an
-/// occluder or a corner that a shadow cuts off, however small the parts could get: an error that no depth removes, and that
-/// falls with the number of rays.
+/// At the limit of depth a part counts by its index. An occluder, or a corner that a shadow cuts off, is missed when it lies
+/// between the rays to a part. More depth does not remove that error; more rays make it smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VisibilityIndex {
-    /// A part takes the contour sum when its diameter is more than this times its distance, and else is a disk.
+    /// A part takes the contour sum when its diameter is more than this times its distance, and is a disk otherwise.
     pub near: f64,
-    /// Sample rays per part, by the side of their grid; 0 is taken as 1.
+    /// The side of the grid of sample rays to each part; 0 is taken as 1.
     pub samples: u32,
     /// How often a part may be quartered.
     pub depth: u32,
