@@ -23,17 +23,17 @@ use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Length by distance up to which the rules are used.
+/// The quotients of length and distance up to which the rules of 8 and of 5 nodes are used.
 const SMALL: f64 = 0.1;
 const TINY: f64 = 0.01;
 
-/// Roundings of a term and of the sums, and the rules' errors.
+/// A bound on the error of the sum in roundings of itself: of its terms, of adding them, and of the rules.
 const ROUNDINGS: f64 = 96.0;
 
-/// Relative error of products of three double-doubles, by their terms: 2^-96.
+/// The error of products of three double-doubles, relative to the sum of their terms' magnitudes: 2^-96.
 const PRODUCT: f64 = 1.262_177_448_353_619e-29;
 
-/// More triangles than this are not worth their while.
+/// More triangles than this are not worth their cost.
 const MOST: usize = 2000;
 
 /// A part of the target.
@@ -47,7 +47,7 @@ struct Triangle {
     volume: [f64; 2],
 }
 
-/// The form factor of a convex target that stands as given; `None` when that takes too many triangles.
+/// The form factor of a convex target without a deviation; `None` when that takes too many triangles.
 pub(crate) fn form_factor(view: &View) -> Option<FormFactor> {
     let [vertices] = &view.loops[..] else { return None };
     if !view.to.is_convex() || view.to.deviation() > 0.0 {
@@ -85,7 +85,7 @@ pub(crate) fn form_factor(view: &View) -> Option<FormFactor> {
 struct Heights {
     normal: DVec3,
     values: Vec<f64>,
-    /// A bound on the error of each beyond roundings of itself.
+    /// A bound on the error of each, besides roundings of itself.
     error: f64,
 }
 
@@ -145,7 +145,7 @@ impl Triangle {
         [part, mass]
     }
 
-    /// Cut at the middle of the longest edge.
+    /// Two halves, cut at the middle of the longest edge.
     fn halves(&self) -> [Self; 2] {
         let length = |i: usize| self.corners[i].distance_squared(self.corners[(i + 1) % 3]);
         let longest = (1..3).fold(0, |best, i| if length(i) > length(best) { i } else { best });

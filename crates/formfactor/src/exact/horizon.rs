@@ -1,4 +1,4 @@
-//! Clipping to dA's horizon, and clipping in general.
+//! Clipping to dA's horizon, and clipping of loops by any plane.
 use super::lambert::Direction;
 use crate::numeric::offset::Offset;
 use crate::numeric::predicates::{over_horizon, place};
@@ -9,19 +9,19 @@ use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A vertex as seen from dA: on its edge within 2^-98 of the edge's ends.
+/// A vertex as seen from dA. A clip point lies on its edge within 2^-98 of the lengths of the edge's ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Vertex {
     pub(crate) offset: Offset,
-    /// Index among the polygon's points of the vertex that it is, `None` for a clip point.
+    /// Its index among the polygon's points, `None` for a clip point.
     pub(crate) given: Option<usize>,
-    /// How far it may lie from where it stands: from the polygon moved onto its plane.
+    /// How far it may lie from where it stands, once the polygon is moved onto its plane.
     pub(crate) deviation: f64,
-    /// For an occluder's vertex, its depth toward the target's plane in the measure of the view's height.
+    /// For an occluder's vertex, its distance from dA toward the target's plane, in the unit of the view's `height`.
     pub(crate) depth: DoubleDouble,
 }
 
-/// Directions shorter than this are made longer, before their squares underflow.
+/// Shorter directions are scaled up, before their squares underflow.
 const SHORT: f64 = 1e-100;
 
 impl Vertex {
@@ -30,12 +30,12 @@ impl Vertex {
         let toward = self.offset.round();
         let lost: f64 = self.offset.0.iter().map(|x| (x.hi - x.round() + x.lo).abs()).sum();
         let error = (lost + self.deviation) / toward.length() * (1.0 + 8.0 * ROUNDING);
-        // A clip point is within 2^-98 of its edge; 2^-96 leaves room for its being near.
+        // A clip point is within 2^-98 of its edge by the lengths of the ends; 2^-96 leaves room for points nearer than those.
         let clipped = if self.given.is_none() { ROUNDING * ROUNDING * 1024.0 } else { 0.0 };
         if toward.abs().max_element() >= SHORT {
             return Direction { toward, error: error + clipped };
         }
-        // Powers of two: nothing is rounded that matters.
+        // By powers of two, which round nothing that matters.
         let mut longer = toward;
         while longer.abs().max_element() < SHORT && longer != DVec3::ZERO {
             longer /= SMALLEST;
@@ -70,7 +70,7 @@ pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops,
     if !places.contains(&Ordering::Greater) {
         return (Vec::new(), true);
     }
-    // Every vertex is a given one here.
+    // Nothing was clipped yet: every vertex is a given one.
     let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| places[i]);
     let height = |i: usize| over_horizon(normal, position, polygon.points()[i]).value;
     (clip(&loops, place, |v| v.given.map_or(DoubleDouble::ZERO, height)), true)
@@ -79,9 +79,16 @@ pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops,
 /// The part of loops that is not on the lower side of a plane (Sutherland and Hodgman). `place` says where a vertex lies,
 /// `height` how far from the plane in some measure, with the same sign.
 ///
-/// A cut edge's new end is a function of its inner and its outer vertex, so that it does not depend on the direction of
-/// the edge: edges that were shared stay shared. Loops that are not convex keep pieces along the cut that run there and
-/// back, which an even-odd rule and a contour sum do not see.
+/// The new end of a cut edge is a function of its inner and its outer vertex, whatever the direction of the edge: shared edges
+/// stay shared.
+///
+/// ```text
+///    b---c   f---g            A loop that is not convex keeps pieces along the cut that run there and back: the result
+///    |   |   |   |            here is p b c q r f g s, with the piece from q to r, and the one from s to p over it. An
+/// ---p---q---r---s--- plane   even-odd rule and a contour sum do not see them.
+///    |   d---e   |
+///    a-----------h
+/// ```
 pub(crate) fn clip(
     loops: &Loops,
     place: impl Fn(&Vertex) -> Ordering,

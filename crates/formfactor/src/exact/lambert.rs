@@ -4,12 +4,12 @@
 //! beta = atan2(|R_k x R_{k+1}|, R_k . R_{k+1}). [Barreto 2008, (2.4); the order of the cross product makes the sum
 //! positive for loops that are counter-clockwise seen from the target's front.]
 //!
-//! **The bound.** Two things are wrong with a term. *Arithmetic*: cross and dot products are compensated, each within two
-//! roundings, so that the term errs by at most 24 roundings of beta, and by what cancellation leaves of the compensation.
-//! *Direction*: the one to a vertex is off by at most some angle. Moving the ends of an arc of angle beta by e0 and e1
-//! sweeps two spherical triangles, each of area at most 2 asin(tan(e/2) tan(beta/2)); as cos <= 1, the form factor
-//! changes by at most the swept area over pi. Sets differ by no more than what their boundaries swept, whatever their
-//! holes and crossings, and a union by no more than the sum over its members.
+//! **The bound.** A term has two errors. *Arithmetic*: cross and dot products are compensated, each within two roundings, so
+//! that the term errs by at most 24 roundings of beta, and by what cancellation leaves of the compensation. *Directions*: that
+//! to a vertex is off by at most some angle. Moving the ends of an arc of angle beta by e0 and e1 sweeps two spherical
+//! triangles, each of area at most 2 asin(tan(e/2) tan(beta/2)); as cos <= 1, the form factor changes by at most the swept area
+//! over pi. Two sets differ by no more than what their boundaries swept, whatever their holes and crossings, and two unions by
+//! no more than the sum over their members.
 use crate::form_factor::FormFactor;
 use crate::numeric::offset::{accurate_cross, accurate_dot};
 use crate::numeric::rounding::ROUNDING;
@@ -53,9 +53,8 @@ impl ContourSum {
 
     /// Adds an edge on the horizon, the region above it.
     ///
-    /// Its plane is the horizon's and its cosine 1, so that it counts its angle, which errs by that of its ends. The
-    /// chains of edges before and after it end on their own: the arc by which such an end may be off is not shared with a
-    /// neighbour, and its term is at most its angle over 2 pi.
+    /// Its plane is the horizon and its cosine 1, so that it adds its angle, which errs by the errors of its ends. The edges
+    /// before and after it do not share those errors with it: each adds at most the angle by which its end is off, over 2 pi.
     pub(crate) fn add_horizon(&mut self, a: Direction, b: Direction) {
         let arc = Arc::between(a, b);
         self.sum = self.sum + DoubleDouble::from(arc.angle() / TAU);
@@ -71,11 +70,11 @@ impl ContourSum {
         });
     }
 
-    /// The form factor, `error` more having come about elsewhere.
+    /// The form factor, with an error of at most `error` from elsewhere.
     pub(crate) fn form_factor(&self, error: f64) -> FormFactor {
         let sum = self.sum.round();
         if sum.is_nan() {
-            // An edge through dA: nothing is known.
+            // An edge passes through dA: nothing is known.
             return FormFactor { value: 0.0, error_bound: 1.0 };
         }
         let value = sum.clamp(0.0, 1.0);

@@ -23,8 +23,16 @@ pub(crate) struct Shadow {
     pub(crate) is_clipped: bool,
 }
 
-/// The shadow of the part of `occluder` between dA and the target's plane, right inside the target; without loops when no
-/// part of it is there. `sides` says on which side of the target's plane the occluder's points lie.
+/// The shadow of the part of `occluder` between dA and the target's plane. It is right inside the target, and has no loops when
+/// no part of the occluder is there. `sides` says on which side of the target's plane the occluder's points lie.
+///
+/// ```text
+/// ----------[==target==]----------  the target's plane
+///   \                          /    Walls through dA, well outside of the target, cut the occluder off. Its shadow would
+///     \    ---occluder------/----   else reach to infinity where it comes down beside dA.
+///       \                  /
+///         \      dA       /
+/// ```
 pub(crate) fn project(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> Shadow {
     let mut loops = before_target(view, occluder, sides);
     for wall in &view.pyramid.walls {
@@ -45,7 +53,7 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> L
     let mut loops = seen(view.from, occluder);
     loops.iter_mut().flatten().for_each(|v| v.depth = depth(view, v.offset));
     if sides.contains(&Ordering::Less) {
-        // Every vertex is a given one here.
+        // Nothing was clipped yet: every vertex is a given one.
         let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| sides[i]);
         let height = |i: usize| view.to.plane().side(occluder.points()[i]).value;
         loops = clip(&loops, place, |v| v.given.map_or(DoubleDouble::ZERO, height));
@@ -54,7 +62,7 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> L
     loops
 }
 
-/// The part of loops on the inner side of a wall. The wall stands well outside of the target: its place does not matter,
+/// The part of loops on the inner side of a wall. As the wall is well outside of the target, where it stands does not matter,
 /// only that clip points lie on their edges.
 fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
     let rounded = |v: &Vertex| wall.side.of_offset(v.offset.round(), 0.0);
@@ -79,7 +87,7 @@ fn project_vertex(
 ) -> ProjectedVertex {
     let on_plane = vertex.given.filter(|i| sides[*i] == Ordering::Equal);
     let flat = on_plane.map_or_else(|| flat(view, *vertex), |i| view.to.flat(occluder.points()[i]));
-    // Clip lines lie well outside of the target: so does whatever the bounds move.
+    // Clip lines lie well outside of the target, and so does whatever the bounds move.
     let [low, high] = view.pyramid.bounds;
     let kept = DVec2::new(flat.x.max(low.x).min(high.x), flat.y.max(low.y).min(high.y));
     ProjectedVertex::measured(view.from, view.to, kept, vertex)

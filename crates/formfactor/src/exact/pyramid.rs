@@ -8,8 +8,8 @@ use std::cmp::Ordering;
 
 /// The planes through dA that bound what can matter for a target.
 ///
-/// They are rounded: they may only drop what they say to be outside by more than their error, or cut what lies well
-/// outside of the target.
+/// They are rounded. So they may only drop what is outside by more than their error, or cut where it is well outside of the
+/// target.
 #[derive(Clone, Debug)]
 pub(crate) struct Pyramid {
     position: DVec3,
@@ -106,7 +106,7 @@ impl Pyramid {
         outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
     }
 
-    /// Whether everything in a box is missed for certain.
+    /// Whether everything in a box is outside for certain.
     pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
         let outside = |side: &Side, origin: DVec3| {
             side.excludes_box(extent.low - origin, extent.high - origin, deviation)
@@ -134,7 +134,7 @@ impl Pyramid {
         };
         let mut candidates = self.tight[1..].iter().zip(to.edges());
         let found = candidates.find(|(side, (a, b))| {
-            // First what costs little.
+            // The cheap test first.
             points().all(|p| place(side, p) != Ordering::Greater)
                 && points().all(|p| outside(side, *a, *b, p))
         });
@@ -142,7 +142,7 @@ impl Pyramid {
     }
 }
 
-/// Whether planes through the edges are worth their while.
+/// Whether planes through the edges are worth their cost.
 fn has_few_edges(polygon: &PlanarPolygon) -> bool {
     polygon.is_convex() && polygon.points().len() <= 8
 }

@@ -10,7 +10,7 @@ use crate::stats::Stats;
 pub(crate) enum Shadows {
     /// All of the target.
     Total,
-    /// The shadows, and a bound on the form factor of all that is wrong with them.
+    /// The shadows, and a bound on the form factor of what they get wrong.
     Some(Vec<Shadow>, f64),
 }
 

@@ -19,7 +19,7 @@ use std::cmp::Ordering;
 pub(crate) struct View<'a> {
     pub(crate) from: &'a DifferentialArea,
     pub(crate) to: &'a PlanarPolygon,
-    /// dA's distance before the target's plane, times the length of the plane's normal: positive.
+    /// dA's distance from the target's plane, times the length of the plane's normal: positive.
     pub(crate) height: DoubleDouble,
     pub(crate) loops: Loops,
     pub(crate) flat: Vec<Vec<DVec2>>,
@@ -31,7 +31,7 @@ pub(crate) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// `None` when the target turns its back or lies below the horizon: it is not seen, exactly.
+    /// `None` when the target turns its back or lies below the horizon: decided exactly, nothing of it is seen.
     pub(crate) fn new(from: &'a DifferentialArea, to: &'a PlanarPolygon) -> Option<Self> {
         if to.plane().side_of(from.position()) != Ordering::Greater {
             return None;
@@ -53,8 +53,8 @@ impl<'a> View<'a> {
 
     /// Lambert's sum over the target as it stands: right for a convex one.
     ///
-    /// Edges on the horizon are added as such. Where dA is near the target's plane one passes it almost through, and what
-    /// rounding of its ends might sweep were it any edge is far more than what that can change.
+    /// Edges on the horizon are added as such. Where dA is near the target's plane such an edge passes close to dA. Added like
+    /// any other edge, its bound would be far larger than what the errors of its ends can change.
     pub(crate) fn contour(&self) -> ContourSum {
         let mut sum = ContourSum::new(self.from.normal());
         for vertices in &self.loops {
@@ -80,15 +80,15 @@ impl<'a> View<'a> {
         sum
     }
 
-    /// Whether a vertex lies on the horizon, exactly: it was clipped there, or given so. Not where vertices stand for
-    /// others, which need not lie there.
+    /// Whether a vertex lies on the horizon exactly: it was clipped there, or given so. Never for a target with a deviation,
+    /// whose vertices stand elsewhere.
     fn is_on_horizon(&self, vertex: &Vertex) -> bool {
         let place = |i: usize| place(self.from.given_normal(), self.from.position(), self.to.points()[i]);
         self.to.deviation() == 0.0 && vertex.given.is_none_or(|i| place(i) == Ordering::Equal)
     }
 
-    /// The direction to a point of the target's plane: exact for the target's own vertices, else as near as doubles are,
-    /// with the error that rounding its two coordinates brought.
+    /// The direction to a point of the target's plane. It is exact for the target's own vertices, but for its own rounding; for
+    /// other points it includes the error of rounding their two coordinates.
     pub(crate) fn direction(&self, flat: DVec2) -> Direction {
         let deviation = self.to.deviation();
         let given = self.to.find(flat);

@@ -5,16 +5,16 @@ use crate::form_factor::FormFactor;
 use crate::shapes::differential_area::DifferentialArea;
 use crate::shapes::polygon::PlanarPolygon;
 
-/// A bound on the error that is taken as it is, by the value.
+/// The relative error up to which the contour sum is good enough.
 const FINE: f64 = 1e-13;
 
-/// The form factor of a convex target of which it is known that nothing hides it, but for an error of at most `open`.
+/// The form factor of a convex target of which nothing is hidden, but for an error of at most `open`.
 pub(crate) fn unhidden(from: &DifferentialArea, to: &PlanarPolygon, open: f64) -> Option<FormFactor> {
     let view = View::new(from, to)?;
     Some(form_factor(&view, view.facing_error + open))
 }
 
-/// The form factor of a convex target that nothing hides, but for an error of at most `open`.
+/// The form factor of a view of such a target.
 ///
 /// The contour sum comes first. Where its terms cancel, cubature may know the value better.
 pub(crate) fn form_factor(view: &View, open: f64) -> FormFactor {

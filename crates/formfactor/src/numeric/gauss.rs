@@ -1,6 +1,6 @@
-//! Rules on [0, 1], nodes and weights: Gauss's, and one that looks close to the ends.
+//! Quadrature rules on [0, 1] as pairs of node and weight: Gauss's, and one with nodes close to the ends.
 
-/// Four nodes, the outer two a thousandth from the ends, right for degree 5: it sees what begins at an end.
+/// Four nodes, the outer two a thousandth from the ends, exact up to degree 5: it sees what begins at an end.
 pub(crate) const RULE_4: [[f64; 2]; 4] = [
     [0.001, 0.084_171_688_397_549_07],
     [0.276_843_115_326_702_3, 0.415_828_311_602_450_93],

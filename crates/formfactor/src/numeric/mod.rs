@@ -1,4 +1,4 @@
-//! Arithmetic on doubles and twice that, and the signs that it decides.
+//! Vectors of double-doubles, exact signs, quadrature rules.
 pub(crate) mod gauss;
 pub(crate) mod offset;
 pub(crate) mod predicates;

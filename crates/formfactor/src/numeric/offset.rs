@@ -3,7 +3,7 @@ use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::ops::Add;
 
-/// A vector of double-doubles: where something lies as seen from dA.
+/// A vector of double-doubles, mostly from dA to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Offset(pub(crate) [DoubleDouble; 3]);
 
@@ -13,7 +13,7 @@ impl Offset {
         Self([0, 1, 2].map(|i| DoubleDouble::difference(to[i], from[i])))
     }
 
-    /// The way to another offset.
+    /// The difference from this offset to another one.
     pub(crate) fn to(self, other: Self) -> Self {
         Self([0, 1, 2].map(|i| other.0[i] - self.0[i]))
     }
@@ -50,8 +50,8 @@ impl Offset {
     }
 }
 
-/// The magnitude of a factor as it enters a bound: zero for zero, else at least 2^-250, so that the product of three
-/// neither underflows itself nor is less than what underflow loses in the product that it bounds.
+/// The magnitude of a factor as it enters a bound: zero for zero, else at least 2^-250. The product of three such magnitudes
+/// does not underflow, and it is more than what underflow can take from the product that it bounds.
 pub(crate) fn size(x: f64) -> f64 {
     const LEAST: f64 = 5.527_147_875_260_445e-76;
     if x == 0.0 { 0.0 } else { x.abs().max(LEAST) }

@@ -1,24 +1,26 @@
-//! The only place that decides a sign in space: filter in doubles, filter in double-double arithmetic, then big integers. Enums
-//! out, no tolerance.
+//! The only place that decides signs. Results are of type `Ordering`; there is no tolerance.
 //!
-//! Every decision is one polynomial: the height (b - a) x (c - a) . (x - y), degree 3 in the input's doubles. The filter
-//! errs by less than 2^-96 of the sum of the terms' magnitudes (see [`super::offset::size`] for why underflow is within
-//! that too); what it leaves open goes to integers, where nothing is rounded.
+//! Every decision in space is the sign of one polynomial of degree 3 in the input's doubles: the height
+//! (b - a) x (c - a) . (x - y). It is computed in up to three ways:
+//!
+//! 1. in doubles, with an error below [`QUICK`] times the sum of its terms' magnitudes;
+//! 2. in double-doubles, with an error below 2^-96 of that sum ([`super::offset::size`] accounts for underflow);
+//! 3. in integers, where nothing is rounded.
 use super::offset::{Offset, sizes};
 use super::rounding::ROUNDING;
 use exactfloat::{DoubleDouble, Integer, integers, orient2d, sign};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 
-/// Relative error of the filter: 2^-96.
+/// Error of the filter in double-doubles, relative to the sum of the terms' magnitudes: 2^-96.
 const FILTER: f64 = 1.262_177_448_353_619e-29;
 
-/// Relative error of the filter in doubles: three factors of a few roundings each, and their sum.
+/// The same for the filter in doubles: three factors of a few roundings each, and their sum.
 const QUICK: f64 = 32.0 * ROUNDING;
 /// More than underflow can take from a product of three, for coordinates up to 2^200.
 const QUICK_UNDERFLOW: f64 = 1e-240;
 
-/// A height with its sign decided exactly; `value` is within the filter's error, and zero when the sign is `Equal`.
+/// A height with its exact sign. `value` has that sign and is within the filter's error; it is zero when the sign is `Equal`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Height {
     pub(crate) value: DoubleDouble,
@@ -32,7 +34,7 @@ pub(crate) struct Plane {
     pub(crate) normal: Offset,
     /// Sums of magnitudes of the terms of each component of the normal.
     terms: DVec3,
-    /// The normal in doubles, and what its product with a rounded offset errs by, per component of the offset.
+    /// The normal in doubles, and a bound on the error of its product with a rounded offset, per component of the offset.
     rounded: DVec3,
     rounded_error: DVec3,
 }
@@ -70,13 +72,14 @@ impl Plane {
         }
     }
 
-    /// Where doubles leave it open. Coordinates one by one, lest the point has to be put into memory for the other case.
+    /// The side where doubles do not decide it. Coordinates come one by one: a reference would force the point into memory on
+    /// the common path too.
     #[cold]
     fn open_side(&self, x: f64, y: f64, z: f64) -> Ordering {
         self.side(DVec3::new(x, y, z)).sign
     }
 
-    /// The same where doubles decide it; never `Equal`.
+    /// The side of a point where doubles decide it; never `Equal`.
     pub(crate) fn quick_side(&self, point: DVec3) -> Option<Ordering> {
         let offset = point - self.corners[0];
         let value = self.rounded.dot(offset);
@@ -136,7 +139,7 @@ pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
     if value.abs() > QUICK * terms + QUICK_UNDERFLOW {
         return value.total_cmp(&0.0);
     }
-    // Of points on a line along an axis, as the corners of grids are, no digits are needed.
+    // Points on a line along an axis, such as the corners of a grid, need no arithmetic.
     if (0..3).filter(|&axis| a[axis] == b[axis] && b[axis] == d[axis]).count() > 1 {
         return Ordering::Equal;
     }
@@ -155,7 +158,7 @@ fn decide(value: DoubleDouble, terms: f64, exact: impl FnOnce() -> Ordering) -> 
     }
     let sign = exact();
     let certain = value.hi.partial_cmp(&0.0) == Some(sign);
-    // Where only the integers know the sign, any value of that sign within the filter's error serves.
+    // Where only integers decide the sign, any value with that sign within the filter's error will do.
     let least = DoubleDouble::from(match sign {
         Ordering::Less => -FILTER * terms,
         Ordering::Equal => 0.0,

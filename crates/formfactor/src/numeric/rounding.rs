@@ -1,13 +1,13 @@
-//! What a double can hold: its unit roundoff, and the range of magnitudes that is accepted.
+//! The unit roundoff of doubles, and the range of coordinates that is accepted.
 use glam::DVec3;
 
 /// The smallest extent and the inverse of the largest coordinate that are accepted: 2^-200.
 pub(crate) const SMALLEST: f64 = 6.223_015_277_861_142e-61;
 
-/// Half an ulp of 1.
+/// The unit roundoff, half an ulp of 1: one rounding errs by at most this much of its result.
 pub(crate) const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// Whether every coordinate is a number that the arithmetic here keeps from overflow.
+/// Whether every coordinate is a number that cannot overflow in the arithmetic of this crate.
 pub(crate) fn in_range(point: DVec3) -> bool {
     point.is_finite() && point.abs().max_element() <= 1.0 / SMALLEST
 }

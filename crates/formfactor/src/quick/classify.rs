@@ -1,8 +1,8 @@
 //! Classifies occluders, as far as doubles decide it: one misses the target, covers it, or may block a part of it.
 //!
-//! In this order, as each step costs more than the one before: outside of a half-space of the target's? coplanar with dA or
-//! behind the target's plane? cut off what is behind that plane, and push the cone of the rest. Does that cone hold all
-//! corners of the target?
+//! The steps come in the order of what they cost. An occluder misses the target if it is outside of one of the target's
+//! half-spaces, coplanar with dA, or behind the target's plane. Otherwise what is behind that plane is cut off, and the cone of
+//! the rest is added. The occluder covers the target if that cone contains all corners of the target.
 use super::clip::clip;
 use super::cone::{Cones, Corner, Edge, Place, size};
 use super::corners::{copy, deviation_error};
@@ -13,7 +13,7 @@ use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// What an occluder is found to be.
+/// What an occluder does to the target.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Class {
     /// It hides nothing, but for a form factor of at most `error`.
@@ -24,7 +24,7 @@ pub(super) enum Class {
     Covers,
 }
 
-/// Classifies an occluder, and adds its cone where it may block; `None` where doubles leave open what it is.
+/// Classifies an occluder, and adds its cone where it may block; `None` where doubles do not decide it.
 pub(super) fn classify(
     target: &Target,
     occluder: &PlanarPolygon,
@@ -48,7 +48,7 @@ pub(super) fn classify(
     let sides = || occluder.points().iter().map(|p| plane.side_of(*p));
     let is_clipped = sides().any(|side| side == Ordering::Less);
     if deviation > 0.0 {
-        // Vertices stand for others nearby. The exact route bounds what that changes at planes that matter.
+        // Vertices stand for others nearby: near the planes that decide, the exact route bounds what that changes.
         let is_clear = |p: &DVec3| {
             plane.quick_side(*p) == Some(Ordering::Greater)
                 && plane.rounded().dot(*p - plane.corners[0]) > 4.0 * deviation * size(plane.rounded())
@@ -67,7 +67,7 @@ pub(super) fn classify(
     // From here on the occluder is what is left of it, counter-clockwise seen from dA.
     let edges = cones.push(origin, corners);
     if edges.len() < 3 {
-        // So little is before the target that its corners fall together.
+        // So little is in front of the target that its corners coincide.
         return None;
     }
     let error = deviation_error(origin, corners, edges)?;

@@ -37,7 +37,7 @@ pub(super) struct Edge {
     reach: f64,
     /// (|start| + |along|) |along|, in sums of components: no direction turns faster than by this over |inward|.
     pub(super) spread: f64,
-    /// What makes dot products of directions to it at most 1: the inverse square of the larger size.
+    /// Scales dot products of directions to it to at most 1: the inverse square of the larger size.
     pub(super) scale: f64,
 }
 
@@ -76,12 +76,12 @@ impl Edge {
         }
     }
 
-    /// A bound on the error of `inward` that costs less.
+    /// A coarser bound on the error of `inward`, which costs less.
     pub(super) fn coarse_error(&self) -> f64 {
         coarse_error(self.along, self.start)
     }
 
-    /// Whether both ends of an edge lie on one side for certain, by a coarser bound: which one.
+    /// The side on which both ends of an edge lie for certain, by a coarser bound.
     pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
         let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
         let error = self.error * edge.reach + UNDERFLOW;
@@ -94,12 +94,12 @@ impl Edge {
         }
     }
 
-    /// How far inside a point is, relative to dA, and a bound on the error of that.
+    /// How far inside a point is, given relative to dA, and a bound on the error.
     pub(super) fn depth(&self, point: DVec3) -> (f64, f64) {
         (self.inward.dot(point), self.errors.dot(point.abs()) + UNDERFLOW)
     }
 
-    /// A lower bound on the angle that it spans: its sine, by more than the lengths.
+    /// A lower bound on the angle that it subtends: its sine, with sizes that are larger than the lengths.
     pub(super) fn least_angle(&self) -> f64 {
         self.inward.length() / (size(self.start) * size(self.end))
     }
@@ -122,16 +122,16 @@ pub(super) fn coarse_error(along: DVec3, start: DVec3) -> f64 {
     ERROR * size(along) * size(start)
 }
 
-/// The sum of the magnitudes of a vector's components.
+/// The size of a vector: the sum of its components' magnitudes, which is cheaper than the length and not less.
 pub(super) fn size(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// What the slopes of directions are measured by: a depth along one vector, and two axes of three.
+/// How slopes of directions are measured: two of three coordinates, divided by the depth along one vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     forward: DVec3,
-    /// The sum of the magnitudes of its components.
+    /// The size of `forward`.
     size: f64,
     dropped: usize,
 }
@@ -164,7 +164,7 @@ impl Frame {
         Self { forward, size: size(forward), dropped }
     }
 
-    /// A little around the slopes of a direction; everything where it does not lead forward well enough.
+    /// A small rectangle around the slopes of a direction; everything where it does not lead forward enough.
     ///
     /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
     /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
@@ -182,7 +182,7 @@ impl Frame {
         Slopes { low: slopes - margin, high: slopes + margin }
     }
 
-    /// Around the slopes of each edge.
+    /// Adds a rectangle around the slopes of each edge.
     pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Slopes>) {
         let Some(last) = edges.last() else { return };
         let mut around = self.slopes(last.end);
@@ -207,7 +207,7 @@ pub(super) fn faces(origin: DVec3, corners: &[Corner], edges: &mut Vec<Edge>) {
     }
 }
 
-/// The cones of occluders: edges in a row, and where each cone's end.
+/// The cones of occluders: the edges of all, and where those of each end.
 #[derive(Debug, Default)]
 pub(super) struct Cones {
     edges: Vec<Edge>,
@@ -224,7 +224,7 @@ impl Cones {
         self.extents.clear();
     }
 
-    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them: its edges.
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them, and returns its edges.
     pub(super) fn push(&mut self, origin: DVec3, corners: &[Corner]) -> &[Edge] {
         let first = self.edges.len();
         faces(origin, corners, &mut self.edges);
@@ -232,7 +232,7 @@ impl Cones {
         &self.edges[first..]
     }
 
-    /// Finds what is around every edge and every cone.
+    /// Finds the rectangle of slopes around every edge and every cone.
     pub(super) fn measure(&mut self, frame: &Frame) {
         let mut start = 0;
         for end in &self.ends {

@@ -5,7 +5,7 @@ use crate::numeric::rounding::ROUNDING;
 use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 
-/// The vertices of a convex polygon, in reverse when it turns its back.
+/// Copies the vertices of a convex polygon, in reverse order when it turns its back, so that they run counter-clockwise.
 pub(super) fn copy(polygon: &PlanarPolygon, is_reversed: bool, corners: &mut Vec<Corner>) {
     let corner = |at: &DVec3| Corner { at: *at, deviation: polygon.deviation() };
     corners.clear();
@@ -16,7 +16,8 @@ pub(super) fn copy(polygon: &PlanarPolygon, is_reversed: bool, corners: &mut Vec
     }
 }
 
-/// A bound on the form factor of what the deviation of the corners leaves open; `None` when the polygon as it stands may not be convex.
+/// A bound on the form factor of what the deviation of the corners leaves open; `None` when the polygon, moved onto its plane,
+/// may not be convex.
 pub(super) fn deviation_error(origin: DVec3, corners: &[Corner], edges: &[Edge]) -> Option<f64> {
     if corners.iter().all(|corner| corner.deviation == 0.0) {
         return Some(0.0);

@@ -25,7 +25,7 @@ const CLEAR: f64 = 16.0;
 #[inline(always)]
 pub(super) fn inside(edge: &Edge, planes: &[Edge]) -> Option<Inside> {
     let mut left = Interval::WHOLE;
-    // Whether it may lie in a plane, and whether it is one of the cone's own edges, run the other way or the same way.
+    // Whether it may lie in a plane; whether it is one of the cone's own edges, run the other way, and run the same way.
     let (mut is_open, mut twins) = (false, [false; 2]);
     for plane in planes {
         // A coarse bound on the error decides for most planes.
@@ -65,7 +65,7 @@ pub(super) fn inside(edge: &Edge, planes: &[Edge]) -> Option<Inside> {
         (false, _) => Some(Inside::Part(left)),
         (true, [false, true]) => Some(Inside::Twin { is_same_way: true }),
         (true, [true, false]) => Some(Inside::Twin { is_same_way: false }),
-        // No edge of the cone, or one that it has both ways: then rounding left it no width.
+        // It is no edge of the cone, or one that the cone has both ways, as rounding left the cone no width.
         (true, _) => None,
     }
 }

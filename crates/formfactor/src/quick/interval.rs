@@ -40,7 +40,7 @@ impl Parameter {
     }
 }
 
-// `f64::min` and `max` look for NaN, which no parameter is, at a cost.
+// `f64::min` and `max` cost more, as they look for NaN, which no parameter is.
 fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }

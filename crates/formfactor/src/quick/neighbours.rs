@@ -12,13 +12,13 @@ pub(super) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Takes O(n log n), and more where many begin before one ends.
+    /// Takes O(n log n) for n cones, and more where many rectangles overlap in the first slope.
     pub(super) fn find(&mut self, cones: &Cones) {
         self.find_pairs(cones);
         self.fill_rows(cones.len());
     }
 
-    /// Those that may meet a cone.
+    /// The cones that may meet a cone.
     pub(super) fn of(&self, cone: usize) -> impl Iterator<Item = usize> + '_ {
         self.rows[self.starts[cone]..self.starts[cone + 1]].iter().copied()
     }

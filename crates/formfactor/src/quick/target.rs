@@ -16,7 +16,7 @@ pub(crate) struct Target<'a> {
     pub(super) from: &'a DifferentialArea,
     pub(super) to: &'a PlanarPolygon,
     pub(super) edges: &'a [Edge],
-    /// The half-spaces in which what hides must be.
+    /// The half-spaces in which a part of an occluder must be to hide any of the target.
     sides: &'a [Side],
     /// A bound on the form factor of what its vertices' deviation leaves open.
     pub(super) error: f64,
@@ -53,7 +53,7 @@ impl Side {
         product + self.shift < -self.error * size - self.least
     }
 
-    /// Where a point lies that may be off by a distance whose vector's error is that of a vector `more` longer.
+    /// Where a point lies that may be off by some distance; `more` is that distance as an addition to the point's size.
     fn place(&self, point: DVec3, more: f64) -> Place {
         let (product, size) = (self.normal.dot(point), size(point) + more);
         let (height, margin) = (product + self.shift, self.error * size + self.least);
@@ -79,8 +79,8 @@ pub(super) enum Apart<'t> {
     Touching(&'t Edge),
 }
 
-/// What turns a distance to the size of a vector that errs as much, and more than the sum of a vector's components is
-/// longer than their largest.
+/// Turns a distance into an addition to a vector's size that allows for as large an error; the factor 3 is for the sum of three
+/// components.
 const INVERSE: f64 = 3.0 / ERROR;
 
 impl<'a> Target<'a> {
@@ -108,7 +108,7 @@ impl<'a> Target<'a> {
         edges.clear();
         faces(origin, corners, edges);
         if edges.len() < 3 {
-            // So little is above the horizon that its corners fall together: anything would seem to cover it.
+            // So little is above the horizon that its corners coincide: anything would seem to cover it.
             return None;
         }
         let error = deviation_error(origin, corners, edges)? + deviation::of_facing(origin, to);
@@ -130,7 +130,7 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// What keeps a polygon from hiding anything: a side all of whose points are on the outside, or an edge that it touches.
+    /// What keeps a polygon from hiding anything: a side that it is outside of, or an edge that it touches from outside.
     ///
     /// Neighbours of a target in a mesh touch its sides; exact turns decide that they hide nothing.
     pub(super) fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
@@ -138,7 +138,7 @@ impl<'a> Target<'a> {
         let mut touched = None;
         for (index, side) in self.sides.iter().enumerate() {
             let mut is_outside = true;
-            // Stops at the first vertex inside: this side does not tell them apart.
+            // Stops at the first vertex inside, as this side separates nothing then.
             let is_inside = occluder.points().iter().any(|p| {
                 let place = side.place(*p - origin, more);
                 is_outside &= place == Place::Outside;
@@ -156,7 +156,7 @@ impl<'a> Target<'a> {
         touched.map(Apart::Touching)
     }
 
-    /// Whether a polygon touches the side through an edge from outside, at most.
+    /// Whether a polygon is outside of the side through an edge, touching allowed.
     fn is_touched(&self, edge: &Edge, occluder: &PlanarPolygon) -> bool {
         let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
         occluder.points().iter().all(|point| {

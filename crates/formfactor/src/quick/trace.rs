@@ -11,7 +11,7 @@ use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
 use crate::stats::Stats;
 
-/// Buffers, to be used again.
+/// The buffers of [`sum`], to be used again.
 #[derive(Debug, Default)]
 pub(super) struct TraceBuffers {
     neighbours: Neighbours,
@@ -19,7 +19,7 @@ pub(super) struct TraceBuffers {
     extents: Vec<Slopes>,
 }
 
-/// A bound on the error that is taken as it is, by the angle that the target's boundary spans where that is less than 1:
+/// The error up to which the sum is good enough, by the angle that the target's boundary subtends where that is less than 1:
 /// 2^-40, below 1e-12.
 const FINE: f64 = 8192.0 * ROUNDING;
 
@@ -72,11 +72,12 @@ enum Owner {
 }
 
 impl Owner {
-    /// Whether an edge is no part of the visible boundary that it shares with cone `other`, which runs along it the
-    /// same way or the other way.
+    /// Whether an edge that cone `other` shares is no part of the visible boundary. The other polygon runs along it the same
+    /// way or the other way.
     ///
-    /// With both on one side it bounds their union: the first of the two occluders keeps it, and the target's is
-    /// hidden. With one on either side it is inside their union: both occluders lose it.
+    /// The same way, both polygons are on one side of the edge. Two occluders have it on the boundary of their union: the first of
+    /// the two keeps it. An edge of the target is hidden. The other way, the polygons are on either side: the edge is inside the
+    /// union of two occluders, and both lose it.
     fn loses(self, other: usize, is_same_way: bool) -> bool {
         match self {
             Owner::Target => is_same_way,
@@ -85,7 +86,7 @@ impl Owner {
     }
 }
 
-/// Adds what the cones leave of a part of an edge.
+/// Adds what the cones leave of a part of an edge to the sum.
 fn trace(
     edge: &Edge,
     whole: Interval,

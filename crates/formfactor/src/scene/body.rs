@@ -1,8 +1,8 @@
-//! Closed convex bodies among polygons, of which only the near side needs to be looked at, and nothing of the target's own.
+//! Closed convex bodies among the polygons. Of such a body only the near side can occlude, and of the target's own body nothing.
 //!
-//! A ray that leaves a body through its far side has entered it through its near side: with dA outside, the far side hides
-//! nothing more. Where two faces of the near side meet, their common edge is no part of the visible boundary, so that what
-//! is left of the body is its silhouette.
+//! With dA outside of a body, every ray that leaves it through its far side has entered it through its near side: the far side
+//! hides nothing more. The common edge of two faces of the near side is no part of the visible boundary, so that the body's
+//! silhouette remains.
 use crate::shapes::differential_area::DifferentialArea;
 use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
@@ -17,7 +17,7 @@ pub(crate) struct Bodies {
     faces: Vec<Vec<usize>>,
 }
 
-/// More faces than this are not taken for a body: to check takes the square of their number.
+/// Bodies of more faces are not looked for: the check takes the square of their number.
 const MOST: usize = 256;
 
 impl Bodies {
@@ -37,13 +37,13 @@ impl Bodies {
         bodies
     }
 
-    /// Whether two polygons belong to one body: then neither hides any of the other's front, before which the body is not.
+    /// Whether two polygons belong to one body. Then neither hides any of the other's front: the body lies behind it.
     pub(crate) fn is_one(&self, id: usize, other: usize) -> bool {
         self.of[id].is_some() && self.of[id] == self.of[other]
     }
 
-    /// Whether polygon `id` turns its back to dA and belongs to a body around which dA is outside, and not on it. `last`
-    /// keeps what was found of the last body: faces of one body mostly come in a row.
+    /// Whether polygon `id` turns its back to dA and belongs to a body of which dA is outside, and not on it. `last` keeps the
+    /// answer for the last body, as the faces of a body mostly come in a row.
     pub(crate) fn is_far_side(
         &self,
         polygons: &[PlanarPolygon],
@@ -62,8 +62,8 @@ impl Bodies {
         found.is_outside
     }
 
-    /// Whether dA is before a face. It is not said where that is a matter of rounding: the face may lie in the plane of dA's
-    /// owner, and hides nothing then.
+    /// Whether dA is in front of a face, for certain. Where rounding matters the answer is no: the face may lie in the plane of
+    /// dA's owner, and then it hides nothing.
     fn is_outside(&self, polygons: &[PlanarPolygon], from: &DifferentialArea, body: usize) -> bool {
         if from.owner().is_some_and(|owner| self.of[owner] == Some(body)) {
             return false;
@@ -96,7 +96,7 @@ fn neighbours(polygons: &[PlanarPolygon]) -> Vec<Option<Vec<usize>>> {
     polygons.iter().map(across).collect()
 }
 
-/// The polygons that edges connect with one, none of them known before.
+/// The polygons that are connected with one by edges, if they are not known yet.
 fn connected(first: usize, neighbours: &[Option<Vec<usize>>], is_known: &mut [bool]) -> Vec<usize> {
     let (mut found, mut open) = (Vec::new(), vec![first]);
     while let Some(id) = open.pop() {

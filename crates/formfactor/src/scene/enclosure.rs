@@ -1,4 +1,4 @@
-//! Many polygons that see and hide each other.
+//! Enclosures: many polygons that see and hide each other.
 use super::body::Bodies;
 use super::pool::Pool;
 use super::shaft::Shaft;
@@ -55,7 +55,7 @@ impl Enclosure {
         }
     }
 
-    /// The polygons, by id.
+    /// The polygons, in the order of their ids.
     #[must_use]
     pub fn polygons(&self) -> &[PlanarPolygon] {
         &self.polygons
@@ -102,13 +102,13 @@ impl Enclosure {
         self.past_found(from, id, part).0
     }
 
-    /// The form factor to a part past what the tree finds.
+    /// The form factor to a part of polygon `id`, past the occluders that the tree finds.
     fn past_found(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> (FormFactor, Stats) {
         let found = |reach: &Reach| self.tree.find(|extent| reach.misses_box(extent, self.deviation));
         self.past_any_of(from, id, part, found)
     }
 
-    /// The form factor to a part of polygon `id` past those of `candidates` that can hide it.
+    /// The form factor to a part of polygon `id`, past those of `candidates` that can hide it.
     fn past_any_of<I>(
         &self,
         from: &DifferentialArea,
@@ -173,7 +173,7 @@ impl Enclosure {
         found
     }
 
-    /// The form factor to polygon `id` past those that can stand in between.
+    /// The form factor to polygon `id`, past those of the polygons `near` that can hide it.
     pub(crate) fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
         self.past_any_of(from, id, &self.polygons[id], |_| near.iter().copied()).0
     }
@@ -186,8 +186,8 @@ impl Enclosure {
         found: impl IntoIterator<Item = usize>,
     ) -> impl Iterator<Item = &PlanarPolygon> {
         let mut last = None;
-        // Not what is edge-on, nor a face of the target's own body, which lies behind the target, nor the far side of another
-        // one, which hides nothing that its near side does not.
+        // Left out are polygons seen edge-on, faces of the target's own body, which is behind the target, and the far sides of
+        // other bodies, which hide nothing that the near sides do not.
         let can_hide = move |i: &usize| {
             *i != id
                 && !self.bodies.is_one(id, *i)

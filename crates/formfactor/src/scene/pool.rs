@@ -18,7 +18,7 @@ impl Pool {
 
     #[allow(clippy::vec_box, reason = "as it is kept")]
     fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Box<Buffers>>> {
-        // A panic elsewhere leaves whole buffers behind.
+        // A panic in `work` loses the buffers it had. Those in here are whole.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

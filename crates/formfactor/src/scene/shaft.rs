@@ -1,4 +1,4 @@
-//! What can stand between two sets of points: the polygons that meet their convex hull.
+//! Shafts: the polygons that can stand between two sets of points meet the convex hull of both.
 use crate::numeric::predicates::turn;
 use crate::shapes::extent::Extent;
 use crate::shapes::polygon::PlanarPolygon;
@@ -13,12 +13,12 @@ const MOST: usize = 4096;
 #[derive(Clone, Debug)]
 pub(crate) struct Shaft {
     extent: Extent,
-    /// Three points of each plane, and on which side of it the hull is not.
+    /// Three points of each plane, and the side of it on which the hull is not.
     planes: Vec<([DVec3; 3], Ordering)>,
 }
 
 impl Shaft {
-    /// Between points, of which all pairs count as edges when they are few, and a polygon.
+    /// The shaft between points and a polygon. When the points are few, all pairs of them count as edges.
     pub(crate) fn between(points: &[DVec3], to: &PlanarPolygon) -> Self {
         let all: Vec<DVec3> = points.iter().chain(to.points()).copied().collect();
         let extent = Extent::around(&all);
@@ -38,7 +38,7 @@ impl Shaft {
             || extent.high.cmplt(self.extent.low - deviation).any()
     }
 
-    /// Whether a polygon touches the hull from outside, at most.
+    /// Whether a polygon is outside of the hull, touching allowed.
     pub(crate) fn misses(&self, polygon: &PlanarPolygon) -> bool {
         let is_out = |([a, b, c], outer): &([DVec3; 3], Ordering)| {
             polygon.points().iter().all(|p| turn(*a, *b, *c, *p) != outer.reverse())
@@ -47,7 +47,7 @@ impl Shaft {
     }
 }
 
-/// Planes through an edge and one of the points that have all on one side.
+/// The planes through an edge and one of the points that have all points on one side.
 fn bounding<'a>(
     (a, b): (DVec3, DVec3),
     points: &'a [DVec3],

@@ -1,8 +1,8 @@
-//! Boxes around polygons, in a binary tree: what lies outside of a pyramid is skipped branch by branch.
+//! A binary tree of boxes around polygons: what lies outside of a target's half-spaces is skipped branch by branch.
 use crate::shapes::extent::Extent;
 use crate::shapes::polygon::PlanarPolygon;
 
-/// The boxes of all polygons. Node i's branches are 2 i + 1 and 2 i + 2; each takes half of its polygons.
+/// The boxes of all polygons. The children of node i are 2 i + 1 and 2 i + 2; each has half of its polygons.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tree {
     extents: Vec<Extent>,
@@ -10,9 +10,9 @@ pub(crate) struct Tree {
     ids: Vec<usize>,
 }
 
-/// A node with so few polygons has no branches.
+/// A node with so few polygons has no children.
 const LEAF: usize = 4;
-/// To look at so few polygons costs less than to ask boxes first: a sixth of the time in rooms of six.
+/// So few polygons are all returned: testing boxes first would cost more (rooms of six take a sixth less time).
 const FEW: usize = 8;
 
 impl Tree {
@@ -37,7 +37,7 @@ impl Tree {
         tree
     }
 
-    /// The polygons in leaves of which no box around them is `outside`.
+    /// The polygons of all leaves that are not in a box that is `outside`.
     pub(crate) fn find(&self, outside: impl Fn(&Extent) -> bool) -> Vec<usize> {
         if self.ids.len() <= FEW {
             return self.ids.clone();

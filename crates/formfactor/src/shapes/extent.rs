@@ -11,18 +11,18 @@ pub(crate) struct Extent {
 impl Extent {
     pub(crate) const NOTHING: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
 
-    /// Around points.
+    /// The smallest box around points.
     pub(crate) fn around(points: &[DVec3]) -> Self {
         points.iter().fold(Self::NOTHING, |all, p| all.with(Self { low: *p, high: *p }))
     }
 
-    /// Whether no point of two boxes is the same.
+    /// Whether two boxes have no point in common.
     pub(crate) fn misses(&self, other: &Self) -> bool {
         self.low.cmpgt(other.high).any() || other.low.cmpgt(self.high).any()
     }
 
-    /// Whether a ray passes by, farther off than what is in the box can be put by rounding: some roundings of the
-    /// coordinates, of which 1e-12 is far more.
+    /// Whether a ray misses the box by more than rounding explains: a margin of 1e-12 of the coordinates, far more than the
+    /// roundings of this test.
     pub(crate) fn misses_ray(&self, origin: DVec3, direction: DVec3) -> bool {
         let margin = 1e-12 * (self.low.abs() + self.high.abs() + origin.abs());
         let (low, high) = (self.low - margin - origin, self.high + margin - origin);

@@ -1,4 +1,4 @@
-//! Questions about loops in the plane.
+//! Loops in the plane: area, convexity, and their region for polygon Booleans.
 use crate::numeric::predicates::turn_in_plane;
 use glam::DVec2;
 use polycsg::{Csg, FillRule, Scratch};
@@ -14,10 +14,10 @@ pub(crate) fn leaf(loops: &[Vec<DVec2>]) -> Csg<'_> {
     Csg::from_rings(loops, FillRule::EvenOdd).expect("coordinates are kept within finite bounds")
 }
 
-/// Whether a counter-clockwise loop is convex and has an area; decided exactly, and never said of a loop that is not.
+/// Whether a loop is counter-clockwise, convex, and has an area: decided exactly.
 ///
-/// Every corner turns left or goes straight on, one at least turns, and the direction passes from leftward to rightward once.
-/// Of points that are repeated in a row one counts: between two equal ones no turn can be seen.
+/// Every corner turns left or goes straight on, at least one turns, and the direction changes from leftward to rightward once:
+/// a loop that winds around twice would do so twice. Points repeated in a row count once, as equal points have no turn.
 pub(crate) fn is_convex(points: &[DVec2]) -> bool {
     let before = points.iter().cycle().skip(points.len().saturating_sub(1));
     let points: Vec<DVec2> = points.iter().zip(before).filter(|(p, q)| p != q).map(|(p, _)| *p).collect();

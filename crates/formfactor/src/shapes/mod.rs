@@ -1,4 +1,4 @@
-//! What stands in space: polygons, the differential area that sees them, boxes around them.
+//! Polygons, the differential area that sees them, and boxes around them.
 pub(crate) mod differential_area;
 pub(crate) mod extent;
 pub(crate) mod loops;

@@ -39,9 +39,9 @@ pub struct PlanarPolygon {
     normal: DVec3,
     /// The two kept axes, in the order that keeps loop 0 counter-clockwise, and the dropped one.
     axes: [usize; 3],
-    /// How much the dropped coordinate falls per step in a kept one.
+    /// By how much the dropped coordinate falls per unit of each kept one.
     slopes: [DoubleDouble; 2],
-    /// How far a vertex may lie from where it stands, after both are put on the plane.
+    /// How far a vertex as given may lie from where it stands on the plane: zero for triangles.
     deviation: f64,
     convex: bool,
     /// The points in the order of their kept coordinates.
@@ -123,7 +123,7 @@ impl PlanarPolygon {
         self.deviation
     }
 
-    /// One convex loop, counter-clockwise (decided exactly, in the plane's two kept coordinates).
+    /// Whether it is one convex loop; decided exactly, in the two kept coordinates.
     pub(crate) fn is_convex(&self) -> bool {
         self.convex
     }
@@ -150,7 +150,7 @@ impl PlanarPolygon {
         self.loops().map(|l| l.iter().map(|p| self.flat(*p)).collect()).collect()
     }
 
-    /// A bound on what [`Self::lift`] adds per unit of distance from the plane's first corner.
+    /// A bound on the error of [`Self::lift`] per unit of distance from the plane's first corner.
     pub(crate) fn lift_error(&self) -> f64 {
         self.plane.normal_error() / self.plane.normal.0[self.axes[2]].hi.abs()
     }
