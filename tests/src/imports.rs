@@ -13,7 +13,7 @@ type Module = Vec<String>;
 
 /// What is wrong with the imports below `src`: paths that lead up or to `lib.rs`, files that the order does not name, and
 /// entries that name nothing.
-pub fn complaints(src: &Path, order: &[&str]) -> Vec<String> {
+pub(crate) fn complaints(src: &Path, order: &[&str]) -> Vec<String> {
     let exists = |entry: &&&str| src.join(entry).is_dir() || src.join(entry).with_extension("rs").is_file();
     let missing = order.iter().filter(|entry| !exists(entry)).map(|entry| format!("there is no {entry}"));
     let files = sources(src);
@@ -26,7 +26,7 @@ pub fn complaints(src: &Path, order: &[&str]) -> Vec<String> {
 }
 
 /// What is wrong with the paths in the text of a module.
-pub fn upward(text: &str, module: &[String], order: &[&str]) -> Vec<String> {
+pub(crate) fn upward(text: &str, module: &[String], order: &[&str]) -> Vec<String> {
     let rank = |path: &[String]| {
         let fits = |entry: &str| entry.split('/').zip(path).filter(|(a, b)| a == b).count();
         let whole = (0..order.len()).filter(|&i| fits(order[i]) == order[i].split('/').count());
@@ -43,7 +43,7 @@ pub fn upward(text: &str, module: &[String], order: &[&str]) -> Vec<String> {
 }
 
 /// All paths that start with `crate` or `super`, in `use` and elsewhere, from the root. A module `tests` inside a file ends it.
-pub fn paths(text: &str, module: &[String]) -> Vec<Module> {
+pub(crate) fn paths(text: &str, module: &[String]) -> Vec<Module> {
     let code: Vec<&str> =
         text.lines().map(|line| line.split_once("//").map_or(line, |(code, _)| code)).collect();
     let code = code.join("\n");
