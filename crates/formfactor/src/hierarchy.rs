@@ -13,7 +13,7 @@ use crate::stats::Stats;
 use glam::DVec2;
 use polycsg::Region;
 
-/// The form factor by a second way, to check [`form_factor`](crate::form_factor): through the rings of the target's hidden
+/// The form factor by a second way, to check [`form_factor`](fn@crate::form_factor): through the rings of the target's hidden
 /// part and their nesting [Barreto 2008, (3.6)].
 ///
 /// F = F(target) - sum of F(outer rings) + sum of F(holes), over the polygons of the target's intersection with the union

@@ -26,8 +26,8 @@
 //!
 //! | you have | you want | call |
 //! | --- | --- | --- |
-//! | one target, some occluders | the form factor from a point | [`form_factor`], [`unoccluded`] |
-//! | one target, some occluders | the part of the target that the point sees | [`visible_part`] |
+//! | one target, some occluders | the form factor from a point | [`form_factor`](fn@form_factor), [`unoccluded`] |
+//! | one target, some occluders | the part of the target that the point sees | [`visible_part`](fn@visible_part) |
 //! | many polygons that are targets and occluders | form factors from a point to one, or to all | [`Enclosure::form_factor`], [`Enclosure::row`] |
 //! | many polygons | form factors from many points to one of them | [`Enclosure::form_factors`] |
 //! | many polygons | form factors from polygon to polygon | [`Enclosure::area_form_factor`], [`Enclosure::area_matrix`] |

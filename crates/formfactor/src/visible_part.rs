@@ -41,7 +41,7 @@ impl VisiblePart {
 
 /// The part of the target's front that the differential area sees, as a valid region with holes and islands.
 ///
-/// Arguments and definitions are those of [`form_factor`](crate::form_factor). New vertices are crossings rounded to doubles.
+/// Arguments and definitions are those of [`form_factor`](fn@crate::form_factor). New vertices are crossings rounded to doubles.
 ///
 /// ```
 /// use formfactor::{DVec3, DifferentialArea, PlanarPolygon, visible_part};
