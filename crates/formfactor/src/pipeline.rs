@@ -32,7 +32,7 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
 
 /// The form factor from a differential area to the front of a polygon with nothing in between.
 ///
-/// The time is linear in the number of vertices.
+/// The time is linear in the number of vertices of a convex polygon. Any other takes one polygon Boolean.
 ///
 /// ```
 /// use formfactor::{DVec3, DifferentialArea, PlanarPolygon, unoccluded};
