@@ -81,7 +81,7 @@ pub enum Error {
     },
     /// Two patches lie on each other, facing the same way: which one light meets is not said.
     #[error(
-        "patches {first} and {second} overlap in one plane, {share:.3} of the smaller one; let `inspect --mend` cut one, \
+        "patches {first} and {second} overlap in one plane, {share:.3} of the smaller one; let `inspect --repair` cut one, \
          or remove it"
     )]
     Overlap {
@@ -117,13 +117,5 @@ pub enum Error {
         patch: String,
         /// What the panic said.
         reason: String,
-    },
-    /// A patch of this name does not exist.
-    #[error("no patch is named {name}; the scene has {known}")]
-    NoSuchPatch {
-        /// The name asked for.
-        name: String,
-        /// Names that exist, shortened.
-        known: String,
     },
 }

@@ -1,6 +1,7 @@
 //! Exposure: from radiosity, which has no upper end, to what a screen can show.
+use crate::scene::Scene;
+use crate::solve::solution::Solution;
 use crate::spectrum::Colours;
-use crate::{Scene, Solution};
 
 /// The intensity that the average surface gets: mid grey.
 const MID_GREY: f64 = 0.18;
@@ -21,7 +22,7 @@ impl Exposure {
     /// K such that the average radiosity of what does not emit becomes mid grey, 0.18 of full intensity.
     ///
     /// The average is geometric, over the lit elements of patches without emission, weighted by area; of the bands it
-    /// takes the luminance (Rec. 709). Where nothing but lamps is lit, the lamps count; where nothing is lit, K is 1.
+    /// takes the luminance (Rec. 709). Where nothing but emitters is lit, the emitters count; where nothing is lit, K is 1.
     #[must_use]
     pub fn automatic(scene: &Scene, solution: &Solution) -> Self {
         let mesh = &solution.mesh;
@@ -31,9 +32,10 @@ impl Exposure {
         }))
     }
 
-    /// The same from colours with the area that each covers and whether it is a lamp's.
-    pub(crate) fn of(lit: impl Iterator<Item = ([f64; 3], f64, bool)> + Clone) -> Self {
-        let others = lit.clone().filter(|(_, _, lamp)| !lamp);
+    /// The same K from colours, each with the area that it covers and whether an emitter gives it.
+    #[must_use]
+    pub fn of(lit: impl Iterator<Item = ([f64; 3], f64, bool)> + Clone) -> Self {
+        let others = lit.clone().filter(|(_, _, emitter)| !emitter);
         let mean = mean_luminance(others).or_else(|| mean_luminance(lit));
         let k = mean.map(|luminance| -(-MID_GREY).ln_1p() / luminance);
         k.and_then(Self::new).unwrap_or(Self { k: 1.0 })
@@ -52,10 +54,19 @@ impl Exposure {
     }
 }
 
-/// Red, green and blue out of values that stand band by band: the first three bands; of fewer, the last is repeated.
+/// Red, green and blue out of values that stand band by band.
+///
+/// `wavelengths` are those of the bands, in nm: what an observer sees of them, as linear sRGB; parts are negative where no
+/// screen can show the colour. Without them the first three bands are red, green and blue; of fewer, the last is repeated.
+///
+/// ```
+/// use radiosity::expose::rgb;
+///
+/// assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 2, &[]), [[1.0, 2.0, 2.0], [3.0, 4.0, 4.0]]);
+/// ```
 #[must_use]
-pub fn rgb(values: &[f64], bands: usize) -> Vec<[f64; 3]> {
-    Colours::of(bands, &[]).rows(values)
+pub fn rgb(values: &[f64], bands: usize, wavelengths: &[f64]) -> Vec<[f64; 3]> {
+    Colours::of(bands, wavelengths).rows(values)
 }
 
 /// The sRGB transfer function: what an 8-bit channel stores for a linear intensity from 0 to 1 (IEC 61966-2-1).
@@ -97,9 +108,9 @@ mod tests {
 
     #[test]
     fn fewer_bands_than_three_repeat_the_last() {
-        assert_eq!(rgb(&[1.0, 2.0], 1), [[1.0; 3], [2.0; 3]]);
-        assert_eq!(rgb(&[1.0, 2.0], 2), [[1.0, 2.0, 2.0]]);
-        assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 4), [[1.0, 2.0, 3.0]]);
+        assert_eq!(rgb(&[1.0, 2.0], 1, &[]), [[1.0; 3], [2.0; 3]]);
+        assert_eq!(rgb(&[1.0, 2.0], 2, &[]), [[1.0, 2.0, 2.0]]);
+        assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 4, &[]), [[1.0, 2.0, 3.0]]);
     }
 
     #[test]

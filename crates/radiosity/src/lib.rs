@@ -23,11 +23,10 @@
 //! | what | where |
 //! | --- | --- |
 //! | scene files in, results out | [`io`]: COLLADA, glTF, View3D |
-//! | what is wrong with a scene, and its mend | [`inspect`], [`mend()`] |
+//! | what is wrong with a scene, and its repair | [`inspect`], [`repair()`] |
 //! | the scenes of the literature | [`scenes`] |
 //! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
 //! | how far two solutions are from each other | [`compare`] |
-//! | error against time, for every method and scene | [`report`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
 pub use formfactor;
 pub use glam;
@@ -36,31 +35,37 @@ pub mod compare;
 mod error;
 pub mod expose;
 mod extent;
-mod finding;
-mod groups;
+mod image_file;
 pub mod inspect;
-mod interpolate;
 pub mod io;
-mod mend;
 mod mesh;
 pub mod picture;
 mod plane;
 mod record;
-pub mod report;
+mod repair;
 mod scene;
 pub mod scenes;
 mod solve;
 mod spectrum;
 mod table;
-
+mod union_find;
 pub mod viewer;
 
 pub use error::Error;
-pub use mend::mend;
-pub use mesh::{Element, Mesh};
+pub use mesh::element::{Element, Mesh};
 pub use record::{PatchRecord, Record};
-pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
-pub use solve::{
-    Ledger, Method, Norm, Options, Progress, Quality, Solution, State, StateError, solve, solve_from,
-};
-pub use table::{element_table, patch_table, table};
+pub use repair::repair;
+pub use scene::Scene;
+pub use scene::asset::Asset;
+pub use scene::camera::Camera;
+pub use scene::patch::{Origin, Patch};
+pub use scene::texture::{Image, Texture};
+pub use solve::ledger::Ledger;
+pub use solve::norm::Norm;
+pub use solve::options::{Method, Options};
+pub use solve::progress::Progress;
+pub use solve::quality::Quality;
+pub use solve::solution::Solution;
+pub use solve::state::{State, StateError};
+pub use solve::{solve, solve_from};
+pub use table::{element_table, patch_table};

@@ -1,9 +1,17 @@
 //! A solution as it is written: all that pictures, pages and tables need, apart from the scene's own file.
 use crate::expose::Exposure;
-use crate::io::fetch;
-use crate::picture::Paint;
+use crate::image_file::fetch;
+use crate::mesh::element::{Element, Mesh};
+use crate::picture::framing::framing;
+use crate::picture::paint;
+use crate::picture::painting::Painting;
+use crate::scene::Scene;
+use crate::scene::asset::Asset;
+use crate::scene::camera::Camera;
+use crate::scene::patch::Patch;
+use crate::scene::texture::Image;
+use crate::solve::solution::Solution;
 use crate::spectrum::Colours;
-use crate::{Asset, Camera, Element, Image, Mesh, Patch, Scene, Solution};
 use base64::Engine;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -199,8 +207,8 @@ impl Record {
                 light[corner] = under[corner];
             }
         }
-        let paint = Paint { mesh: &self.mesh(), light: &light, places: &self.places, images: &images };
-        crate::picture::paint(&paint, camera, exposure, width)
+        let painting = Painting { mesh: &self.mesh(), light: &light, places: &self.places, images: &images };
+        paint(&painting, camera, exposure, width)
     }
 
     /// What a picture's colours are multiplied with at every vertex: the irradiance times the patch's tint.
@@ -223,8 +231,8 @@ impl Record {
     pub fn exposure(&self) -> Exposure {
         let (mesh, colours) = (self.mesh(), self.shown().rows(&self.radiosity));
         let lit = colours.iter().enumerate().map(|(index, colour)| {
-            let lamp = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
-            (*colour, mesh.area(index), lamp)
+            let emitter = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
+            (*colour, mesh.area(index), emitter)
         });
         Exposure::of(lit)
     }
@@ -241,7 +249,7 @@ impl Record {
     fn framing(&self) -> Camera {
         let boxes = self.vertices.iter().map(|point| [*point, *point]);
         let extent = boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-        crate::picture::framing(extent.unwrap_or([DVec3::ZERO, DVec3::ONE]), self.asset.up)
+        framing(extent.unwrap_or([DVec3::ZERO, DVec3::ONE]), self.asset.up)
     }
 }
 

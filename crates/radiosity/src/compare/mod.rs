@@ -6,10 +6,10 @@
 //! norms      the difference of the light on those areas, in three norms
 //! ```
 //! A solution is taken as what its elements carry: one value each. What is compared is reflected light, radiosity less
-//! own emission, so that a lamp's brightness does not hide what is wrong with its light.
+//! own emission, so that an emitter's brightness does not hide what is wrong with its light.
 mod overlap;
 
-use crate::Record;
+use crate::record::Record;
 use glam::DVec3;
 use overlap::Piece;
 use serde::Serialize;

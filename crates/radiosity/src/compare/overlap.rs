@@ -1,5 +1,5 @@
 //! Two meshes of one scene, laid over each other.
-use crate::Record;
+use crate::record::Record;
 use glam::{DVec2, DVec3};
 
 /// Where an element of one solution covers one of the other.

@@ -1,5 +1,6 @@
 //! What the form factors will cost.
-use crate::{Options, Scene};
+use crate::scene::Scene;
+use crate::solve::options::Options;
 use serde::Serialize;
 use std::time::Duration;
 

@@ -14,16 +14,16 @@ mod cost;
 mod junction;
 mod openness;
 mod orientation;
-mod overlap;
+pub(crate) mod overlap;
 mod surface;
 
-pub use crate::finding::{Finding, Kind};
+pub use crate::scene::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
 
-pub(crate) use overlap::overlaps;
-
-use crate::{Asset, Scene};
+use crate::scene::Scene;
+use crate::scene::asset::Asset;
+use crate::scene::patch::Patch;
 use serde::Serialize;
 
 /// What a scene is.
@@ -46,7 +46,7 @@ pub struct Inspection {
     /// The smallest and the largest coordinates.
     pub extent: [[f64; 3]; 2],
     /// The patches that emit.
-    pub lamps: Vec<Lamp>,
+    pub emitters: Vec<Emitter>,
     /// Whether no light can leave: no opening is wider than rounding.
     pub closed: bool,
     /// The widest opening.
@@ -59,7 +59,7 @@ pub struct Inspection {
 
 /// A patch that emits.
 #[derive(Clone, Debug, Serialize)]
-pub struct Lamp {
+pub struct Emitter {
     /// The patch's name.
     pub name: String,
     /// Emitted power per band, W in a file in metres: π L A.
@@ -87,7 +87,7 @@ pub fn inspect(scene: &Scene) -> Inspection {
         unit,
         up: up.to_array(),
         extent: scene.extent().map(|corner| corner.to_array()),
-        lamps: lamps(scene),
+        emitters: emitters(scene),
         closed: opening.as_ref().is_some_and(Opening::is_none),
         opening,
         findings: findings.into_iter().flatten().collect(),
@@ -95,11 +95,11 @@ pub fn inspect(scene: &Scene) -> Inspection {
     }
 }
 
-fn lamps(scene: &Scene) -> Vec<Lamp> {
-    let power = |patch: &crate::Patch| {
+fn emitters(scene: &Scene) -> Vec<Emitter> {
+    let power = |patch: &Patch| {
         let area = patch.polygon.area();
         patch.emission.iter().map(|radiance| std::f64::consts::PI * radiance * area).collect()
     };
     let lit = scene.patches.iter().filter(|patch| patch.emits());
-    lit.map(|patch| Lamp { name: patch.name.clone(), power: power(patch) }).collect()
+    lit.map(|patch| Emitter { name: patch.name.clone(), power: power(patch) }).collect()
 }

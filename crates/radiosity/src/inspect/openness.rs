@@ -1,7 +1,7 @@
 //! How much of the view from the patches leaves the scene, and what a row of form factors costs.
-use super::Cost;
-use crate::Scene;
-use crate::solve::Surfaces;
+use super::cost::Cost;
+use crate::scene::Scene;
+use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -33,7 +33,7 @@ impl Opening {
 
 /// The widest opening seen from the middle of up to 256 patches, and the cost measured on the way.
 pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
-    let Surfaces { polygons, of_patch } = Surfaces::join(scene);
+    let Occluders { polygons, of_patch } = Occluders::join(scene);
     let enclosure = Enclosure::new(polygons);
     let factor = |from: &DifferentialArea, to: usize| {
         enclosure.form_factor_to_part(from, of_patch[to], &scene.patches[to].polygon).value

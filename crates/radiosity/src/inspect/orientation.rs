@@ -3,8 +3,9 @@
 //! Two patches that share an edge and belong to one surface run along it in opposite directions. Where they run the same
 //! way, one of them is flipped: of a connected surface the side with the smaller area. Of patches with the same edges only
 //! the first counts: a duplicate runs along all of them the same way, and is not flipped.
-use super::{Finding, Kind};
-use crate::{Patch, Scene};
+use crate::scene::Scene;
+use crate::scene::finding::{Finding, Kind};
+use crate::scene::patch::Patch;
 use std::collections::{HashMap, HashSet};
 
 type Edge = [[u64; 3]; 2];
@@ -88,6 +89,6 @@ fn finding(name: &str) -> Finding {
         kind: Kind::Flipped,
         patches: vec![name.into()],
         what: "it faces the other way than the patches around it".into(),
-        mend: "reverse the order of its vertices; its front gives and takes the light".into(),
+        repair: "reverse the order of its vertices; its front gives and takes the light".into(),
     }
 }

@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Why a file was not read or written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum Error {
+pub enum FileError {
     /// The file could not be read.
     #[error("{}: cannot be read: {source}; check its name and permissions", path.display())]
     Read {
@@ -94,7 +94,7 @@ pub enum Error {
     },
 }
 
-/// What is wrong with an element of a scene file, and how to mend it.
+/// What is wrong with an element of a scene file, and how to repair it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {

@@ -1,5 +1,5 @@
 //! Whole files or none.
-use super::Error;
+use super::error::FileError;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -9,15 +9,15 @@ use std::path::{Path, PathBuf};
 /// pipe) is written to directly.
 ///
 /// # Errors
-/// [`Error::Write`]; what stood at `path` before still stands.
-pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
+/// [`FileError::Write`]; what stood at `path` before still stands.
+pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
     let path = path.as_ref();
     let written = match path.metadata() {
         Ok(found) if !found.is_file() => std::fs::write(path, bytes),
         Ok(_) => path.canonicalize().and_then(|place| replace(&place, bytes)),
         Err(_) => replace(path, bytes),
     };
-    written.map_err(|source| Error::Write { path: path.into(), source })
+    written.map_err(|source| FileError::Write { path: path.into(), source })
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
@@ -69,8 +69,8 @@ mod tests {
     fn a_missing_folder_and_a_folder_as_target_are_typed_errors() {
         let folder = tempfile::tempdir().unwrap();
         let missing = save(folder.path().join("none/out.bin"), b"x").unwrap_err();
-        assert!(matches!(missing, Error::Write { .. }), "{missing}");
-        assert!(matches!(save(folder.path(), b"x"), Err(Error::Write { .. })));
+        assert!(matches!(missing, FileError::Write { .. }), "{missing}");
+        assert!(matches!(save(folder.path(), b"x"), Err(FileError::Write { .. })));
     }
 
     #[cfg(unix)]

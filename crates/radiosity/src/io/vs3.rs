@@ -2,10 +2,11 @@
 //!
 //! A surface is a one-sided patch that reflects 1 − its emittance and gives no light of its own. A surface with a base
 //! surface is cut out of it, and so is a null surface, which is nothing but a hole; an obstruction only blocks.
-use super::{Error, Fault};
-use crate::inspect::Finding;
+use super::error::{Fault, FileError};
 use crate::plane::Plane;
-use crate::{Origin, Patch, Scene};
+use crate::scene::Scene;
+use crate::scene::finding::Finding;
+use crate::scene::patch::{Origin, Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use polycsg::{Csg, FillRule, Region};
@@ -23,10 +24,10 @@ impl Vs3 {
     /// Reads a file's text; bytes that are not UTF-8, as in old comments, are replaced.
     ///
     /// # Errors
-    /// [`Error::Read`] when the system does not give it.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Read`] when the system does not give it.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         Ok(Self::from_text(path.display().to_string(), String::from_utf8_lossy(&bytes)))
     }
 
@@ -38,8 +39,8 @@ impl Vs3 {
     /// The scene: one band; z up, since the format says nothing.
     ///
     /// # Errors
-    /// [`Error::Line`], with the line.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError::Line`], with the line.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         let lines = lines(&self.text);
         let (vertices, surfaces, warnings) =
             lines.and_then(parse).map_err(|(line, fault)| self.fault(line, fault))?;
@@ -65,8 +66,8 @@ impl Vs3 {
         Ok(scene)
     }
 
-    fn fault(&self, line: usize, fault: Fault) -> Error {
-        Error::Line { file: self.name.clone(), line, fault }
+    fn fault(&self, line: usize, fault: Fault) -> FileError {
+        FileError::Line { file: self.name.clone(), line, fault }
     }
 }
 

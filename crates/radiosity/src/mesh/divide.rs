@@ -1,6 +1,7 @@
 //! Points over a patch: its boundary and the contact lines at a spacing, and a lattice inside.
+use super::frame::Frame;
 use super::lattice::{Lattice, parts};
-use super::{Refusal, frame::Frame};
+use super::refusal::MeshRefusal;
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};
@@ -68,7 +69,7 @@ pub(super) fn divide(
     polygon: &PlanarPolygon,
     division: &Division<'_>,
     frame: &Frame,
-) -> Result<Points, Refusal> {
+) -> Result<Points, MeshRefusal> {
     let ground = Ground::new(polygon, division, frame)?;
     let mut points = Points { lattice: ground.lattice, ..Points::default() };
     points.divide_boundary(&ground);
@@ -164,12 +165,12 @@ impl<'g> Ground<'g> {
         polygon: &PlanarPolygon,
         division: &Division<'g>,
         frame: &'g Frame,
-    ) -> Result<Ground<'g>, Refusal> {
+    ) -> Result<Ground<'g>, MeshRefusal> {
         let flatten = |points: &[DVec3]| points.iter().map(|&p| frame.flatten(p)).collect::<Vec<_>>();
         let region = Region::from_rings(polygon.loops().map(flatten), FillRule::EvenOdd)
-            .map_err(|error| Refusal(error.to_string()))?;
+            .map_err(|error| MeshRefusal(error.to_string()))?;
         if region.is_empty() {
-            return Err(Refusal("its area is zero".to_owned()));
+            return Err(MeshRefusal("its area is zero".to_owned()));
         }
         let corners = polygon.loops().flatten().map(|&place| (key(frame.flatten(place)), place)).collect();
         let contacts = division.contacts.iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();

@@ -1,5 +1,5 @@
 //! A camera for scenes that have none.
-use crate::Camera;
+use crate::scene::camera::Camera;
 use glam::DVec3;
 
 /// A camera that sees the whole box between two corners, from the front, somewhat from the right and from above.

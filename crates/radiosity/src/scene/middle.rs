@@ -1,5 +1,5 @@
 //! A point inside a patch.
-use crate::Patch;
+use super::patch::Patch;
 use crate::plane::Plane;
 use formfactor::DifferentialArea;
 use glam::{DVec2, DVec3};

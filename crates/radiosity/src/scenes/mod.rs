@@ -12,8 +12,10 @@ mod gomes;
 mod rooms;
 mod shapes;
 
-use crate::Scene;
-use crate::io::collada::{Collada, Model, text};
+use crate::io::collada::Collada;
+use crate::io::collada::compose::text;
+use crate::io::collada::model::Model;
+use crate::scene::Scene;
 
 type Builder = fn() -> Model;
 

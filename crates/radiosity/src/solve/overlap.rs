@@ -1,5 +1,8 @@
 //! Refuses patches that lie on each other: form factors to both would count the same view twice.
-use crate::{Error, Patch, Scene, extent::Extent};
+use crate::error::Error;
+use crate::extent::Extent;
+use crate::scene::Scene;
+use crate::scene::patch::Patch;
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};

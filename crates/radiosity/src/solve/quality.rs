@@ -1,5 +1,6 @@
 //! How good is good enough.
-use super::{Norm, Options};
+use super::norm::Norm;
+use super::options::Options;
 
 /// How much work the light is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,7 +11,7 @@ pub enum Quality {
     #[default]
     Normal,
     /// For figures and close views: 20 000 elements after two looks at where the light changes, edges of the shadows of
-    /// the four strongest lamps along edges of elements, exact direct light at every vertex, a bound of 0.1 %.
+    /// the four strongest emitters along edges of elements, exact direct light at every vertex, a bound of 0.1 %.
     High,
 }
 

@@ -1,6 +1,7 @@
 //! Who shoots: pieces of patches, and what each has sent so far.
 use super::light::Light;
-use crate::mesh::{Node, Subdivision};
+use crate::mesh::subdivide::Subdivision;
+use crate::mesh::tree::Node;
 
 /// A piece, and what it has sent per band.
 #[derive(Clone, Debug)]

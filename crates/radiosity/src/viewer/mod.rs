@@ -1,6 +1,6 @@
 //! A page that shows a solution: one file, plain WebGL 2, no network.
-use crate::Record;
 use crate::expose::Exposure;
+use crate::record::Record;
 
 /// The page without its light.
 const PAGE: &str = include_str!("page.html");

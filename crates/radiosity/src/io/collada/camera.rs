@@ -1,9 +1,9 @@
 //! Perspective cameras.
-use super::super::{Error, Fault};
 use super::file::{File, Node, child, descend};
 use super::walk::{Sight, name_of};
-use crate::Camera;
-use crate::inspect::Finding;
+use crate::io::error::{Fault, FileError};
+use crate::scene::camera::Camera;
+use crate::scene::finding::Finding;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ pub(super) fn cameras<'a>(
     file: &File<'a>,
     sights: &[Sight<'a>],
     warnings: &mut Vec<Finding>,
-) -> Result<Vec<Camera>, Error> {
+) -> Result<Vec<Camera>, FileError> {
     let mut all = Vec::new();
     for sight in sights {
         match descend(sight.camera, &["optics", "technique_common", "perspective"]) {
@@ -28,7 +28,7 @@ pub(super) fn cameras<'a>(
 }
 
 /// A camera looks along its node's −z, with +y up.
-fn camera<'a>(file: &File<'a>, sight: &Sight<'a>, perspective: Node<'a>) -> Result<Camera, Error> {
+fn camera<'a>(file: &File<'a>, sight: &Sight<'a>, perspective: Node<'a>) -> Result<Camera, FileError> {
     let (vertical_fov, aspect) = lens(file, perspective)?;
     let world = sight.visit.world;
     let turned = |axis| world.transform_vector3(axis).try_normalize();
@@ -41,7 +41,7 @@ fn camera<'a>(file: &File<'a>, sight: &Sight<'a>, perspective: Node<'a>) -> Resu
 
 /// The vertical field of view in radians, and width over height. Of `xfov`, `yfov` and `aspect_ratio` any two give the
 /// third; one alone is completed by 4:3.
-fn lens<'a>(file: &File<'a>, perspective: Node<'a>) -> Result<(f64, f64), Error> {
+fn lens<'a>(file: &File<'a>, perspective: Node<'a>) -> Result<(f64, f64), FileError> {
     let horizontal = half_tangent(file, perspective, "xfov")?;
     let vertical = half_tangent(file, perspective, "yfov")?;
     let ratio = ratio(file, perspective)?;
@@ -59,7 +59,7 @@ fn lens<'a>(file: &File<'a>, perspective: Node<'a>) -> Result<(f64, f64), Error>
 }
 
 /// The tangent of half the angle that a child states in degrees.
-fn half_tangent<'a>(file: &File<'a>, lens: Node<'a>, name: &'static str) -> Result<Option<f64>, Error> {
+fn half_tangent<'a>(file: &File<'a>, lens: Node<'a>, name: &'static str) -> Result<Option<f64>, FileError> {
     let Some(element) = child(lens, name) else { return Ok(None) };
     let [degrees] = file.array(element)?;
     let tangent = (degrees.to_radians() / 2.0).tan();
@@ -68,7 +68,7 @@ fn half_tangent<'a>(file: &File<'a>, lens: Node<'a>, name: &'static str) -> Resu
     if is_open { Ok(Some(tangent)) } else { Err(file.fault(element, Fault::Angle(degrees))) }
 }
 
-fn ratio<'a>(file: &File<'a>, lens: Node<'a>) -> Result<Option<f64>, Error> {
+fn ratio<'a>(file: &File<'a>, lens: Node<'a>) -> Result<Option<f64>, FileError> {
     let Some(element) = child(lens, "aspect_ratio") else { return Ok(None) };
     let [ratio] = file.array(element)?;
     if ratio.is_normal() && ratio > 0.0 {

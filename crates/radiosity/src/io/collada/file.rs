@@ -1,5 +1,5 @@
 //! The parsed file: elements found by tag and by id, faults reported with their line.
-use super::super::{Error, Fault};
+use crate::io::error::{Fault, FileError};
 use std::collections::HashMap;
 use std::str::FromStr;
 
@@ -16,7 +16,7 @@ pub(super) struct File<'a> {
 
 impl<'a> File<'a> {
     /// Checks the root element and its version; where an id stands twice, the first counts.
-    pub(super) fn new(name: &'a str, document: &'a roxmltree::Document<'a>) -> Result<Self, Error> {
+    pub(super) fn new(name: &'a str, document: &'a roxmltree::Document<'a>) -> Result<Self, FileError> {
         let mut ids = HashMap::new();
         for node in document.descendants() {
             if let Some(id) = node.attribute("id") {
@@ -49,16 +49,22 @@ impl<'a> File<'a> {
         (line, start + 1 - self.lines[line - 1])
     }
 
-    pub(super) fn fault(&self, node: Node, fault: Fault) -> Error {
+    pub(super) fn fault(&self, node: Node, fault: Fault) -> FileError {
         let (line, column) = self.position(node);
-        Error::Scene { file: self.name.into(), line, column, element: node.tag_name().name().into(), fault }
+        FileError::Scene {
+            file: self.name.into(),
+            line,
+            column,
+            element: node.tag_name().name().into(),
+            fault,
+        }
     }
 
-    pub(super) fn attribute(&self, node: Node<'a>, name: &'static str) -> Result<&'a str, Error> {
+    pub(super) fn attribute(&self, node: Node<'a>, name: &'static str) -> Result<&'a str, FileError> {
         node.attribute(name).ok_or_else(|| self.fault(node, Fault::Attribute(name)))
     }
 
-    pub(super) fn child(&self, node: Node<'a>, name: &'static str) -> Result<Node<'a>, Error> {
+    pub(super) fn child(&self, node: Node<'a>, name: &'static str) -> Result<Node<'a>, FileError> {
         child(node, name).ok_or_else(|| self.fault(node, Fault::Child(name)))
     }
 
@@ -78,7 +84,7 @@ impl<'a> File<'a> {
         node: Node<'a>,
         attribute: &'static str,
         wanted: &'static str,
-    ) -> Result<Node<'a>, Error> {
+    ) -> Result<Node<'a>, FileError> {
         let url = self.attribute(node, attribute)?.trim();
         let id = url.strip_prefix('#').unwrap_or(url);
         self.by_id(id, wanted).ok_or_else(|| {
@@ -93,28 +99,28 @@ impl<'a> File<'a> {
     }
 
     /// The finite numbers that are an element's text.
-    pub(super) fn numbers(&self, node: Node<'a>) -> Result<Vec<f64>, Error> {
+    pub(super) fn numbers(&self, node: Node<'a>) -> Result<Vec<f64>, FileError> {
         words(node).map(|word| self.number(node, word)).collect()
     }
 
-    fn number(&self, node: Node<'a>, word: &str) -> Result<f64, Error> {
+    fn number(&self, node: Node<'a>, word: &str) -> Result<f64, FileError> {
         let number = f64::from_str(word).ok().filter(|number| number.is_finite());
         number.ok_or_else(|| self.fault(node, Fault::Number(shorten(word))))
     }
 
     /// Exactly `N` numbers.
-    pub(super) fn array<const N: usize>(&self, node: Node<'a>) -> Result<[f64; N], Error> {
+    pub(super) fn array<const N: usize>(&self, node: Node<'a>) -> Result<[f64; N], FileError> {
         let numbers = self.numbers(node)?;
         let found = numbers.len();
         numbers.try_into().map_err(|_| self.fault(node, Fault::Count { found, wanted: N }))
     }
 
     /// The whole numbers that are an element's text.
-    pub(super) fn wholes(&self, node: Node<'a>) -> Result<Vec<usize>, Error> {
+    pub(super) fn wholes(&self, node: Node<'a>) -> Result<Vec<usize>, FileError> {
         words(node).map(|word| self.whole(node, word)).collect()
     }
 
-    fn whole(&self, node: Node<'a>, word: &str) -> Result<usize, Error> {
+    fn whole(&self, node: Node<'a>, word: &str) -> Result<usize, FileError> {
         word.parse().map_err(|_| self.fault(node, Fault::Whole(shorten(word))))
     }
 
@@ -124,7 +130,7 @@ impl<'a> File<'a> {
         node: Node<'a>,
         name: &'static str,
         otherwise: usize,
-    ) -> Result<usize, Error> {
+    ) -> Result<usize, FileError> {
         node.attribute(name).map_or(Ok(otherwise), |text| self.whole(node, text.trim()))
     }
 }

@@ -1,8 +1,8 @@
 //! The pictures that textures name: in the file itself, in a `data:` address, or beside the file.
-use super::super::image;
 use super::file::{File, Node, child, children, descend};
-use crate::Image;
-use crate::inspect::Finding;
+use crate::image_file;
+use crate::scene::finding::Finding;
+use crate::scene::texture::Image;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -49,11 +49,11 @@ impl Images {
         let name = element.attribute("name").or_else(|| element.attribute("id")).unwrap_or("image");
         let hex = child(element, "data").or_else(|| descend(element, &["init_from", "hex"]));
         if let Some(digits) = hex.and_then(|data| data.text()) {
-            return image::decode(name, unhex(digits).ok_or("its <data> is not hexadecimal")?);
+            return image_file::decode(name, unhex(digits).ok_or("its <data> is not hexadecimal")?);
         }
         let from = child(element, "init_from").ok_or("the <image> has no <init_from>")?;
         let address = child(from, "ref").unwrap_or(from).text().unwrap_or_default().trim();
-        image::fetch(address, self.folder.as_deref())
+        image_file::fetch(address, self.folder.as_deref())
     }
 }
 

@@ -8,31 +8,31 @@
 //! A polygon that is not planar is split into triangles, one without area is left out, both with a warning. A node whose
 //! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
 mod camera;
-mod compose;
+pub(crate) mod compose;
 mod exposed;
 mod file;
 mod images;
+mod lit_mesh;
 mod material;
-mod mesh_text;
-mod model;
+pub(crate) mod model;
 mod patches;
 mod primitive;
 mod spectra;
 mod transform;
 mod walk;
 mod write;
+mod xml;
 
-use super::Error;
+use super::error::FileError;
 use crate::expose::Exposure;
-use crate::{Asset, Mesh, Scene};
-pub(crate) use compose::text;
+use crate::mesh::element::Mesh;
+use crate::scene::Scene;
+use crate::scene::asset::Asset;
+use compose::text;
 use file::{File, child};
 use glam::DVec3;
-pub(crate) use model::{Face, Material, Model};
+use model::Model;
 use std::path::Path;
-
-/// What files say they were made with.
-const TOOL: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
 
 /// The text of a COLLADA file, which a result can be written back into.
 #[derive(Clone, Debug)]
@@ -45,14 +45,14 @@ impl Collada {
     /// Reads a file's text.
     ///
     /// # Errors
-    /// [`Error::Read`] when the system does not give it, [`Error::Encoding`] when it is not UTF-8.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Read`] when the system does not give it, [`FileError::Encoding`] when it is not UTF-8.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         let name = path.display().to_string();
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self { name, text }),
-            Err(wrong) => Err(Error::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
+            Err(wrong) => Err(FileError::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
         }
     }
 
@@ -77,8 +77,8 @@ impl Collada {
     /// The scene: patches, cameras and warnings, in the file's units and axes.
     ///
     /// # Errors
-    /// [`Error::Xml`] and [`Error::Scene`], with the line.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError::Xml`] and [`FileError::Scene`], with the line.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
             let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
             let folder = Path::new(&self.name).parent();
@@ -98,7 +98,7 @@ impl Collada {
     ///
     /// # Errors
     /// As [`Collada::scene`].
-    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, Error> {
+    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
         self.with_file(|file| write::with_light(&self.text, file, &write::Light { scene, mesh, colours }))
     }
 
@@ -106,19 +106,19 @@ impl Collada {
     /// byte for byte. Without an exposure one is chosen: the geometric mean over the lit vertices becomes mid grey.
     ///
     /// # Errors
-    /// [`Error::Xml`] and [`Error::Scene`], with the line; the latter also when no surface has vertex colours.
-    pub fn exposed(&self, exposure: Option<Exposure>) -> Result<String, Error> {
+    /// [`FileError::Xml`] and [`FileError::Scene`], with the line; the latter also when no surface has vertex colours.
+    pub fn exposed(&self, exposure: Option<Exposure>) -> Result<String, FileError> {
         self.with_file(|file| exposed::exposed(&self.text, file, exposure))
     }
 
-    fn with_file<T>(&self, read: impl FnOnce(&File) -> Result<T, Error>) -> Result<T, Error> {
+    fn with_file<T>(&self, read: impl FnOnce(&File) -> Result<T, FileError>) -> Result<T, FileError> {
         let document = roxmltree::Document::parse(&self.text)
-            .map_err(|source| Error::Xml { file: self.name.clone(), source })?;
+            .map_err(|source| FileError::Xml { file: self.name.clone(), source })?;
         read(&File::new(&self.name, &document)?)
     }
 }
 
-fn asset(file: &File) -> Result<Asset, Error> {
+fn asset(file: &File) -> Result<Asset, FileError> {
     let asset = child(file.root, "asset");
     let axis = asset.and_then(|asset| child(asset, "up_axis")).and_then(|axis| axis.text());
     let up = match axis.map(str::trim) {

@@ -1,8 +1,8 @@
 //! A geometry's polygons: positions through sources and accessors, loops through the primitives' indices.
-use super::super::surface::{Corner, Polygon};
-use super::super::{Error, Fault};
 use super::file::{File, Node, child, children, descend};
-use crate::inspect::Finding;
+use crate::io::error::{Fault, FileError};
+use crate::io::surface::polygon::{Corner, Polygon};
+use crate::scene::finding::Finding;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -23,7 +23,7 @@ pub(super) fn primitives<'a>(
     file: &File<'a>,
     geometry: Node<'a>,
     warnings: &mut Vec<Finding>,
-) -> Result<Vec<Primitive<'a>>, Error> {
+) -> Result<Vec<Primitive<'a>>, FileError> {
     let Some(mesh) = child(geometry, "mesh") else {
         let what = format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry));
         warnings.push(Finding::of_file(what, "turn it into a mesh"));
@@ -56,7 +56,7 @@ fn polygons<'a>(
     file: &File<'a>,
     element: Node<'a>,
     sources: &mut HashMap<Node<'a>, Vec<DVec3>>,
-) -> Result<Vec<Polygon>, Error> {
+) -> Result<Vec<Polygon>, FileError> {
     let Some(layout) = layout(file, element)? else { return Ok(Vec::new()) };
     let positions = match sources.entry(layout.source) {
         Entry::Occupied(known) => known.into_mut(),
@@ -91,7 +91,7 @@ struct Layout<'a> {
 }
 
 /// `None` for a primitive without any input: it has no polygons either.
-fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, Error> {
+fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, FileError> {
     let (mut stride, mut vertex, mut places, mut normals) = (0, None, None, None);
     for input in children(element, "input") {
         let offset = file.whole_attribute(input, "offset", 0)?;
@@ -128,7 +128,7 @@ fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, 
 }
 
 /// The rows of a source, of two or three numbers each, through its accessor where it has one; the third of two is 0.
-fn rows<'a>(file: &File<'a>, source: Node<'a>, width: usize) -> Result<Vec<DVec3>, Error> {
+fn rows<'a>(file: &File<'a>, source: Node<'a>, width: usize) -> Result<Vec<DVec3>, FileError> {
     let array = file.child(source, "float_array")?;
     let Some(accessor) = descend(source, &["technique_common", "accessor"]) else {
         return points(file, array, [width, width], 0, None);
@@ -154,7 +154,7 @@ fn points<'a>(
     [width, stride]: [usize; 2],
     offset: usize,
     count: Option<usize>,
-) -> Result<Vec<DVec3>, Error> {
+) -> Result<Vec<DVec3>, FileError> {
     let numbers = file.numbers(array)?;
     let short = |wanted| file.fault(array, Fault::Count { found: numbers.len(), wanted });
     let values = numbers.get(offset..).ok_or_else(|| short(offset))?;
@@ -180,7 +180,7 @@ struct Points<'f, 'a> {
 
 impl<'a> Points<'_, 'a> {
     /// The points of a `<p>` or `<h>`.
-    fn ring(&self, p: Node<'a>) -> Result<Vec<Corner>, Error> {
+    fn ring(&self, p: Node<'a>) -> Result<Vec<Corner>, FileError> {
         let indices = self.file.wholes(p)?;
         let stride = self.layout.stride;
         if indices.len() % stride != 0 {
@@ -190,7 +190,7 @@ impl<'a> Points<'_, 'a> {
         indices.chunks(stride).map(|vertex| self.corner(p, vertex)).collect()
     }
 
-    fn corner(&self, p: Node<'a>, vertex: &[usize]) -> Result<Corner, Error> {
+    fn corner(&self, p: Node<'a>, vertex: &[usize]) -> Result<Corner, FileError> {
         let row = |rows: &[DVec3], index: usize| {
             let found = rows.get(index).copied();
             found.ok_or_else(|| self.file.fault(p, Fault::Index { index, len: rows.len() }))
@@ -210,7 +210,7 @@ fn polylist<'a>(
     file: &File<'a>,
     element: Node<'a>,
     points: &Points<'_, 'a>,
-) -> Result<Vec<Vec<Corner>>, Error> {
+) -> Result<Vec<Vec<Corner>>, FileError> {
     let Some(p) = child(element, "p") else { return Ok(Vec::new()) };
     let counts = file.wholes(file.child(element, "vcount")?)?;
     let ring = points.ring(p)?;
@@ -231,7 +231,7 @@ fn with_holes<'a>(
     file: &File<'a>,
     element: Node<'a>,
     points: &Points<'_, 'a>,
-) -> Result<Vec<Polygon>, Error> {
+) -> Result<Vec<Polygon>, FileError> {
     let mut all = Vec::new();
     for polygon in element.children() {
         match polygon.tag_name().name() {
@@ -253,7 +253,7 @@ fn triangles<'a>(
     p: Node<'a>,
     tag: &str,
     ring: &[Corner],
-) -> Result<Vec<Vec<Corner>>, Error> {
+) -> Result<Vec<Vec<Corner>>, FileError> {
     if tag == "triangles" {
         if ring.len() % 3 != 0 {
             let wanted = ring.len().next_multiple_of(3);

@@ -1,8 +1,8 @@
 //! The visual scene, walked: every geometry and camera with its transform.
-use super::super::{Error, Fault};
 use super::file::{File, Node, child, children};
 use super::transform;
-use crate::inspect::Finding;
+use crate::io::error::{Fault, FileError};
+use crate::scene::finding::Finding;
 use glam::DMat4;
 
 /// Nodes entered while walking; instances of instances can multiply without bound.
@@ -40,7 +40,7 @@ pub(super) struct Walk<'a> {
 }
 
 /// Walks the scene's nodes in document order.
-pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, Error> {
+pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, FileError> {
     let mut walk = Walk::default();
     let scene = visual_scene(file, &mut walk.warnings)?;
     let mut stack: Vec<Visit> = Vec::new();
@@ -66,7 +66,7 @@ pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, Error> {
 }
 
 /// The visual scene that `<scene>` instances; where it instances none, the first. One of several draws a warning.
-fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<Node<'a>, Error> {
+fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<Node<'a>, FileError> {
     let libraries = children(file.root, "library_visual_scenes");
     let all: Vec<Node> = libraries.flat_map(|library| children(library, "visual_scene")).collect();
     let instance = child(file.root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
@@ -96,7 +96,7 @@ fn enter<'a>(
     door: Node<'a>,
     world: DMat4,
     mut via: Vec<Node<'a>>,
-) -> Result<Visit<'a>, Error> {
+) -> Result<Visit<'a>, FileError> {
     if via.contains(&door) {
         return Err(file.fault(door, Fault::Cycle));
     }
@@ -107,7 +107,7 @@ fn enter<'a>(
     Ok(Visit { node: file.target(door, "url", "node")?, world, via })
 }
 
-fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(), Error> {
+fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(), FileError> {
     for element in visit.node.children().filter(Node::is_element) {
         match element.tag_name().name() {
             "instance_geometry" => {

@@ -3,13 +3,15 @@
 //! Each lit `<instance_geometry>` needs a mesh of its own. The first instance of a geometry takes the place of its
 //! `<mesh>`; each further one gets a new `<geometry>` behind it. Where an `<instance_node>` makes one
 //! `<instance_geometry>` stand for several surfaces, it is replaced by a copy of the node that it names.
-use super::super::{Error, Fault};
-use super::TOOL;
 use super::file::{File, Node, child};
-use super::mesh_text::{Group, Ids, LitMesh, escape};
+use super::lit_mesh::{Group, Ids, LitMesh};
 use super::primitive::surfaces;
 use super::walk::{Instance, walk};
-use crate::{Mesh, Scene, Texture};
+use super::xml::{TOOL, escape};
+use crate::io::error::{Fault, FileError};
+use crate::mesh::element::Mesh;
+use crate::scene::Scene;
+use crate::scene::texture::Texture;
 use glam::DVec2;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
@@ -34,7 +36,7 @@ type Path<'a> = Vec<Node<'a>>;
 /// New text for a range of the old.
 type Edit = (Range<usize>, String);
 
-pub(super) fn with_light<'a>(text: &str, file: &File<'a>, light: &Light) -> Result<String, Error> {
+pub(super) fn with_light<'a>(text: &str, file: &File<'a>, light: &Light) -> Result<String, FileError> {
     let instances = walk(file)?.instances;
     let elements = elements_of(&instances, light);
     let lit: Vec<usize> = (0..instances.len()).filter(|index| !elements[*index].is_empty()).collect();
@@ -161,7 +163,7 @@ impl<'a> Splice<'_, '_, 'a> {
         self.edits.entry(path).or_default().push((range, text));
     }
 
-    fn replace_mesh(&mut self, instance: &Instance<'a>, mesh: &LitMesh) -> Result<(), Error> {
+    fn replace_mesh(&mut self, instance: &Instance<'a>, mesh: &LitMesh) -> Result<(), FileError> {
         let old = self.file.child(instance.geometry, "mesh")?;
         let ids = self.ids(self.file.attribute(instance.geometry, "id")?);
         self.edit(Vec::new(), old.range(), mesh.text(&ids));
@@ -169,7 +171,12 @@ impl<'a> Splice<'_, '_, 'a> {
     }
 
     /// A new geometry behind the old one, and the instance pointed at it.
-    fn add_geometry(&mut self, instance: &Instance<'a>, mesh: &LitMesh, path: Path<'a>) -> Result<(), Error> {
+    fn add_geometry(
+        &mut self,
+        instance: &Instance<'a>,
+        mesh: &LitMesh,
+        path: Path<'a>,
+    ) -> Result<(), FileError> {
         let id = self.fresh(self.file.attribute(instance.geometry, "id")?);
         let ids = self.ids(&id);
         let end = instance.geometry.range().end;
@@ -204,7 +211,7 @@ impl<'a> Splice<'_, '_, 'a> {
     }
 
     /// The old text of a range with the edits made in the copy `path`. Nesting ends where the walk ended it.
-    fn render(&mut self, range: Range<usize>, path: &Path<'a>) -> Result<String, Error> {
+    fn render(&mut self, range: Range<usize>, path: &Path<'a>) -> Result<String, FileError> {
         let mut edits = self.edits.remove(path).unwrap_or_default();
         for door in self.doors.remove(path).unwrap_or_default() {
             let mut inner = path.clone();

@@ -1,9 +1,9 @@
 //! What a primitive reflects and emits.
-use super::super::image;
-use super::super::surface::Finish;
 use super::accessor::Buffers;
-use crate::Image;
-use crate::inspect::Finding;
+use crate::image_file;
+use crate::io::surface::finish::Finish;
+use crate::scene::finding::Finding;
+use crate::scene::texture::Image;
 use gltf::material::AlphaMode;
 use std::collections::HashMap;
 use std::path::Path;
@@ -44,7 +44,7 @@ impl<'f> Materials<'f> {
     fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
         let name = material.name().map_or_else(|| format!("material {:?}", material.index()), Into::into);
         let mut warn =
-            |what: &str, mend: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), mend));
+            |what: &str, repair: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), repair));
         if material.emissive_texture().is_some() {
             warn(
                 "emissive textures are not read; the emissive factor alone is taken",
@@ -79,9 +79,9 @@ impl<'f> Materials<'f> {
         let read = match image.source() {
             gltf::image::Source::View { view, .. } => {
                 let bytes = self.buffers.view(&view).map_err(|error| error.to_string());
-                bytes.and_then(|bytes| image::decode(&name, bytes.to_vec()))
+                bytes.and_then(|bytes| image_file::decode(&name, bytes.to_vec()))
             }
-            gltf::image::Source::Uri { uri, .. } => image::fetch(uri, self.folder),
+            gltf::image::Source::Uri { uri, .. } => image_file::fetch(uri, self.folder),
         };
         let read = read.map(Arc::new).map_err(|reason| {
             let what = format!("{name}: the texture cannot be read: {reason}; its factor alone is taken");

@@ -17,8 +17,8 @@ mod write;
 pub use exposed::exposed;
 pub use write::glb;
 
-use super::Error;
-use crate::Scene;
+use super::error::FileError;
+use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// The bytes of a `.glb` or `.gltf` file.
@@ -33,10 +33,10 @@ impl Gltf {
     /// Reads a file; other files that it names are looked for beside it.
     ///
     /// # Errors
-    /// [`Error::Read`] when the system does not give it.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Read`] when the system does not give it.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         let folder = path.parent().map(Into::into);
         Ok(Self { name: path.display().to_string(), bytes, folder })
     }
@@ -49,8 +49,8 @@ impl Gltf {
     /// The scene: patches, cameras and warnings, in metres, y up.
     ///
     /// # Errors
-    /// [`Error::Gltf`] for what is no glTF 2.0, [`Error::Part`] for a part that cannot be taken.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError::Gltf`] for what is no glTF 2.0, [`FileError::Part`] for a part that cannot be taken.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         let file = document::parse(&self.name, &self.bytes)?;
         read::scene(&self.name, &file, self.folder.as_deref())
     }

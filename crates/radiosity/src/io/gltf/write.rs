@@ -1,9 +1,11 @@
 //! glTF 2.0 binary: the lit mesh for any viewer.
-use super::super::Error;
 use super::buffer::{Buffer, container, single};
 use super::lit::{materials, primitives};
 use crate::expose::Exposure;
-use crate::{Asset, Camera, Record};
+use crate::io::error::FileError;
+use crate::record::Record;
+use crate::scene::asset::Asset;
+use crate::scene::camera::Camera;
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
 
@@ -19,8 +21,8 @@ const LARGEST: f64 = f32::MAX as f64;
 /// up axis to y and its unit to metres. Positions are single precision, relative to the middle of the mesh.
 ///
 /// # Errors
-/// [`Error::Size`] when the data do not fit into the format's 4 GiB.
-pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, Error> {
+/// [`FileError::Size`] when the data do not fit into the format's 4 GiB.
+pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
     let (middle, radius) = ball(&record.vertices);
     let mut buffer = Buffer::default();
     let mut document = json!({

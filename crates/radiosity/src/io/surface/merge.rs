@@ -3,7 +3,7 @@
 //! Two triangles are joined when they share an edge, run along it in opposite directions, lie in one plane exactly and
 //! on different sides of the edge. What is joined becomes a polygon, possibly with holes, only if its triangles overlap
 //! nowhere; otherwise they stay triangles. All decisions are exact, so that no gap and no overlap can arise.
-use super::{Corner, Facet, bits};
+use super::polygon::{Corner, Facet, bits};
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};
 use robust::{Coord, Coord3D};

@@ -1,9 +1,11 @@
 //! Into the world: transformed, checked, split where needed, named.
+use super::finish::{Finish, Spectra, Surface};
+use super::flaws::Flaws;
+use super::polygon::{Corner, Facet, Polygon, bits};
 use super::split::split;
-use super::warn::Flaws;
-use super::{Corner, Facet, Finish, Polygon, Spectra, Surface, bits};
-use crate::inspect::Finding;
-use crate::{Origin, Patch, Texture};
+use crate::scene::finding::Finding;
+use crate::scene::patch::{Origin, Patch};
+use crate::scene::texture::Texture;
 use formfactor::PlanarPolygon;
 use glam::{DMat4, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};

@@ -1,5 +1,5 @@
 //! A polygon cut into triangles: one that is not planar, since they always are, or one that shows a picture.
-use super::{Corner, Polygon};
+use super::polygon::{Corner, Polygon};
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 

@@ -1,0 +1,2 @@
+//! Park.
+fn main() {}
