@@ -1,25 +1,17 @@
 //! The command line: what may be asked, and who answers.
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use crate::commands::compare::{self, Compare};
+use crate::commands::expose::{self, Expose};
+use crate::commands::factors::{self, Factors};
+use crate::commands::inspect::{self, Inspect};
+use crate::commands::report::{self, Report};
+use crate::commands::scene::{self, BuiltIn};
+use crate::commands::solve::{self, options::Solve};
+use crate::commands::view::{self, View};
+use crate::failure::Failure;
+use crate::outputs::print;
+use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use failure::Failure;
-use std::{path::PathBuf, process::ExitCode};
-
-mod compare;
-mod expose;
-mod factors;
-mod failure;
-mod input;
-mod inspect;
-mod json;
-mod lasting;
-mod look;
-mod output;
-mod progress;
-mod report;
-mod scene;
-mod solve;
-mod steps;
-mod view;
+use std::process::ExitCode;
 
 /// Diffuse light of a scene by progressive radiosity with exact form factors.
 ///
@@ -27,7 +19,7 @@ mod view;
 /// 3 bad scene, 4 stopped before the tolerance, 5 a difference above `--fail-above`, 130 stopped by Ctrl-C (of a stopped run
 /// result and state are written).
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 110)]
+#[command(name = "radiosity", version, max_term_width = 110)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -40,36 +32,26 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Solve a scene's light and write it as a picture, a scene, or numbers
-    Solve(solve::Solve),
+    Solve(Solve),
     /// Turn a written solution to colours that a screen can show
-    Expose(expose::Expose),
+    Expose(Expose),
     /// Write a page that shows a solution in a browser
-    View(view::View),
+    View(View),
     /// Form factors from a point, from patches, or the whole matrix of a scene
-    Factors(factors::Factors),
+    Factors(Factors),
     /// Tell what a scene is and what about it will trouble a solution
-    Inspect(inspect::Inspect),
+    Inspect(Inspect),
     /// Tell how far two solutions of one scene are from each other: relative L1, L2 and maximum of reflected light
-    Compare(compare::Compare),
+    Compare(Compare),
     /// Measure every method on every scene, error against time, and write it as one page
-    Report(report::Report),
+    Report(Report),
     /// Write one of the built-in scenes
-    Scene(Scene),
+    Scene(BuiltIn),
     /// Print what a shell needs to complete this program's command lines
     Completions {
         /// The shell
         shell: Shell,
     },
-}
-
-/// `radiosity scene`
-#[derive(Args, Debug)]
-struct Scene {
-    /// The scene's name
-    name: String,
-    /// Where to write it, as COLLADA [default: stdout]
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
 }
 
 /// Answers; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
@@ -93,22 +75,6 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
 fn completions(shell: Shell) -> Result<ExitCode, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "radiosity", &mut script);
-    output::print(&String::from_utf8_lossy(&script))?;
+    print(&String::from_utf8_lossy(&script))?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// A finite number above zero.
-fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if number > 0.0 && number.is_finite() {
-        Ok(number)
-    } else {
-        Err("give a finite number above 0".to_owned())
-    }
-}
-
-/// A number of elements that fits in memory.
-fn count(text: &str) -> Result<usize, String> {
-    let number = text.parse().map_err(|_| "not a whole number".to_owned())?;
-    if (1..=10_000_000).contains(&number) { Ok(number) } else { Err("give 1 to 10 000 000".to_owned()) }
 }

@@ -1,5 +1,5 @@
 //! What went wrong, and the exit code that says so.
-use radiosity::io;
+use radiosity::io::FileError;
 use std::process::ExitCode;
 
 /// A message for people and an exit code for programs.
@@ -11,22 +11,22 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// Files, or the program itself: exit code 1.
-    pub(super) fn internal(message: impl ToString) -> Failure {
+    pub(crate) fn internal(message: impl ToString) -> Failure {
         Failure { code: 1, message: message.to_string() }
     }
 
     /// The command line asks for what does not exist: exit code 2.
-    pub(super) fn usage(message: impl ToString) -> Failure {
+    pub(crate) fn usage(message: impl ToString) -> Failure {
         Failure { code: 2, message: message.to_string() }
     }
 
     /// A scene or solution that makes no sense: exit code 3.
-    pub(super) fn scene(message: impl ToString) -> Failure {
+    pub(crate) fn scene(message: impl ToString) -> Failure {
         Failure { code: 3, message: message.to_string() }
     }
 
     /// The threads could not be started.
-    pub(super) fn threads(error: impl ToString) -> Failure {
+    pub(crate) fn threads(error: impl ToString) -> Failure {
         Failure::internal(format!("the threads cannot be started: {}; try -j 1", error.to_string()))
     }
 
@@ -44,13 +44,13 @@ impl From<radiosity::Error> for Failure {
     }
 }
 
-impl From<io::Error> for Failure {
+impl From<FileError> for Failure {
     /// A file that cannot be read or written is exit code 1, an unknown kind of file 2, one
     /// that makes no sense 3.
-    fn from(error: io::Error) -> Failure {
+    fn from(error: FileError) -> Failure {
         let code = match error {
-            io::Error::Read { .. } | io::Error::Write { .. } | io::Error::Size { .. } => 1,
-            io::Error::Unknown { .. } => 2,
+            FileError::Read { .. } | FileError::Write { .. } | FileError::Size { .. } => 1,
+            FileError::Unknown { .. } => 2,
             _ => 3,
         };
         Failure { code, message: error.to_string() }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// The figures of a solution.
 #[derive(Debug, Serialize)]
-pub(super) struct Figures<'s> {
+pub(crate) struct Figures<'s> {
     scene: &'s str,
     elements: usize,
     shots: usize,
@@ -19,10 +19,10 @@ pub(super) struct Figures<'s> {
 
 /// A `.json` file: the figures and the light itself.
 #[derive(Debug, Serialize)]
-pub(super) struct Written<'s> {
+pub(crate) struct SolutionFile<'s> {
     #[serde(flatten)]
-    pub(super) figures: Option<&'s Figures<'s>>,
-    pub(super) light: &'s Record,
+    pub(crate) figures: Option<&'s Figures<'s>>,
+    pub(crate) light: &'s Record,
 }
 
 /// The ledger.
@@ -46,7 +46,7 @@ struct PatchFigures<'s> {
 
 impl<'s> Figures<'s> {
     /// The figures of `solution`, the solution of `scene`, read from the file `name`.
-    pub(super) fn new(name: &'s str, scene: &'s Scene, solution: &'s Solution) -> Figures<'s> {
+    pub(crate) fn new(name: &'s str, scene: &'s Scene, solution: &'s Solution) -> Figures<'s> {
         let ledger = &solution.ledger;
         let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
@@ -80,11 +80,11 @@ impl<'s> Figures<'s> {
 }
 
 /// One line of JSON, ended by a newline.
-pub(super) fn line(value: &impl Serialize) -> String {
+pub(crate) fn line(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain numbers and names can be written") + "\n"
 }
 
 /// The word that stands for a plain value in JSON.
-pub(super) fn word(value: &impl Serialize) -> String {
+pub(crate) fn word(value: &impl Serialize) -> String {
     line(value).trim().trim_matches('"').to_owned()
 }

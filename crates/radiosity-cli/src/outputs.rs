@@ -1,5 +1,7 @@
 //! Results to files, by extension, and data to stdout.
-use super::{Failure, json, look::Look};
+use crate::failure::Failure;
+use crate::json;
+use crate::view_options::ViewOptions;
 use radiosity::io::{self, Source, gltf};
 use radiosity::{Record, Scene, element_table, patch_table, viewer};
 use std::io::Write;
@@ -7,14 +9,14 @@ use std::path::{Path, PathBuf};
 
 /// A file that a result can be written to.
 #[derive(Debug)]
-pub(super) struct Output {
+pub(crate) struct Output {
     path: PathBuf,
-    kind: Kind,
+    kind: FileKind,
 }
 
 /// What the file will hold.
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+enum FileKind {
     Picture,
     Collada,
     Glb,
@@ -25,30 +27,30 @@ enum Kind {
 }
 
 /// By the end of the file's name.
-const KINDS: [(&str, Kind); 7] = [
-    (".elements.csv", Kind::Elements),
-    (".csv", Kind::Patches),
-    (".png", Kind::Picture),
-    (".dae", Kind::Collada),
-    (".glb", Kind::Glb),
-    (".json", Kind::Json),
-    (".html", Kind::Page),
+const KINDS: [(&str, FileKind); 7] = [
+    (".elements.csv", FileKind::Elements),
+    (".csv", FileKind::Patches),
+    (".png", FileKind::Picture),
+    (".dae", FileKind::Collada),
+    (".glb", FileKind::Glb),
+    (".json", FileKind::Json),
+    (".html", FileKind::Page),
 ];
 
-/// What was found, and what it was found from.
+/// What outputs are written from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Findings<'s> {
-    pub(super) look: &'s Look,
-    pub(super) record: &'s Record,
+pub(crate) struct Contents<'s> {
+    pub(crate) view: &'s ViewOptions,
+    pub(crate) record: &'s Record,
     /// The scene and its file, where they are at hand.
-    pub(super) source: Option<(&'s Source, &'s Scene)>,
+    pub(crate) source: Option<(&'s Source, &'s Scene)>,
     /// The solver's figures, where it has just run.
-    pub(super) figures: Option<&'s json::Figures<'s>>,
+    pub(crate) figures: Option<&'s json::Figures<'s>>,
 }
 
 impl Output {
     /// An output file: its extension must be known, and its folder must take new files, before anything is solved.
-    pub(super) fn new(path: &Path) -> Result<Output, Failure> {
+    pub(crate) fn new(path: &Path) -> Result<Output, Failure> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
         let found = KINDS.iter().find(|(end, _)| name.ends_with(end));
         let (_, kind) = *found.ok_or_else(|| {
@@ -60,31 +62,33 @@ impl Output {
     }
 
     /// Whether it is for eyes alone.
-    pub(super) fn is_picture(&self) -> bool {
-        matches!(self.kind, Kind::Picture)
+    pub(crate) fn is_picture(&self) -> bool {
+        matches!(self.kind, FileKind::Picture)
     }
 
     /// Writes the file, whole or not at all.
-    pub(super) fn write(&self, findings: &Findings<'_>) -> Result<(), Failure> {
+    pub(crate) fn write(&self, contents: &Contents<'_>) -> Result<(), Failure> {
         let bytes = match self.kind {
-            Kind::Picture => findings.picture()?,
-            Kind::Collada => findings.collada()?,
-            Kind::Glb => findings.glb()?,
-            Kind::Json => findings.json().into_bytes(),
-            Kind::Page => viewer::page(findings.record, findings.look.exposure(findings.record)).into_bytes(),
-            Kind::Patches => patch_table(findings.record).into_bytes(),
-            Kind::Elements => element_table(findings.record).into_bytes(),
+            FileKind::Picture => contents.picture()?,
+            FileKind::Collada => contents.collada()?,
+            FileKind::Glb => contents.glb()?,
+            FileKind::Json => contents.json().into_bytes(),
+            FileKind::Page => {
+                viewer::page(contents.record, contents.view.exposure(contents.record)).into_bytes()
+            }
+            FileKind::Patches => patch_table(contents.record).into_bytes(),
+            FileKind::Elements => element_table(contents.record).into_bytes(),
         };
         Ok(io::save(&self.path, &bytes)?)
     }
 }
 
-impl Findings<'_> {
+impl Contents<'_> {
     /// PNG as the camera sees it.
     fn picture(&self) -> Result<Vec<u8>, Failure> {
-        let (record, look) = (self.record, self.look);
-        let camera = look.camera(record)?;
-        Ok(record.draw(&camera, look.exposure(record), look.width))
+        let (record, view) = (self.record, self.view);
+        let camera = view.camera(record)?;
+        Ok(record.draw(&camera, view.exposure(record), view.width))
     }
 
     /// The scene's own COLLADA with the unscaled radiosity at the vertices.
@@ -99,12 +103,12 @@ impl Findings<'_> {
 
     /// glTF binary.
     fn glb(&self) -> Result<Vec<u8>, Failure> {
-        Ok(gltf::glb(self.record, self.look.exposure(self.record))?)
+        Ok(gltf::glb(self.record, self.view.exposure(self.record))?)
     }
 
     /// The figures and the light.
     fn json(&self) -> String {
-        json::line(&json::Written { figures: self.figures, light: self.record })
+        json::line(&json::SolutionFile { figures: self.figures, light: self.record })
     }
 }
 
@@ -126,7 +130,7 @@ fn probe(path: &Path) -> Result<(), Failure> {
 }
 
 /// Prints data on stdout. A reader that has gone away wants no more of it: that is no error.
-pub(super) fn print(text: &str) -> Result<(), Failure> {
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let written = std::io::stdout().write_all(text.as_bytes()).and_then(|()| std::io::stdout().flush());
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {

@@ -1,5 +1,6 @@
 //! How pictures are taken: exposure, width, camera.
-use super::{Failure, positive};
+use crate::failure::Failure;
+use crate::parse::positive;
 use clap::Args;
 use radiosity::expose::Exposure;
 use radiosity::glam::DVec3;
@@ -7,27 +8,27 @@ use radiosity::{Camera, Record};
 
 /// Of every command that writes pictures.
 #[derive(Args, Clone, Debug)]
-pub(super) struct Look {
+pub(crate) struct ViewOptions {
     /// The brightness: intensity is 1 - exp(-K B) [default: chosen from the light]
     #[arg(short = 'k', visible_short_alias = 'K', long, value_name = "K", value_parser = positive)]
-    pub(super) exposure: Option<f64>,
+    pub(crate) exposure: Option<f64>,
     /// A picture's width in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=16384))]
-    pub(super) width: u32,
+    pub(crate) width: u32,
     /// A picture's camera: the name of one of the scene's, or X,Y,Z,TX,TY,TZ[,DEGREES]: the eye, what it looks at, and the
     /// vertical field of view [default: the scene's first camera, or one that sees everything]
     #[arg(long, value_name = "CAMERA", allow_hyphen_values = true)]
-    pub(super) camera: Option<String>,
+    pub(crate) camera: Option<String>,
 }
 
-impl Look {
+impl ViewOptions {
     /// As asked, or chosen from the light.
-    pub(super) fn exposure(&self, record: &Record) -> Exposure {
+    pub(crate) fn exposure(&self, record: &Record) -> Exposure {
         self.exposure.and_then(Exposure::new).unwrap_or_else(|| record.exposure())
     }
 
     /// As asked; where there is no such camera, what there is instead.
-    pub(super) fn camera(&self, record: &Record) -> Result<Camera, Failure> {
+    pub(crate) fn camera(&self, record: &Record) -> Result<Camera, Failure> {
         let asked = self.camera.as_deref();
         if let Some(view) = asked.and_then(numbers) {
             return given(&view, record.asset.up);

@@ -10,7 +10,7 @@ const SOLVE: [&str; 6] = ["solve", "scenes/cornell-box.dae", "--elements", "300"
 fn radiosity(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_radiosity"))
         .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../radiosity"))
         .output()
         .expect("the program starts")
 }
@@ -191,10 +191,10 @@ fn a_camera_may_be_named_or_given() {
 }
 
 #[test]
-fn inspect_tells_and_mends() {
+fn inspect_tells_and_repairs() {
     let folder = Folder::new();
     let scene = String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text");
-    // The ceiling without its hole: the lamp lies in it.
+    // The ceiling without its hole: the emitter lies in it.
     let (start, end) = (scene.find("<h>").expect("a hole"), scene.find("</h>").expect("a hole"));
     let closed = folder.put("closed.dae", &format!("{}{}", &scene[..start], &scene[end + 4..]));
     let repaired = text_of(&folder.path("repaired.dae"));
@@ -202,7 +202,10 @@ fn inspect_tells_and_mends() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let findings = json(&output)["findings"].clone();
     assert_eq!(findings.as_array().expect("findings").len(), 1);
-    assert_eq!((&findings[0]["kind"], &findings[0]["patches"][1]), (&"lamp-in-face".into(), &"light".into()));
+    assert_eq!(
+        (&findings[0]["kind"], &findings[0]["patches"][1]),
+        (&"emitter-in-face".into(), &"light".into())
+    );
     let again = json(&radiosity(&["inspect", &repaired, "--json"]));
     assert_eq!(again["findings"].as_array().expect("findings").len(), 0);
     let ceiling =

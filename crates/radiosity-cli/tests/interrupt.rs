@@ -13,7 +13,7 @@ fn start(folder: &Path, more: &[&str]) -> Child {
         .args(arguments)
         .arg("-o")
         .arg(folder.join("light.json"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../radiosity"))
         .stderr(Stdio::null())
         .spawn()
         .expect("the program starts")
@@ -99,7 +99,7 @@ fn a_write_that_fails_half_way_leaves_what_was_there() {
         .args(["-c", script, "sh", env!("CARGO_BIN_EXE_radiosity")])
         .args(["solve", "scenes/cornell-box.dae", "--quality", "draft", "--max-shots", "1", "-o"])
         .arg(&path)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../radiosity"))
         .output()
         .expect("the program starts");
     let message = String::from_utf8(output.stderr).expect("UTF-8");

@@ -1,5 +1,7 @@
 //! `radiosity compare`
-use super::{Failure, input, json, output};
+use crate::failure::Failure;
+use crate::outputs::print;
+use crate::{input, json};
 use clap::Args;
 use radiosity::compare::{Comparison, compare};
 use std::fmt::Write;
@@ -10,7 +12,7 @@ const ABOVE: u8 = 5;
 
 /// `radiosity compare`
 #[derive(Args, Debug)]
-pub(super) struct Compare {
+pub(crate) struct Compare {
     /// A solution that solve wrote as .json
     a: PathBuf,
     /// Another one of the same scene, of any mesh: the reference
@@ -34,11 +36,11 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Prints how far two solutions are from each other.
-pub(super) fn run(arguments: &Compare) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Compare) -> Result<ExitCode, Failure> {
     let (a, b) = (input::solution(&arguments.a)?, input::solution(&arguments.b)?);
     let names = format!("{}, {}", arguments.a.display(), arguments.b.display());
     let comparison = compare(&a, &b).map_err(|unlike| Failure::scene(format!("{names}: {unlike}")))?;
-    output::print(&if arguments.json { json::line(&comparison) } else { text(&comparison) })?;
+    print(&if arguments.json { json::line(&comparison) } else { text(&comparison) })?;
     let above = arguments.fail_above.filter(|most| comparison.largest() > *most);
     Ok(match above {
         Some(most) => {

@@ -1,7 +1,9 @@
 //! `radiosity expose`
-use super::{Failure, input, look::Look, output};
+use crate::failure::Failure;
+use crate::input;
+use crate::outputs::{Contents, Output};
+use crate::view_options::ViewOptions;
 use clap::Args;
-use output::{Findings, Output};
 use radiosity::expose::Exposure;
 use radiosity::io::{self, collada::Collada, gltf};
 use std::path::{Path, PathBuf};
@@ -9,7 +11,7 @@ use std::process::ExitCode;
 
 /// `radiosity expose`
 #[derive(Args, Debug)]
-pub(super) struct Expose {
+pub(crate) struct Expose {
     /// A solution that solve wrote: .json, or .dae or .glb with the radiosity at their vertices
     solution: PathBuf,
     /// Where to write it with displayable colours: of .json any kind but .dae, else the same kind; may be given several
@@ -20,18 +22,18 @@ pub(super) struct Expose {
     #[arg(long, conflicts_with = "exposure")]
     auto: bool,
     #[command(flatten)]
-    look: Look,
+    view: ViewOptions,
 }
 
 /// Intensity = 1 - exp(-K B), written into copies of a solution.
-pub(super) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
-    let exposure = arguments.look.exposure.and_then(Exposure::new);
+    let exposure = arguments.view.exposure.and_then(Exposure::new);
     match end(&arguments.solution).as_str() {
         "json" => {
             let record = input::solution(&arguments.solution)?;
-            let findings = Findings { look: &arguments.look, record: &record, source: None, figures: None };
-            outputs.iter().try_for_each(|output| output.write(&findings))?;
+            let contents = Contents { view: &arguments.view, record: &record, source: None, figures: None };
+            outputs.iter().try_for_each(|output| output.write(&contents))?;
         }
         "dae" => {
             let text = Collada::open(&arguments.solution)?.exposed(exposure)?;

@@ -1,18 +1,20 @@
 //! `radiosity inspect`
-use super::{Failure, input, json, output};
+use crate::failure::Failure;
+use crate::outputs::print;
+use crate::{input, json};
 use clap::Args;
 use radiosity::inspect::{Inspection, inspect};
 use radiosity::io::{self, collada::Collada};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
-/// How many lamps are listed for people.
-const LAMPS: usize = 20;
+/// How many emitters are listed for people.
+const EMITTERS: usize = 20;
 /// How many patches of a finding.
 const NAMES: usize = 8;
 
 /// `radiosity inspect`
 #[derive(Args, Debug)]
-pub(super) struct Inspect {
+pub(crate) struct Inspect {
     /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
     scene: PathBuf,
     /// Print JSON instead of text
@@ -27,10 +29,10 @@ pub(super) struct Inspect {
 }
 
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
-pub(super) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
     let (scene, _) = input::read_quietly(&arguments.scene)?;
     let inspection = inspect(&scene);
-    output::print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
+    print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if let Some(path) = &arguments.output {
         let (repaired, changes) = radiosity::repair(&scene);
         io::save(path, Collada::of(&repaired).text().as_bytes())?;
@@ -56,11 +58,11 @@ fn text(inspection: &Inspection) -> String {
     line("extent", format!("{low:?} to {high:?}; the unit is {unit} m, up is {:?}", inspection.up));
     line("bands", inspection.bands.to_string());
     line("cameras", inspection.cameras.to_string());
-    for lamp in inspection.lamps.iter().take(LAMPS) {
-        line("lamp", format!("{} emits {:?} W (in units of {unit} m)", lamp.name, lamp.power));
+    for emitter in inspection.emitters.iter().take(EMITTERS) {
+        line("emitter", format!("{} emits {:?} W (in units of {unit} m)", emitter.name, emitter.power));
     }
-    if inspection.lamps.len() > LAMPS {
-        line("lamps", format!("{} in all; --json lists them", inspection.lamps.len()));
+    if inspection.emitters.len() > EMITTERS {
+        line("emitters", format!("{} in all; --json lists them", inspection.emitters.len()));
     }
     line("openness", openness(inspection));
     let cost = &inspection.cost;

@@ -1,14 +1,16 @@
 //! `radiosity report`
-use super::{Failure, input, output::Output};
+use crate::failure::Failure;
+use crate::input;
+use crate::outputs::Output;
 use clap::Args;
-use radiosity::report::{Peers, Plan, report};
 use radiosity::{Scene, io, scenes};
+use radiosity_report::{Peers, Plan, report};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// `radiosity report`
 #[derive(Args, Debug)]
-pub(super) struct Report {
+pub(crate) struct Report {
     /// Scenes: the names of built-in ones, or files [default: all built-in ones, and what belongs to no scene: single
     /// points, axes of stress, solvers, Booleans]
     #[arg(value_name = "SCENE")]
@@ -25,7 +27,7 @@ pub(super) struct Report {
 }
 
 /// Measures every method on every scene; writes the page, the lines and the tables.
-pub(super) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
     let peers = arguments.peers.as_deref().map(peers).transpose()?;
     let plan = plan(arguments)?;
     let folder = &arguments.output;

@@ -1,10 +1,23 @@
 //! `radiosity scene`
-use super::{Failure, Scene, output};
+use crate::failure::Failure;
+use crate::outputs::print;
+use clap::Args;
 use radiosity::{io, scenes};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// `radiosity scene`
+#[derive(Args, Debug)]
+pub(crate) struct BuiltIn {
+    /// The scene's name
+    name: String,
+    /// Where to write it, as COLLADA [default: stdout]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
 /// Writes a built-in scene to a file, or to stdout.
-pub(super) fn run(arguments: &Scene) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &BuiltIn) -> Result<ExitCode, Failure> {
     let Some(text) = scenes::write_scene(&arguments.name) else {
         let known: Vec<_> = scenes::names().collect();
         let message = format!("no scene is named {}; there is: {}", arguments.name, known.join(", "));
@@ -12,7 +25,7 @@ pub(super) fn run(arguments: &Scene) -> Result<ExitCode, Failure> {
     };
     match &arguments.output {
         Some(path) => io::save(path, text.as_bytes())?,
-        None => output::print(&text)?,
+        None => print(&text)?,
     }
     Ok(ExitCode::SUCCESS)
 }

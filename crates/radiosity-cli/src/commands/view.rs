@@ -1,32 +1,35 @@
 //! `radiosity view`
-use super::{Failure, input, look::Look, output};
+use crate::failure::Failure;
+use crate::input;
+use crate::outputs::{Contents, Output};
+use crate::parse::positive;
+use crate::view_options::ViewOptions;
 use clap::Args;
-use output::{Findings, Output};
 use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity view`
 #[derive(Args, Debug)]
-pub(super) struct View {
+pub(crate) struct View {
     /// A solution that solve wrote as .json
     solution: PathBuf,
     /// Where to write the page [default: beside the solution, as .html]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The brightness to start with: intensity is 1 - exp(-K B) [default: chosen from the light]
-    #[arg(short = 'k', long, value_name = "K", value_parser = super::positive)]
+    #[arg(short = 'k', long, value_name = "K", value_parser = positive)]
     exposure: Option<f64>,
 }
 
 /// Writes one page that shows the solution in any browser, without network.
-pub(super) fn run(arguments: &View) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &View) -> Result<ExitCode, Failure> {
     let path = arguments.output.clone().unwrap_or_else(|| arguments.solution.with_extension("html"));
     if path.extension().is_none_or(|end| !end.eq_ignore_ascii_case("html")) {
         return Err(Failure::usage(format!("{}: a page is written; name it .html", path.display())));
     }
     let output = Output::new(&path)?;
     let record = input::solution(&arguments.solution)?;
-    let look = Look { exposure: arguments.exposure, width: 1, camera: None };
-    output.write(&Findings { look: &look, record: &record, source: None, figures: None })?;
+    let view = ViewOptions { exposure: arguments.exposure, width: 1, camera: None };
+    output.write(&Contents { view: &view, record: &record, source: None, figures: None })?;
     eprintln!("{}: open it in a browser", path.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -1,6 +1,6 @@
 //! Rows of form factors as text.
-use super::super::json;
-use super::{Entry, Row};
+use super::matrix::{Entry, Row};
+use crate::json;
 use radiosity::Scene;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -40,26 +40,26 @@ impl Table<'_> {
     /// A line for every factor that is not 0.
     pub(super) fn csv(&self) -> String {
         let header = ["from_number", "from", "to_number", "to", "form_factor", "error", "row_sum"];
-        let lines = self.rows.iter().flat_map(|row| {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut write = |row: &[String]| writer.write_record(row).expect("all rows have the header's length");
+        write(&header.map(Into::into));
+        for row in self.rows {
             let (sum, _) = row.sum();
-            let (number, name) = match row.from {
-                Some(patch) => ((patch + 1).to_string(), self.name(patch).to_owned()),
-                None => ("0".to_owned(), "point".to_owned()),
-            };
-            let seen = row.entries.iter().filter(|entry| entry.value != 0.0);
-            seen.map(move |entry| {
-                vec![
-                    number.clone(),
-                    name.clone(),
+            let (number, name) = row.from.map_or((0, "point"), |patch| (patch + 1, self.name(patch)));
+            for entry in row.entries.iter().filter(|entry| entry.value != 0.0) {
+                write(&[
+                    number.to_string(),
+                    name.to_owned(),
                     (entry.to + 1).to_string(),
                     self.name(entry.to).to_owned(),
                     entry.value.to_string(),
                     entry.error.to_string(),
                     sum.to_string(),
-                ]
-            })
-        });
-        radiosity::table(header.map(Into::into).into(), lines)
+                ]);
+            }
+        }
+        String::from_utf8(writer.into_inner().expect("memory takes what is written"))
+            .expect("names and numbers are UTF-8")
     }
 
     /// Of a point `{"rows": […], "sum"}`; of patches `{"tolerance", "rows": [{"from", "number", "area", "factors", "sum"}]}`.

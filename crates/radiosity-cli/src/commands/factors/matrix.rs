@@ -1,5 +1,5 @@
 //! Rows of form factors.
-use super::Failure;
+use crate::failure::Failure;
 use radiosity::Scene;
 use radiosity::formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;

@@ -2,18 +2,21 @@
 mod format;
 mod matrix;
 
-use super::{Failure, input, output};
+use crate::failure::Failure;
+use crate::input;
+use crate::outputs::print;
+use crate::parse::positive;
 use clap::{Args, ValueEnum};
 use format::Table;
-use matrix::{Entry, Row};
+use matrix::Row;
 use radiosity::formfactor::{DifferentialArea, Enclosure};
 use radiosity::glam::DVec3;
-use radiosity::{Error, Scene, io};
+use radiosity::{Scene, io};
 use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity factors`
 #[derive(Args, Debug)]
-pub(super) struct Factors {
+pub(crate) struct Factors {
     /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
     scene: PathBuf,
     /// From this point with this normal, in the file's units and axes
@@ -26,7 +29,7 @@ pub(super) struct Factors {
     #[arg(long, value_name = "PATCH", conflicts_with = "from")]
     row: Vec<String>,
     /// From area to area, each row to this absolute tolerance; else from the middle of each patch, exactly
-    #[arg(long, value_name = "TOLERANCE", value_parser = super::positive, conflicts_with = "from")]
+    #[arg(long, value_name = "TOLERANCE", value_parser = positive, conflicts_with = "from")]
     area: Option<f64>,
     /// How to print
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -53,7 +56,7 @@ enum Format {
 }
 
 /// Prints form factors: from a point, or from patches, to every patch.
-pub(super) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     let whole = arguments.row.is_empty() && arguments.from.is_none();
     if arguments.format == Format::View3d && !(whole && arguments.area.is_some()) {
         let message =
@@ -71,7 +74,7 @@ pub(super) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     };
     match &arguments.output {
         Some(path) => io::save(path, text.as_bytes())?,
-        None => output::print(&text)?,
+        None => print(&text)?,
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -83,11 +86,11 @@ fn rows(arguments: &Factors, scene: &Scene) -> Result<Vec<Row>, Failure> {
         let place = (DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
         let mut from = DifferentialArea::new(place.0, place.1).map_err(Failure::usage)?;
         if let Some(name) = &arguments.on {
-            from = from.owned_by(find(scene, name).map_err(Failure::usage)?);
+            from = from.owned_by(find(scene, name)?);
         }
         return Ok(vec![Row::of_point(&enclosure, &from)]);
     }
-    let named = arguments.row.iter().map(|name| find(scene, name).map_err(Failure::usage));
+    let named = arguments.row.iter().map(|name| find(scene, name));
     let named = named.collect::<Result<Vec<_>, _>>()?;
     match arguments.area {
         None => Ok(matrix::from_middles(scene, &enclosure, &named)),
@@ -96,11 +99,11 @@ fn rows(arguments: &Factors, scene: &Scene) -> Result<Vec<Row>, Failure> {
 }
 
 /// The index of the patch of that name.
-fn find(scene: &Scene, name: &str) -> Result<usize, Error> {
+fn find(scene: &Scene, name: &str) -> Result<usize, Failure> {
     scene.patches.iter().position(|patch| patch.name == name).ok_or_else(|| {
         let known: Vec<_> = scene.patches.iter().take(20).map(|patch| patch.name.as_str()).collect();
         let more = if scene.patches.len() > known.len() { ", …" } else { "" };
-        Error::NoSuchPatch { name: name.to_owned(), known: known.join(", ") + more }
+        Failure::usage(format!("no patch is named {name}; the scene has {}{more}", known.join(", ")))
     })
 }
 

@@ -1,5 +1,9 @@
-//! Work that lasts: Ctrl-C, snapshots, and the state that a run goes on from.
-use super::{Failure, progress::Bar, solve::Desk, steps::Steps};
+//! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
+use super::options::options;
+use super::progress::Bar;
+use super::solve_outputs::SolveOutputs;
+use super::steps::Steps;
+use crate::failure::Failure;
 use radiosity::{Progress, Solution, State, io};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -21,8 +25,8 @@ pub(super) fn resume(path: Option<&Path>) -> Result<State, Failure> {
 
 /// Follows a run: shows it, notes its steps, saves it, and stops it on Ctrl-C.
 #[derive(Debug)]
-pub(super) struct Follower<'d> {
-    desk: &'d Desk<'d>,
+pub(super) struct Follower<'o> {
+    outputs: &'o SolveOutputs<'o>,
     bar: Bar,
     steps: Steps,
     /// Where the state goes: beside the first output.
@@ -34,9 +38,9 @@ pub(super) struct Follower<'d> {
     failure: Option<Failure>,
 }
 
-impl<'d> Follower<'d> {
+impl<'o> Follower<'o> {
     /// Follows from now on; takes over Ctrl-C.
-    pub(super) fn new(desk: &'d Desk<'d>) -> Result<Follower<'d>, Failure> {
+    pub(super) fn new(outputs: &'o SolveOutputs<'o>) -> Result<Follower<'o>, Failure> {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&interrupted);
         let stop = move || {
@@ -48,10 +52,10 @@ impl<'d> Follower<'d> {
         ctrlc::set_handler(stop)
             .map_err(|error| Failure::internal(format!("Ctrl-C cannot be taken over: {error}")))?;
         Ok(Follower {
-            desk,
-            bar: Bar::new(super::solve::options(desk.arguments).tolerance),
-            steps: Steps::new(desk.arguments.steps.as_deref()),
-            state: desk.arguments.output.first().map(|path| {
+            outputs,
+            bar: Bar::new(options(outputs.arguments).tolerance),
+            steps: Steps::new(outputs.arguments.steps.as_deref()),
+            state: outputs.arguments.output.first().map(|path| {
                 let mut name = path.clone().into_os_string();
                 name.push(".state");
                 name.into()
@@ -67,9 +71,9 @@ impl<'d> Follower<'d> {
     pub(super) fn follow(&mut self, progress: &Progress<'_>) -> ControlFlow<()> {
         self.bar.show(progress);
         self.steps.note(progress);
-        let due = self.desk.arguments.snapshot_every;
+        let due = self.outputs.arguments.snapshot_every;
         if due.is_some_and(|seconds| self.saved.elapsed().as_secs_f64() >= seconds) {
-            let written = self.desk.write(&progress.solution()).and_then(|_| self.save(progress.state()));
+            let written = self.outputs.write(&progress.solution()).and_then(|_| self.save(progress.state()));
             self.failure = written.err();
             self.saved = Instant::now();
         }

@@ -1,164 +1,52 @@
 //! `radiosity solve`
-use super::{Failure, input, json, lasting, look::Look, output};
-use clap::{Args, ValueEnum};
-use lasting::Follower;
-use output::{Findings, Output};
-use radiosity::{Options, Record, Scene, Solution, io};
-use std::{path::PathBuf, process::ExitCode};
+//!
+//! ```text
+//! interrupt      Ctrl-C, snapshots, and the state that a run goes on from
+//! solve_outputs  every output of a solution
+//! progress       the bar on a terminal
+//! steps          bound and ledger of every step, as CSV
+//! options        what may be asked, and what the solver is asked
+//! ```
+mod interrupt;
+pub(crate) mod options;
+mod progress;
+mod solve_outputs;
+mod steps;
 
-/// `radiosity solve`
-#[derive(Args, Debug)]
-pub(super) struct Solve {
-    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
-    pub(super) scene: PathBuf,
-    /// Where to write the result, by extension: a picture (.png), a scene (.dae, .glb), a page (.html), all of it (.json),
-    /// a table of patches (.csv) or of elements (.elements.csv); may be given several times
-    #[arg(short, long, value_name = "FILE")]
-    pub(super) output: Vec<PathBuf>,
-    /// Print the result's figures on stdout as JSON
-    #[arg(long)]
-    pub(super) json: bool,
-    /// How much work the light is worth
-    #[arg(long, value_enum, default_value_t = Quality::Normal)]
-    pub(super) quality: Quality,
-    /// About how many elements to cut the scene into [default: by quality]
-    #[arg(long, value_name = "N", value_parser = super::count)]
-    pub(super) elements: Option<usize>,
-    /// How often to look where the light is not resolved and cut the scene anew; 0: equal elements [default: by quality]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=4))]
-    pub(super) passes: Option<u8>,
-    /// What tells where the light is not resolved
-    #[arg(long, value_enum, default_value_t = Norm::L2)]
-    pub(super) norm: Norm,
-    /// Of so many of the strongest lamps, lay element edges along the edges of shadows [default: by quality]
-    #[arg(long, value_name = "LAMPS")]
-    pub(super) shadows: Option<u8>,
-    /// How to find the light
-    #[arg(long, value_enum, default_value_t = Method::Auto)]
-    pub(super) method: Method,
-    /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness
-    /// [default: by quality]
-    #[arg(long, value_name = "SHARE", value_parser = super::positive)]
-    pub(super) tolerance: Option<f64>,
-    /// Split a shooter while it deviates from a uniform one by more than this share of all power [default: by quality]
-    #[arg(long, value_name = "SHARE", value_parser = super::positive)]
-    pub(super) spread: Option<f64>,
-    /// Take form factors from hemicubes of N × N cells instead of exact ones, to compare
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=4096))]
-    pub(super) hemicube: Option<u32>,
-    /// Stop after so many shots
-    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
-    pub(super) max_shots: usize,
-    /// Stop after so many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = super::positive)]
-    pub(super) time: Option<f64>,
-    /// Go on from the state that a stopped run of the same scene wrote
-    #[arg(long, value_name = "FILE")]
-    pub(super) resume: Option<PathBuf>,
-    /// Write the outputs as they stand so often, and the state beside the first of them
-    #[arg(long, value_name = "SECONDS", value_parser = super::positive, requires = "output")]
-    pub(super) snapshot_every: Option<f64>,
-    /// Write the bound and the ledger of every step as CSV
-    #[arg(long, value_name = "FILE")]
-    pub(super) steps: Option<PathBuf>,
-    #[command(flatten)]
-    pub(super) look: Look,
-}
-
-/// `--quality`
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Quality {
-    /// A first look: 1500 equal elements, a bound of 1 %
-    Draft,
-    /// For pictures: 6000 elements, half of them where the light changes most, a bound of 0.1 %
-    Normal,
-    /// For figures and close views: 20 000 elements, shadow edges along element edges, exact direct light at every
-    /// vertex, a bound of 0.1 %
-    High,
-}
-
-/// `--norm`
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Norm {
-    /// The largest difference between corners of an element
-    Gradient,
-    /// Power in the wrong place
-    L1,
-    /// Squared difference: what the eye sees
-    L2,
-    /// The worst place
-    Linf,
-}
-
-/// `--method`
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Method {
-    /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
-    Auto,
-    /// Progressive refinement: the piece with most light to shoot shoots it, again and again
-    Shoot,
-    /// The full matrix by Gaussian elimination: to check with, for some thousand elements
-    Matrix,
-    /// Conjugate gradients on symmetric exchange areas: for bright closed rooms
-    Cg,
-    /// GMRES on one-sided factors
-    Gmres,
-}
+use crate::failure::Failure;
+use crate::input;
+use crate::outputs::{Output, print};
+use interrupt::{Follower, resume};
+use options::{Solve, options};
+use radiosity::{Scene, Solution};
+use solve_outputs::SolveOutputs;
+use std::process::ExitCode;
 
 /// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
 ///
 /// Ctrl-C stops the run: what was found so far is written, and the state. A second Ctrl-C ends the program at once.
-pub(super) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("no result is asked for; give -o FILE, or --json"));
     }
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
     warn_of_darkness(&scene);
-    let mut state = lasting::resume(arguments.resume.as_deref())?;
-    let desk = Desk { arguments, outputs: &outputs, source: &source, scene: &scene };
-    let mut follower = Follower::new(&desk)?;
+    let mut state = resume(arguments.resume.as_deref())?;
+    let writer = SolveOutputs { arguments, outputs: &outputs, source: &source, scene: &scene };
+    let mut follower = Follower::new(&writer)?;
     let solution =
         radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
-    let figures = desk.write(&solution)?;
+    let figures = writer.write(&solution)?;
     ended?;
     if arguments.json {
-        output::print(&figures)?;
+        print(&figures)?;
     }
     report(&solution);
     Ok(follower.code(&solution))
-}
-
-/// What results are written with.
-#[derive(Debug)]
-pub(super) struct Desk<'s> {
-    pub(super) arguments: &'s Solve,
-    outputs: &'s [Output],
-    source: &'s io::Source,
-    scene: &'s Scene,
-}
-
-impl Desk<'_> {
-    /// Writes every output; gives the figures.
-    pub(super) fn write(&self, solution: &Solution) -> Result<String, Failure> {
-        let &Desk { arguments, outputs, source, scene } = self;
-        let name = arguments.scene.display().to_string();
-        let figures = json::Figures::new(&name, scene, solution);
-        if !outputs.is_empty() {
-            let (look, record) = (&arguments.look, &Record::new(&name, scene, solution));
-            let findings = Findings { look, record, source: Some((source, scene)), figures: Some(&figures) };
-            // A picture of a stopped run shows what is unshot as if it had spread evenly.
-            let shown = Record::new(&name, scene, &solution.with_ambient());
-            let picture = Findings { record: if solution.converged { record } else { &shown }, ..findings };
-            let write =
-                |output: &Output| output.write(if output.is_picture() { &picture } else { &findings });
-            outputs.iter().try_for_each(write)?;
-        }
-        Ok(json::line(&figures))
-    }
 }
 
 /// One line for people.
@@ -166,42 +54,6 @@ fn report(solution: &Solution) {
     let (elements, seconds) = (solution.mesh.elements.len(), solution.seconds);
     let (shots, products) = (solution.shots, solution.products);
     eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s");
-}
-
-/// How the solver is asked.
-pub(super) fn options(arguments: &Solve) -> Options {
-    let by_quality = match arguments.quality {
-        Quality::Draft => radiosity::Quality::Draft,
-        Quality::Normal => radiosity::Quality::Normal,
-        Quality::High => radiosity::Quality::High,
-    };
-    let method = match arguments.method {
-        Method::Auto => radiosity::Method::Auto,
-        Method::Shoot => radiosity::Method::Shoot,
-        Method::Matrix => radiosity::Method::Matrix,
-        Method::Cg => radiosity::Method::Cg,
-        Method::Gmres => radiosity::Method::Gmres,
-    };
-    let norm = match arguments.norm {
-        Norm::Gradient => radiosity::Norm::Gradient,
-        Norm::L1 => radiosity::Norm::L1,
-        Norm::L2 => radiosity::Norm::L2,
-        Norm::Linf => radiosity::Norm::LInfinity,
-    };
-    let given = by_quality.options();
-    Options {
-        method,
-        norm,
-        elements: arguments.elements.unwrap_or(given.elements),
-        passes: arguments.passes.map_or(given.passes, usize::from),
-        shadows: arguments.shadows.map_or(given.shadows, usize::from),
-        tolerance: arguments.tolerance.unwrap_or(given.tolerance),
-        spread: arguments.spread.unwrap_or(given.spread),
-        hemicube: arguments.hemicube,
-        gather: given.gather,
-        max_shots: arguments.max_shots,
-        max_seconds: arguments.time,
-    }
 }
 
 /// A scene without light is solved: it is dark. Most likely it was not meant.

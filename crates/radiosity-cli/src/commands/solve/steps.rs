@@ -1,5 +1,5 @@
 //! Bound and ledger of every step, as CSV.
-use super::Failure;
+use crate::failure::Failure;
 use radiosity::{Progress, io};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
