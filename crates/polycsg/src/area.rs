@@ -1,7 +1,7 @@
 //! The shoelace sum in double-double arithmetic.
 
-use crate::double::Double;
 use crate::predicates::{Segment, exact_area};
+use exactfloat::DoubleDouble;
 use glam::DVec2;
 
 /// The area that closed walks of directed edges enclose, counter-clockwise positive.
@@ -16,16 +16,16 @@ where
     let size = walks.clone().flatten().flatten().map(DVec2::abs).fold(DVec2::ZERO, DVec2::max);
     let exponents = [exponent(size.x), exponent(size.y)];
     let scale = DVec2::new(power(-exponents[0]), power(-exponents[1]));
-    let (mut sum, mut terms) = (Double::default(), 0.0);
+    let (mut sum, mut terms) = (DoubleDouble::ZERO, 0.0);
     for walk in walks.clone() {
         let Some([origin, _]) = walk.clone().next() else { continue };
         let origin = origin * scale;
         let from_origin =
-            |p: DVec2| (Double::sum(p.x * scale.x, -origin.x), Double::sum(p.y * scale.y, -origin.y));
+            |p: DVec2| [0, 1].map(|axis| DoubleDouble::difference(p[axis] * scale[axis], origin[axis]));
         for [a, b] in walk {
-            let ((ax, ay), (bx, by)) = (from_origin(a), from_origin(b));
-            let (l, r) = (ax.times(by), ay.times(bx));
-            sum = sum.plus(l).minus(r);
+            let ([ax, ay], [bx, by]) = (from_origin(a), from_origin(b));
+            let (l, r) = (ax * by, ay * bx);
+            sum = sum + l - r;
             terms += l.hi.abs() + r.hi.abs();
         }
     }
@@ -34,7 +34,7 @@ where
     }
     // In two steps, either of which may only leave the range if the result does.
     let shift = exponents[0] + exponents[1] - 1;
-    (sum.hi + sum.lo) * power(shift / 2) * power(shift - shift / 2)
+    sum.round() * power(shift / 2) * power(shift - shift / 2)
 }
 
 /// `2^-42`: down to there an error of `1e-29` of the terms is below half an ulp of the sum.

@@ -91,7 +91,6 @@ mod classify;
 mod contacts;
 mod copies;
 mod csg;
-mod double;
 mod edges;
 mod error;
 #[cfg(fuzzing)]

@@ -13,10 +13,10 @@
 //! | [`Margins`] | do two edges cross, or not meet, whatever rounding does | 2 |
 //! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
 
+mod area;
 mod clear;
 #[cfg(any(test, fuzzing))]
 mod configurations;
-mod exact;
 mod fixed;
 #[cfg(any(test, fuzzing))]
 mod laws;
@@ -29,8 +29,9 @@ mod tests;
 #[cfg(test)]
 mod whole_range;
 
+pub(crate) use area::exact_area;
 pub(crate) use clear::{Clear, Margins};
-pub(crate) use exact::{Ratio, exact_area};
+pub(crate) use exactfloat::Ratio;
 pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
 };

@@ -2,8 +2,8 @@
 
 use super::orient::{Side, UNIT, side};
 use super::round::{crossing_point, crossing_ratio};
-use super::{Ratio, Segment, exact::integers, fixed, turn};
-use dashu_int::IBig;
+use super::{Segment, fixed, turn};
+use exactfloat::{Integer, Ratio, integers};
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -25,11 +25,10 @@ pub(crate) fn crossing_order(e: Segment, f: Segment, g: Segment) -> Ordering {
     if let Some(order) = fixed::crossing_order(e, f, g) {
         return order;
     }
-    let [ax, ay, bx, by, fax, fay, fbx, fby, gax, gay, gbx, gby] = integers([
-        e[0].x, e[0].y, e[1].x, e[1].y, f[0].x, f[0].y, f[1].x, f[1].y, g[0].x, g[0].y, g[1].x, g[1].y,
-    ]);
-    let distance = |x: &IBig, y: &IBig, p: [&IBig; 4]| {
-        IBig::from(((p[0] - x) * (p[3] - y) - (p[1] - y) * (p[2] - x)).into_parts().1)
+    let [[ax, ay], [bx, by], [fax, fay], [fbx, fby], [gax, gay], [gbx, gby]] =
+        integers([e[0], e[1], f[0], f[1], g[0], g[1]].map(|p| p.to_array()));
+    let distance = |x: &Integer, y: &Integer, p: [&Integer; 4]| {
+        Integer::from(((p[0] - x) * (p[3] - y) - (p[1] - y) * (p[2] - x)).into_parts().1)
     };
     let (f, g) = ([&fax, &fay, &fbx, &fby], [&gax, &gay, &gbx, &gby]);
     let (nf, mf) = (distance(&ax, &ay, f), distance(&bx, &by, f));
@@ -51,7 +50,8 @@ pub(crate) fn height_order(e: Segment, f: Segment, x: f64) -> Ordering {
     }
     let exactly = || {
         let at = Ratio::from_f64(x);
-        at.ordinate_on(e).compare(&at.ordinate_on(f))
+        let ordinate_on = |s: Segment| at.ordinate_on(s.map(|p| p.to_array()));
+        ordinate_on(e).compare(&ordinate_on(f))
     };
     let both_start = (e[0].x == x && f[0].x == x).then(|| lexicographic(e[0], f[0]));
     let at_x = both_start.unwrap_or_else(|| fixed::height_order(e, f, x).unwrap_or_else(exactly));

@@ -1,7 +1,7 @@
 //! Orientation signs: which side of a line, which turn between two directions.
 
-use super::{Segment, exact::integers, fixed};
-use dashu_int::{IBig, Sign};
+use super::{Segment, fixed};
+use exactfloat::{integers, orient2d, sign};
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -120,14 +120,7 @@ fn side_exact(a: DVec2, b: DVec2, c: DVec2) -> Side {
     if let Some(side) = by_signs {
         return side;
     }
-    let coordinates = [a.x, a.y, b.x, b.y, c.x, c.y];
-    if coordinates.iter().all(|&x| in_expansion_window(x)) {
-        let coordinate = |p: DVec2| robust::Coord { x: p.x, y: p.y };
-        let area = robust::orient2d(coordinate(a), coordinate(b), coordinate(c));
-        return Side::from(compare(area, 0.0));
-    }
-    let [ax, ay, bx, by, cx, cy] = integers(coordinates);
-    side_of_integer((ax - &cx) * (by - &cy) - (ay - cy) * (bx - cx))
+    Side::from(compare(orient2d(a.to_array(), b.to_array(), c.to_array()), 0.0))
 }
 
 #[cold]
@@ -139,26 +132,8 @@ fn turn_exact(e: Segment, g: Segment) -> Side {
         compare(g[1].x, g[0].x),
     );
     by_signs.or_else(|| fixed::turn(e, g)).unwrap_or_else(|| {
-        let [ax, ay, bx, by, cx, cy, dx, dy] =
-            integers([e[0].x, e[0].y, e[1].x, e[1].y, g[0].x, g[0].y, g[1].x, g[1].y]);
-        side_of_integer((bx - ax) * (dy - cy) - (by - ay) * (dx - cx))
+        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] =
+            integers([e[0], e[1], g[0], g[1]].map(|p| p.to_array()));
+        Side::from(sign(&((bx - ax) * (dy - cy) - (by - ay) * (dx - cx))))
     })
-}
-
-/// Where Shewchuk's expansions of degree 2 neither overflow nor lose bits: the lowest set bit of a coordinate
-/// is then at least 2^-533, so that of a product at least 2^-1066, and products stay below 2^1004.
-fn in_expansion_window(x: f64) -> bool {
-    const LOW: f64 = f64::from_bits((1023 - 480) << 52);
-    const HIGH: f64 = f64::from_bits((1023 + 500) << 52);
-    x == 0.0 || (LOW..=HIGH).contains(&x.abs())
-}
-
-pub(super) fn side_of_integer(determinant: IBig) -> Side {
-    if determinant.is_zero() {
-        Side::On
-    } else if determinant.sign() == Sign::Positive {
-        Side::Left
-    } else {
-        Side::Right
-    }
 }

@@ -1,8 +1,7 @@
 //! The crossing of two edges, each coordinate rounded once to the nearest double.
 
 use super::Segment;
-use super::exact::{Ratio, scaled_integers};
-use crate::double::Double;
+use exactfloat::{DoubleDouble, Ratio, scaled_integers};
 use glam::DVec2;
 
 /// The crossing of two edges that cross properly, both coordinates correctly rounded (ties to even).
@@ -18,8 +17,8 @@ pub(crate) fn crossing_point(e: Segment, f: Segment) -> DVec2 {
 /// The exact crossing of two edges that cross properly.
 #[cold]
 pub(crate) fn crossing_ratio(e: Segment, f: Segment) -> [Ratio; 2] {
-    let ([ax, ay, bx, by, cx, cy, dx, dy], scale) =
-        scaled_integers([e[0].x, e[0].y, e[1].x, e[1].y, f[0].x, f[0].y, f[1].x, f[1].y]);
+    let ([[ax, ay], [bx, by], [cx, cy], [dx, dy]], scale) =
+        scaled_integers([e[0], e[1], f[0], f[1]].map(|p| p.to_array()));
     let n = (&cx - &ax) * (&dy - &ay) - (&cy - &ay) * (&dx - &ax);
     let m = (&cx - &bx) * (&dy - &by) - (&cy - &by) * (&dx - &bx);
     let w = &n - m;
@@ -48,9 +47,9 @@ fn in_window(p: DVec2) -> bool {
 /// ulps of its own.
 #[inline]
 fn area(f: Segment, p: DVec2) -> (f64, f64) {
-    let (ux, uy) = (Double::sum(f[0].x, -p.x), Double::sum(f[0].y, -p.y));
-    let (vx, vy) = (Double::sum(f[1].x, -p.x), Double::sum(f[1].y, -p.y));
-    let (l, r) = (Double::product(ux.hi, vy.hi), Double::product(uy.hi, vx.hi));
+    let (ux, uy) = (DoubleDouble::difference(f[0].x, p.x), DoubleDouble::difference(f[0].y, p.y));
+    let (vx, vy) = (DoubleDouble::difference(f[1].x, p.x), DoubleDouble::difference(f[1].y, p.y));
+    let (l, r) = (DoubleDouble::product(ux.hi, vy.hi), DoubleDouble::product(uy.hi, vx.hi));
     let tails = (ux.hi * vy.lo + ux.lo * vy.hi) - (uy.hi * vx.lo + uy.lo * vx.hi);
     ((l.hi - r.hi) + ((l.lo - r.lo) + tails), l.hi.abs() + r.hi.abs())
 }
@@ -83,7 +82,7 @@ pub(super) fn crossing_by_residuals(e: Segment, f: Segment) -> Option<DVec2> {
             let (forth, back) = (of_f * u, of_e * v);
             let error =
                 RELATIVE * (size_f * u.abs() + size_e * v.abs()) + COARSE * loss * (forth.abs() + back.abs());
-            let at = Double::sum(at, (forth - back) / det);
+            let at = DoubleDouble::sum(at, (forth - back) / det);
             let error = 2.0 * (error / det.abs());
             let is_proven = at.hi + (at.lo + error) == at.hi && at.hi + (at.lo - error) == at.hi;
             known.map_or((at.hi, is_proven), |known| (known, true))

@@ -150,7 +150,7 @@ impl Rounded<'_> {
 
     /// The point of an edge at a vertex's abscissa, rounded.
     fn cut_point(&self, edge: u32, vertex: u32) -> DVec2 {
-        let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(edge));
+        let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(edge).map(|p| p.to_array()));
         DVec2::new(self.abscissa(vertex).rounded, y.to_f64())
     }
 

@@ -1,66 +1,20 @@
-//! Exact integers and ratios: the last resort of every predicate.
+//! Rational numbers on a scale of their own.
 
+use crate::integers::scaled_integers;
 use dashu_int::{IBig, Sign, UBig, ops::BitTest};
 use std::cmp::Ordering;
 
-/// Sign, odd mantissa and exponent of a finite `f64`: `x = ± mantissa · 2^exponent`; zero has no exponent.
-pub(super) fn decode(x: f64) -> (Sign, u64, Option<i32>) {
-    let bits = x.to_bits();
-    let sign = if bits >> 63 == 0 { Sign::Positive } else { Sign::Negative };
-    let biased = i32::from((bits >> 52) as u16 & 0x7ff);
-    let fraction = bits & ((1 << 52) - 1);
-    let (mantissa, exponent) =
-        if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
-    if mantissa == 0 {
-        return (sign, 0, None);
-    }
-    let zeros = mantissa.trailing_zeros();
-    (sign, mantissa >> zeros, Some(exponent + zeros as i32))
-}
-
-/// The exponent of the lowest set bit of any of the coordinates.
-fn lowest_exponent(coordinates: &[f64]) -> i32 {
-    coordinates.iter().filter_map(|&x| decode(x).2).min().unwrap_or(0)
-}
-
-/// The coordinates as integers: all multiplied by one power of two.
-pub(super) fn integers<const N: usize>(coordinates: [f64; N]) -> [IBig; N] {
-    scaled_integers(coordinates).0
-}
-
-/// The coordinates as integers, and the exponent `s` such that `coordinate = integer · 2^s`.
-pub(super) fn scaled_integers<const N: usize>(coordinates: [f64; N]) -> ([IBig; N], i32) {
-    let lowest = lowest_exponent(&coordinates);
-    (coordinates.map(|x| multiple(x, lowest)), lowest)
-}
-
-/// A number as a multiple of a power of two that is not above its lowest set bit.
-fn multiple(x: f64, lowest: i32) -> IBig {
-    let (sign, mantissa, exponent) = decode(x);
-    let shift = exponent.map_or(0, |e| (e - lowest).unsigned_abs() as usize);
-    IBig::from_parts(sign, UBig::from(mantissa)) << shift
-}
-
-/// The area that closed walks of directed edges enclose, correctly rounded; infinite beyond the range.
-#[cold]
-pub(crate) fn exact_area(edges: impl Iterator<Item = super::Segment> + Clone) -> f64 {
-    let exponents = edges.clone().flatten().map(|p| lowest_exponent(&[p.x, p.y]));
-    let lowest = exponents.min().unwrap_or(0);
-    let cross = |[a, b]: super::Segment| {
-        let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(|x| multiple(x, lowest));
-        ax * by - ay * bx
-    };
-    let doubled = edges.map(cross).fold(IBig::ZERO, |sum, term| sum + term);
-    let exponent = 2 * lowest - 1;
-    if i64::from(exponent) + doubled.bit_len() as i64 > 1024 {
-        return if doubled.sign() == Sign::Positive { f64::INFINITY } else { f64::NEG_INFINITY };
-    }
-    Ratio::new(doubled, IBig::ONE, exponent).to_f64()
-}
-
-/// The rational number `numerator / denominator · 2^exponent` with a positive denominator.
+/// The rational number `numerator / denominator · 2^exponent` with a positive denominator; not reduced.
+///
+/// ```
+/// use exactfloat::{Integer, Ratio};
+/// let third = Ratio::new(Integer::from(1), Integer::from(3), 0);
+/// assert_eq!(third.to_f64(), 1.0 / 3.0);
+/// assert!(third.compare(&Ratio::from_f64(1.0 / 3.0)).is_gt()); // the double lies below
+/// ```
 #[derive(Clone, Debug)]
-pub(crate) struct Ratio {
+#[must_use]
+pub struct Ratio {
     numerator: IBig,
     denominator: UBig,
     exponent: i32,
@@ -68,7 +22,7 @@ pub(crate) struct Ratio {
 
 impl Ratio {
     /// `numerator / denominator · 2^exponent`; the denominator is not zero.
-    pub(super) fn new(numerator: IBig, denominator: IBig, exponent: i32) -> Ratio {
+    pub fn new(numerator: IBig, denominator: IBig, exponent: i32) -> Ratio {
         let (sign, denominator) = denominator.into_parts();
         Ratio {
             numerator: if sign == Sign::Negative { -numerator } else { numerator },
@@ -78,14 +32,14 @@ impl Ratio {
     }
 
     /// The number that a finite `f64` stands for.
-    pub(crate) fn from_f64(x: f64) -> Ratio {
-        let ([numerator], exponent) = scaled_integers([x]);
+    pub fn from_f64(x: f64) -> Ratio {
+        let ([[numerator]], exponent) = scaled_integers([[x]]);
         Ratio { numerator, denominator: UBig::ONE, exponent }
     }
 
-    /// `self + factor · (to - from)` on one line: the ordinate at the abscissa `self` of the line through two points.
-    pub(crate) fn ordinate_on(&self, line: super::Segment) -> Ratio {
-        let ([ax, ay, bx, by], s) = scaled_integers([line[0].x, line[0].y, line[1].x, line[1].y]);
+    /// The ordinate at the abscissa `self` of the line through two points of different abscissae.
+    pub fn ordinate_on(&self, line: [[f64; 2]; 2]) -> Ratio {
+        let ([[ax, ay], [bx, by]], s) = scaled_integers(line);
         let (dx, dy) = (bx - &ax, by - &ay);
         // All on the scale 2^t that is fine enough for the line and for this abscissa.
         let t = s.min(self.exponent);
@@ -95,7 +49,9 @@ impl Ratio {
         Ratio::new(up(ay, s) * &d * &dx + run * dy, d * dx, t)
     }
 
-    pub(crate) fn compare(&self, other: &Ratio) -> Ordering {
+    /// The order of two numbers.
+    #[must_use]
+    pub fn compare(&self, other: &Ratio) -> Ordering {
         let t = self.exponent.min(other.exponent);
         let up = |r: &Ratio| r.numerator.clone() << (r.exponent - t).unsigned_abs() as usize;
         let (l, r) = (
@@ -105,8 +61,9 @@ impl Ratio {
         l.cmp(&r)
     }
 
-    /// The nearest `f64`, ties to even. The number must not lie beyond the largest finite one.
-    pub(crate) fn to_f64(&self) -> f64 {
+    /// The nearest `f64`, ties to even; 0.0 for what rounds to zero. The number must not lie beyond the largest finite one.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
         let (sign, numerator) = self.numerator.clone().into_parts();
         if numerator.is_zero() {
             return 0.0;
@@ -150,4 +107,42 @@ fn binary(mantissa: u64, exponent: i64) -> f64 {
     let m = mantissa as f64;
     // Two factors: 2^-1074 is subnormal, and a partial product is exact because the final one is.
     if exponent < -1022 { m * power(-1022) * power(exponent + 1022) } else { m * power(exponent) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use num_traits::{Signed, ToPrimitive};
+    use proptest::prelude::*;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).expect("finite")
+    }
+
+    proptest! {
+        #[test]
+        fn ratios_round_to_nearest_even(n in any::<i64>(), d in 1i64.., s in -1100i32..900) {
+            let ratio = Ratio::new(n.into(), d.into(), s);
+            let value = BigRational::new(n.into(), d.into()) * BigRational::from_integer(2.into()).pow(s);
+            let rounded = ratio.to_f64();
+            let off = |v: f64| (exact(v) - &value).abs();
+            for neighbour in [rounded.next_up(), rounded.next_down()] {
+                match off(rounded).cmp(&off(neighbour)) {
+                    Ordering::Less => {}
+                    Ordering::Equal => prop_assert_eq!(rounded.to_bits() & 1, 0),
+                    Ordering::Greater => prop_assert!(false, "{rounded} is not nearest to {:?}", value.to_f64()),
+                }
+            }
+        }
+
+        #[test]
+        fn ordinates_and_orders_are_those_of_rationals(line in prop::array::uniform2(prop::array::uniform2(-1e3..1e3f64)), x in -1e3..1e3f64, y in -1e3..1e3f64) {
+            let [[ax, ay], [bx, by]] = line.map(|point| point.map(exact));
+            prop_assume!(ax != bx);
+            let ordinate = &ay + (exact(x) - &ax) / (bx - &ax) * (by - &ay);
+            let found = Ratio::from_f64(x).ordinate_on(line);
+            prop_assert_eq!(found.compare(&Ratio::from_f64(y)), ordinate.cmp(&exact(y)));
+        }
+    }
 }
