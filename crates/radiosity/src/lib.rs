@@ -41,6 +41,7 @@ pub mod io;
 mod mesh;
 pub mod picture;
 mod plane;
+mod predicates;
 mod record;
 mod repair;
 mod scene;

@@ -1,5 +1,6 @@
 //! The chapters of points, of stability, of solvers and of Booleans.
-use super::plot::{Curve, Plot, Point, escape};
+use super::escape::escape;
+use super::plot::{Curve, Plot, Point};
 use super::style::style;
 use super::table::{error, seconds};
 use super::work_precision::{against_time, every, largest, time_to_error};

@@ -1,5 +1,5 @@
 //! The chapter of scenes: error against time, pictures, and the time to an error.
-use super::plot::escape;
+use super::escape::escape;
 use super::table::{error, percent, seconds};
 use super::work_precision::{against_time, every, largest, mean, time_to_error};
 use crate::analysis::{Verdict, lines, subjects, verdict};

@@ -10,6 +10,7 @@ mod axis;
 mod chapter_axes;
 mod chapter_scenes;
 pub(crate) mod chapter_tables;
+mod escape;
 pub(crate) mod peers;
 mod plot;
 mod style;
@@ -20,8 +21,8 @@ use crate::analysis::{lines, subjects, verdict};
 use crate::machine::Machine;
 use crate::results::Report;
 use crate::rows::Chapter;
+use escape::escape;
 use peers::Peers;
-use plot::escape;
 use table::{Table, error, seconds};
 
 /// Of the exact method's error on points, and of the errors that others must not reach in its time.

@@ -1,5 +1,6 @@
 //! Log-log plots as SVG: lines with markers, ticks at decades, a legend beside the plot.
 use super::axis::{Axis, power};
+use super::escape::escape;
 use std::fmt::Write;
 
 /// A plot.
@@ -151,11 +152,6 @@ fn marker(style: usize, x: f64, y: f64, hint: &str) -> String {
     let class = if filled { "mark full" } else { "mark" };
     let hint = if hint.is_empty() { String::new() } else { format!("<title>{}</title>", escape(hint)) };
     format!("<path class=\"{class}\" d=\"M{x:.1} {y:.1}{shape}\">{hint}</path>")
-}
-
-/// Text for XML and HTML.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

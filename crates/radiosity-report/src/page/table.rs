@@ -1,5 +1,5 @@
 //! Tables, as Markdown and as HTML, and how numbers are written in them.
-use super::plot::escape;
+use super::escape::escape;
 
 /// A header and rows of the same length.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,10 +8,10 @@ use crate::scene::finding::{Finding, Kind};
 use crate::scene::patch::Patch;
 use std::collections::{HashMap, HashSet};
 
-type Edge = [[u64; 3]; 2];
+type EdgeKey = [[u64; 3]; 2];
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
-    let mut sides: HashMap<Edge, Vec<(usize, bool)>> = HashMap::new();
+    let mut sides: HashMap<EdgeKey, Vec<(usize, bool)>> = HashMap::new();
     let mut known = HashSet::new();
     for (index, patch) in scene.patches.iter().enumerate() {
         let edges = edges(patch);
@@ -37,10 +37,10 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 }
 
 /// The directed edges of a patch, sorted.
-fn edges(patch: &Patch) -> Vec<Edge> {
+fn edges(patch: &Patch) -> Vec<EdgeKey> {
     let loops = patch.polygon.loops();
     let pairs = loops.flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)));
-    let mut edges: Vec<Edge> =
+    let mut edges: Vec<EdgeKey> =
         pairs.map(|(a, b)| [a, b].map(|p| p.to_array().map(|number| (number + 0.0).to_bits()))).collect();
     edges.sort_unstable();
     edges

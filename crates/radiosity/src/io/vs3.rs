@@ -47,7 +47,8 @@ impl Vs3 {
         let mut scene = Scene { bands: 1, warnings, ..Scene::default() };
         scene.asset.up = DVec3::Z;
         let mut taken = HashSet::new();
-        for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.kind != Kind::Hole)
+        for (index, surface) in
+            surfaces.iter().enumerate().filter(|(_, surface)| surface.kind != RowKind::Hole)
         {
             let holes: Vec<&Row> = surfaces.iter().filter(|part| part.base == index + 1).collect();
             let polygons = shape(surface, &holes, &vertices)
@@ -58,7 +59,7 @@ impl Vs3 {
                     name.push('\'');
                 }
                 let mut patch = Patch::new(name, polygon, vec![1.0 - surface.emittance], vec![0.0]);
-                patch.only_blocks = surface.kind == Kind::Obstruction;
+                patch.only_blocks = surface.kind == RowKind::Obstruction;
                 patch.origin = Origin { polygon: index, ..Origin::default() };
                 scene.patches.push(patch);
             }
@@ -74,7 +75,7 @@ impl Vs3 {
 /// A surface's line.
 struct Row {
     line: usize,
-    kind: Kind,
+    kind: RowKind,
     corners: Vec<usize>,
     /// Number of the surface that it is cut out of; 0 for none.
     base: usize,
@@ -83,7 +84,7 @@ struct Row {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum RowKind {
     Surface,
     Obstruction,
     Hole,
@@ -116,10 +117,12 @@ fn parse(lines: Vec<(usize, Vec<&str>)>) -> Result<Parsed, Wrong> {
                 fields.numbered(vertices.len() + 1)?;
                 vertices.push(DVec3::new(fields.number(2)?, fields.number(3)?, fields.number(4)?));
             }
-            Some('S') => surfaces.push(fields.surface(surfaces.len() + 1, Kind::Surface, &mut warnings)?),
-            Some('N') => surfaces.push(fields.surface(surfaces.len() + 1, Kind::Hole, &mut warnings)?),
+            Some('S') => {
+                surfaces.push(fields.surface(surfaces.len() + 1, RowKind::Surface, &mut warnings)?)
+            }
+            Some('N') => surfaces.push(fields.surface(surfaces.len() + 1, RowKind::Hole, &mut warnings)?),
             Some('O') => {
-                surfaces.push(fields.surface(surfaces.len() + 1, Kind::Obstruction, &mut warnings)?)
+                surfaces.push(fields.surface(surfaces.len() + 1, RowKind::Obstruction, &mut warnings)?)
             }
             Some('F') if words.get(1) != Some(&"3") => {
                 let found = words.get(1).copied().unwrap_or_default().into();
@@ -186,14 +189,14 @@ impl Fields<'_> {
     }
 
     /// `n v1 v2 v3 v4 base cmb emit name`; an obstruction ends behind its vertices.
-    fn surface(&self, number: usize, kind: Kind, warnings: &mut Vec<Finding>) -> Result<Row, Wrong> {
+    fn surface(&self, number: usize, kind: RowKind, warnings: &mut Vec<Finding>) -> Result<Row, Wrong> {
         self.numbered(number)?;
         let corners = [self.whole(2)?, self.whole(3)?, self.whole(4)?, self.whole(5)?];
         let mut corners = corners.to_vec();
         if corners[3] == 0 {
             corners.pop();
         }
-        if kind == Kind::Obstruction {
+        if kind == RowKind::Obstruction {
             let name =
                 self.words.get(6).map_or_else(|| format!("obstruction-{number}"), |name| (*name).into());
             return Ok(Row { line: self.line, kind, corners, base: 0, emittance: 1.0, name });

@@ -94,9 +94,9 @@ impl<'r> Run<'r> {
         }
     }
 
-    /// Weighs what the pieces have yet to shoot; tells whether light and bound are within the tolerance.
-    pub(super) fn weigh(&mut self) -> bool {
-        self.unshot = self.shooters.weigh(&self.light);
+    /// Measures what the pieces have yet to shoot; tells whether light and bound are within the tolerance.
+    pub(super) fn measure(&mut self) -> bool {
+        self.unshot = self.shooters.measure(&self.light);
         self.bound = bound(&self.light, &self.shooters, &self.gaps);
         self.ledger = Ledger::new(&self.light, &self.shooters);
         let brightness = self.light.brightness();

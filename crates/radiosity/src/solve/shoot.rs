@@ -9,7 +9,7 @@ use crate::error::Error;
 /// in two, which inherit what it has shot; their next shots, of either sign, correct what the coarser piece had got wrong.
 pub(super) fn shoot(run: &mut Run<'_>) -> Result<bool, Error> {
     loop {
-        if run.weigh() {
+        if run.measure() {
             return Ok(true);
         }
         if run.report().is_break() || run.shooters.shots >= run.options.max_shots {

@@ -1,4 +1,4 @@
-//! Work that lasts: the form factors found so far, so that a run that was stopped can be gone on with.
+//! The form factors found so far: a run that was stopped resumes from them.
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
 use thiserror::Error;

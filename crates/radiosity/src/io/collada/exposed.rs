@@ -1,5 +1,5 @@
 //! Radiosity at the vertices turned to colours that a screen can show.
-use super::file::{File, Node, children, descend};
+use super::file::{File, XmlNode, children, descend};
 use super::primitive::surfaces;
 use super::xml::{decimal, list};
 use crate::expose::Exposure;
@@ -7,8 +7,8 @@ use crate::io::error::{Fault, FileError};
 use std::collections::BTreeMap;
 
 /// A colour source's numbers: their element, how many a row has, and themselves.
-struct Light<'a> {
-    array: Node<'a>,
+struct ColourSource<'a> {
+    array: XmlNode<'a>,
     stride: usize,
     numbers: Vec<f64>,
 }
@@ -46,7 +46,7 @@ pub(super) fn exposed<'a>(
 }
 
 /// The colour sources that surfaces use, by where they stand in the text.
-fn sources<'a>(file: &File<'a>) -> Result<BTreeMap<usize, Light<'a>>, FileError> {
+fn sources<'a>(file: &File<'a>) -> Result<BTreeMap<usize, ColourSource<'a>>, FileError> {
     let mut all = BTreeMap::new();
     let libraries = children(file.root, "library_geometries");
     let geometries = libraries.flat_map(|library| children(library, "geometry"));
@@ -66,7 +66,7 @@ fn sources<'a>(file: &File<'a>) -> Result<BTreeMap<usize, Light<'a>>, FileError>
             let wanted = numbers.len().next_multiple_of(stride);
             return Err(file.fault(array, Fault::Count { found: numbers.len(), wanted }));
         }
-        all.insert(array.range().start, Light { array, stride, numbers });
+        all.insert(array.range().start, ColourSource { array, stride, numbers });
     }
     Ok(all)
 }

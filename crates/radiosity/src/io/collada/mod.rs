@@ -80,11 +80,11 @@ impl Collada {
     /// [`FileError::Xml`] and [`FileError::Scene`], with the line.
     pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
-            let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
+            let walk::Walk { instances, camera_instances, mut warnings } = walk::walk(file)?;
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
             let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
-            let cameras = camera::cameras(file, &sights, &mut warnings)?;
+            let cameras = camera::cameras(file, &camera_instances, &mut warnings)?;
             let (bands, wavelengths) = spectra::bands(file, &patches)?;
             Ok(Scene { patches, cameras, bands, wavelengths, warnings, asset: asset(file)? })
         })
@@ -99,7 +99,7 @@ impl Collada {
     /// # Errors
     /// As [`Collada::scene`].
     pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
-        self.with_file(|file| write::with_light(&self.text, file, &write::Light { scene, mesh, colours }))
+        self.with_file(|file| write::with_light(&self.text, file, &write::LitScene { scene, mesh, colours }))
     }
 
     /// The file's text with its vertex colours, taken as radiosity, exposed to intensities from 0 to 1; everything else

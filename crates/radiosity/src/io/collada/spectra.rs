@@ -12,7 +12,7 @@
 //!   <extra><technique profile="radiosity"><wavelengths>400 404 …</wavelengths></technique></extra>   <!-- in nm -->
 //! </COLLADA>
 //! ```
-use super::file::{File, Node, child, children};
+use super::file::{File, XmlNode, child, children};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Spectra;
 use crate::scene::patch::Patch;
@@ -21,7 +21,7 @@ use crate::scene::patch::Patch;
 pub(super) const PROFILE: &str = "radiosity";
 
 /// What an effect says of its bands; nothing where it has but colours.
-pub(super) fn spectra<'a>(file: &File<'a>, effect: Node<'a>) -> Result<Option<Spectra>, FileError> {
+pub(super) fn spectra<'a>(file: &File<'a>, effect: XmlNode<'a>) -> Result<Option<Spectra>, FileError> {
     let Some(own) = own(effect) else { return Ok(None) };
     let reflectance = values(file, file.child(own, "reflectance")?)?;
     let Some(element) = child(own, "emission") else {
@@ -51,13 +51,13 @@ pub(super) fn bands<'a>(file: &File<'a>, patches: &[Patch]) -> Result<(usize, Ve
 }
 
 /// This program's technique among an element's extras.
-fn own<'a>(element: Node<'a>) -> Option<Node<'a>> {
+fn own<'a>(element: XmlNode<'a>) -> Option<XmlNode<'a>> {
     let techniques = children(element, "extra").flat_map(|extra| children(extra, "technique"));
     techniques.into_iter().find(|technique| technique.attribute("profile") == Some(PROFILE))
 }
 
 /// One number or more, none below 0.
-fn values<'a>(file: &File<'a>, element: Node<'a>) -> Result<Vec<f64>, FileError> {
+fn values<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Vec<f64>, FileError> {
     let numbers = file.numbers(element)?;
     if numbers.is_empty() {
         return Err(file.fault(element, Fault::Count { found: 0, wanted: 1 }));

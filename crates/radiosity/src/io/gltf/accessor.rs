@@ -1,5 +1,5 @@
 //! Numbers out of buffers: every range is checked, since a file may claim anything.
-use super::document::File;
+use super::document::GltfFile;
 use crate::image_file;
 use crate::io::error::{Fault, FileError};
 use gltf::accessor::sparse::IndexType;
@@ -14,7 +14,7 @@ pub(super) struct Buffers<'f> {
 
 impl<'f> Buffers<'f> {
     /// The binary chunk, `data:` addresses, and files beside the scene's.
-    pub(super) fn load(file: &'f str, gltf: &File, folder: Option<&Path>) -> Result<Self, FileError> {
+    pub(super) fn load(file: &'f str, gltf: &GltfFile, folder: Option<&Path>) -> Result<Self, FileError> {
         let load = |buffer: gltf::Buffer<'_>| {
             let part = format!("buffer {}", buffer.index());
             let fault = |fault| FileError::Part { file: file.into(), part: part.clone(), fault };

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// A material as patches need it.
 #[derive(Clone)]
-pub(super) struct Kind {
+pub(super) struct ReadMaterial {
     pub(super) finish: Finish,
     /// Which set of a picture's coordinates it uses.
     pub(super) places: u32,
@@ -22,7 +22,7 @@ pub(super) struct Kind {
 pub(super) struct Materials<'f> {
     pub(super) buffers: &'f Buffers<'f>,
     pub(super) folder: Option<&'f Path>,
-    known: HashMap<Option<usize>, Kind>,
+    known: HashMap<Option<usize>, ReadMaterial>,
     images: HashMap<usize, Option<Arc<Image>>>,
 }
 
@@ -32,7 +32,11 @@ impl<'f> Materials<'f> {
     }
 
     /// A material; its warnings are told when it is met first.
-    pub(super) fn kind(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
+    pub(super) fn kind(
+        &mut self,
+        material: &gltf::Material<'_>,
+        warnings: &mut Vec<Finding>,
+    ) -> ReadMaterial {
         if let Some(kind) = self.known.get(&material.index()) {
             return kind.clone();
         }
@@ -41,7 +45,7 @@ impl<'f> Materials<'f> {
         kind
     }
 
-    fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
+    fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> ReadMaterial {
         let name = material.name().map_or_else(|| format!("material {:?}", material.index()), Into::into);
         let mut warn =
             |what: &str, repair: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), repair));
@@ -64,7 +68,7 @@ impl<'f> Materials<'f> {
         let texture = surface.base_color_texture();
         let image = texture.as_ref().and_then(|info| self.image(&info.texture().source(), warnings));
         let finish = Finish { reflectance: [red, green, blue], emission, image, spectra: None };
-        Kind {
+        ReadMaterial {
             finish,
             places: texture.map_or(0, |info| info.tex_coord()),
             two_sided: material.double_sided(),

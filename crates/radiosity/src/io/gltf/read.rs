@@ -1,6 +1,6 @@
 //! The default scene, walked: meshes become patches, cameras cameras.
 use super::accessor::Buffers;
-use super::document::File;
+use super::document::GltfFile;
 use super::material::Materials;
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::facets;
@@ -21,7 +21,7 @@ const MAX_NESTING: usize = 64;
 /// Nodes entered while walking.
 const MAX_NODES: usize = 1_000_000;
 
-pub(super) fn scene(file: &str, gltf: &File, folder: Option<&Path>) -> Result<Scene, FileError> {
+pub(super) fn scene(file: &str, gltf: &GltfFile, folder: Option<&Path>) -> Result<Scene, FileError> {
     let buffers = Buffers::load(file, gltf, folder)?;
     let mut reader = Reader {
         file,

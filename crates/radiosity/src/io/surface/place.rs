@@ -6,6 +6,7 @@ use super::split::split;
 use crate::scene::finding::Finding;
 use crate::scene::patch::{Origin, Patch};
 use crate::scene::texture::Texture;
+use crate::union_find::UnionFind;
 use formfactor::PlanarPolygon;
 use glam::{DMat4, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -97,22 +98,15 @@ impl Surfaces {
 
     /// For each facet the number of its smoothing group: facets that share a vertex and the normal there.
     fn smoothing(&mut self, facets: &[Facet]) -> Vec<Option<usize>> {
-        let mut leaders: Vec<usize> = (0..facets.len()).collect();
-        let lead = |leaders: &[usize], mut index: usize| {
-            while leaders[index] != index {
-                index = leaders[index];
-            }
-            index
-        };
+        let mut groups = UnionFind::new(facets.len());
         let mut first = HashMap::new();
         for (index, facet) in facets.iter().enumerate() {
             for corner in facet.loops.iter().flatten().filter(|corner| corner.normal != DVec3::ZERO) {
                 let known = *first.entry((bits(corner.point), bits(corner.normal))).or_insert(index);
-                let (a, b) = (lead(&leaders, known), lead(&leaders, index));
-                leaders[a.max(b)] = a.min(b);
+                groups.join(known, index);
             }
         }
-        let leaders: Vec<usize> = (0..facets.len()).map(|index| lead(&leaders, index)).collect();
+        let leaders: Vec<usize> = (0..facets.len()).map(|index| groups.first(index)).collect();
         let mut sizes = vec![0; facets.len()];
         leaders.iter().for_each(|&leader| sizes[leader] += 1);
         let base = self.groups;

@@ -3,25 +3,25 @@ use glam::{DVec2, DVec3};
 
 /// A polygon's vertex as the file gives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::io) struct Corner {
-    pub(in crate::io) point: DVec3,
+pub(crate) struct Corner {
+    pub(crate) point: DVec3,
     /// Where in the texture's picture, u to the right, v down; zero where the file says nothing.
-    pub(in crate::io) place: DVec2,
+    pub(crate) place: DVec2,
     /// The shading normal; zero where the file says nothing.
-    pub(in crate::io) normal: DVec3,
+    pub(crate) normal: DVec3,
 }
 
 /// The outline, counter-clockwise seen from the front, then the holes.
-pub(in crate::io) type Polygon = Vec<Vec<Corner>>;
+pub(crate) type Polygon = Vec<Vec<Corner>>;
 
 /// A polygon in its node's coordinates.
 #[derive(Clone, Debug)]
-pub(in crate::io) struct Facet {
+pub(crate) struct Facet {
     /// Index of the (first) polygon of the file that it is made of.
-    pub(in crate::io) number: usize,
-    pub(in crate::io) loops: Polygon,
+    pub(crate) number: usize,
+    pub(crate) loops: Polygon,
     /// The file's triangles, where it was joined from several.
-    pub(in crate::io) parts: Vec<[Corner; 3]>,
+    pub(crate) parts: Vec<[Corner; 3]>,
 }
 
 /// A point as a key; −0 and 0 are one.

@@ -44,7 +44,7 @@ pub(super) fn relax(run: &mut Run<'_>, method: Method) -> Result<bool, Error> {
         let solved = solve_bands(run, &exchange, method);
         let shot: Vec<f64> = (0..columns.len()).flat_map(|piece| run.shooters.shot(piece).to_vec()).collect();
         run.light.receive_all(gather(&exchange, &columns, &run.light, &shot));
-        run.shooters.weigh(&run.light);
+        run.shooters.measure(&run.light);
         if solved.is_break() {
             return Ok(false);
         }

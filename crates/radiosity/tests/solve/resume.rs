@@ -1,4 +1,4 @@
-//! Work that lasts: stopped runs go on, and end with the bits of a run that was never stopped.
+//! Interrupt and resume: a stopped run goes on, and ends with the bits of a run that was never stopped.
 use crate::build::{cube, room, scene, solved};
 use radiosity::{Error, Method, Options, State, solve, solve_from};
 use std::ops::ControlFlow;
