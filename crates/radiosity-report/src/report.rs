@@ -94,14 +94,15 @@ impl Report {
     /// The tables as Markdown, each under the command that makes it: those of a README.
     #[must_use]
     pub fn tables(&self) -> String {
-        let mut text = format!("## Who gets where\n\n{}", summary(self).markdown());
+        let mut text = format!("## Methods by scene\n\n{}", summary(self).markdown());
         for (name, rows) in subjects(self.measured(Chapter::Scenes)) {
             let table = time_to_error(&lines(&rows));
             text += &format!("\n## Time to an error: {name}\n\n{}", table.markdown());
         }
-        for (title, table) in
-            [("What was left out", left_out_table(self)), ("The sources' tables", published_table(self))]
-        {
+        for (title, table) in [
+            ("Work saved", left_out_table(self)),
+            ("Published tables, measured again", published_table(self)),
+        ] {
             text += &format!("\n## {title}\n\n{}", table.markdown());
         }
         text

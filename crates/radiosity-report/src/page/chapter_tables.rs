@@ -10,7 +10,7 @@ pub(crate) fn left_out(report: &Report) -> String {
         return String::new();
     }
     format!(
-        "<h2 id=\"left-out\">What was left out</h2>\n<p>For each scene what the exact method did not look at, how many per \
+        "<h2 id=\"left-out\">Work saved</h2>\n<p>For each scene what the exact method did not look at, how many per \
          form factor (of elements: in all), what one costs where it is not left out, measured in this run, and what leaving \
          it out saved, in units of the time that the scene's form factors took. The economies overlap: an occluder that was \
          never looked at needs no culling either. An economy that saves nothing anywhere has no place in the code.</p>\n{}\
@@ -68,7 +68,7 @@ pub(crate) fn published(report: &Report) -> String {
         return String::new();
     }
     format!(
-        "<h2 id=\"published\">The sources' tables</h2>\n<p>Barreto (2008), tables 4.1 to 4.5, on an Intel Core Duo of 2.5 GHz; \
+        "<h2 id=\"published\">Published tables, measured again</h2>\n<p>Barreto (2008), tables 4.1 to 4.5, on an Intel Core Duo of 2.5 GHz; \
          his table 4.5 repeats the row of 4.4. Gomes (2010), tables 5.1 and 5.2, on a Core 2 of 2.4 GHz with a GTX 260. Here \
          the methods that are compared solve the same elements; of cornell-3842 these are its patches, cut where a block stands \
          on them. Errors are of reflected light against the exact solution \
