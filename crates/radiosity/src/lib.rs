@@ -1,20 +1,23 @@
-//! Scenes in, light out: progressive radiosity whose form factors are exact.
+//! The diffuse light of a 3D scene, by the radiosity method with exact form factors.
 //!
-//! A [`Scene`] is a list of one-sided planar [`Patch`]es, each with a reflectance and an emission per band.
-//! [`solve()`] cuts the patches into triangular elements ([`Mesh`]) and shoots light until almost none is left
-//! unshot; the [`Solution`] holds the radiosity of every element, an energy ledger and a bound on the
-//! algebraic error.
+//! A [`Scene`] is a list of one-sided planar [`Patch`]es, each with a reflectance and an emission per band (a band is a
+//! colour channel or a wavelength). [`solve()`] cuts the patches into triangular elements (a [`Mesh`]) and exchanges light
+//! between them until the error is within the tolerance. The [`Solution`] holds the radiosity of every element in W/m², a
+//! [`Ledger`] of the energy and a bound on the algebraic error. A [`Record`] is a solution as it is written to files, pictures
+//! and pages.
+//!
+//! Lengths are in the scene file's unit. Emission is radiance L in W/m²/sr; a patch emits the radiosity E = πL.
 //!
 //! ```no_run
-//! use radiosity::{Options, Record, io::Source, solve};
+//! use radiosity::{Quality, Record, io::Source, solve};
 //! use std::ops::ControlFlow;
 //!
 //! let scene = Source::open("room.glb")?.scene()?;
-//! let solution = solve(&scene, &Options::default(), |progress| {
+//! let solution = solve(&scene, &Quality::Normal.options(), |progress| {
 //!     eprintln!("{:.1e} unshot", progress.unshot);
 //!     ControlFlow::Continue(())
 //! })?;
-//! println!("error of every radiosity at most {:?} W/m²", solution.bound);
+//! println!("no radiosity is wrong by more than {:?} W/m²", solution.bound);
 //! let record = Record::new("room.glb", &scene, &solution);
 //! let page = radiosity::viewer::page(&record, record.exposure());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -22,12 +25,14 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | scene files in, results out | [`io`]: COLLADA, glTF, View3D |
-//! | what is wrong with a scene, and its repair | [`inspect`], [`repair()`] |
+//! | reading scene files, writing results | [`io`]: COLLADA, glTF, View3D |
+//! | what will trouble a solution, and its repair | [`inspect`], [`repair()`] |
 //! | the scenes of the literature | [`scenes`] |
-//! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
+//! | a solution as it is written, and tables | [`Record`], [`patch_table`], [`element_table`] |
 //! | how far two solutions are from each other | [`compare`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
+//!
+//! [`glam`] and [`formfactor`] are part of this interface: a breaking version of one is a breaking version of this crate.
 pub use formfactor;
 pub use glam;
 

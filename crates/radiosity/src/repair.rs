@@ -1,4 +1,4 @@
-//! Patches that cover each other in one plane, made to share it.
+//! The repair of patches that overlap in one plane.
 use crate::inspect::overlap::overlaps;
 use crate::plane::Plane;
 use crate::scene::Scene;
@@ -9,11 +9,11 @@ use std::collections::{BTreeMap, HashSet};
 
 /// Cuts patches that face the same way in one plane out of each other, so that no point is covered twice.
 ///
-/// Emitters stay whole and are cut out of what does not emit; of others the smaller one stays whole, since it was put on the
-/// larger one; of equals the first. Duplicates and patches that are covered wholly vanish. What is cut into several
-/// pieces gets `.1`, `.2`, … behind its name. Everything else stays as it is, bit for bit. Cuts are exact.
+/// An emitter stays whole and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal
+/// ones the first. Duplicates and patches that are covered completely are removed. The pieces of a patch get `.1`, `.2`, …
+/// behind its name. All other patches stay as they are, bit for bit. Cuts are exact.
 ///
-/// Returns the scene and a sentence for every patch that was changed.
+/// Returns the repaired scene, and a sentence for every patch that was changed.
 #[must_use]
 pub fn repair(scene: &Scene) -> (Scene, Vec<String>) {
     let mut covers: BTreeMap<usize, Vec<usize>> = BTreeMap::new();

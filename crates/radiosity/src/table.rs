@@ -1,7 +1,7 @@
-//! Tables for spreadsheets: comma-separated values, a header, a row for each thing.
+//! Tables for spreadsheets: comma-separated values with a header.
 use crate::record::{PatchRecord, Record};
 
-/// A row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities per band.
+/// A table with a row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities per band.
 #[must_use]
 pub fn patch_table(record: &Record) -> String {
     let groups = ["reflectance", "emission", "irradiance", "radiosity"];
@@ -14,7 +14,7 @@ pub fn patch_table(record: &Record) -> String {
     table(header.collect(), record.patches.iter().map(row))
 }
 
-/// A row for every element: its number, the patch's name, centroid, area, irradiances and radiosities per band.
+/// A table with a row for every element: its number, the patch's name, centroid, area, irradiances and radiosities per band.
 #[must_use]
 pub fn element_table(record: &Record) -> String {
     let first = ["element", "patch", "x", "y", "z", "area"].map(Into::into);

@@ -1,15 +1,15 @@
-//! What a scene is, and what about it will trouble a solution.
+//! A description of a scene, and findings: what will trouble a solution.
 //!
 //! ```text
-//! surface      reflectances that cannot be, patches that are thinner than rounding
+//! surface      impossible reflectances, patches that are thinner than rounding
 //! orientation  neighbours that face opposite ways
 //! overlap      patches that cover each other in one plane, duplicates among them
 //! junction     vertices that end in the middle of another patch's edge
 //! openness     how much of the view from the patches leaves the scene
 //! cost         how long the form factors will take
 //! ```
-//! Nothing is decided here that a solution depends on, so that nearness is judged by rounding: 64 roundings of the largest
-//! coordinate, as in [`PlanarPolygon`](formfactor::PlanarPolygon).
+//! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
+//! [`PlanarPolygon`](formfactor::PlanarPolygon).
 mod cost;
 mod junction;
 mod openness;
@@ -26,12 +26,13 @@ use crate::scene::asset::Asset;
 use crate::scene::patch::Patch;
 use serde::Serialize;
 
-/// What a scene is.
+/// A description of a scene.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Inspection {
     /// Number of patches.
     pub patches: usize,
-    /// Number of vertices, those of each patch counted by themselves.
+    /// Number of vertices, counted patch by patch.
     pub vertices: usize,
     /// Number of bands.
     pub bands: usize,
@@ -47,27 +48,36 @@ pub struct Inspection {
     pub extent: [[f64; 3]; 2],
     /// The patches that emit.
     pub emitters: Vec<Emitter>,
-    /// Whether no light can leave: no opening is wider than rounding.
+    /// Whether the scene is closed: no opening is wider than rounding.
     pub closed: bool,
     /// The widest opening.
     pub opening: Option<Opening>,
-    /// What will trouble a solution.
+    /// What will trouble a solution, and how to repair it.
     pub findings: Vec<Finding>,
-    /// What the form factors will cost.
+    /// The predicted cost of the form factors.
     pub cost: Cost,
 }
 
 /// A patch that emits.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Emitter {
     /// The patch's name.
     pub name: String,
-    /// Emitted power per band, W in a file in metres: π L A.
+    /// Emitted power per band, πLA: in W where the unit is a metre.
     pub power: Vec<f64>,
 }
 
-/// Looks at a scene. O(n log n) where patches are spread out, plus one row of form factors from each of up to 256
-/// patches.
+/// Describes a scene and finds what will trouble a solution.
+///
+/// Takes O(n log n) for n patches that are spread out, and one row of form factors from each of up to 256 patches.
+///
+/// ```
+/// use radiosity::{inspect::inspect, scenes};
+///
+/// let inspection = inspect(&scenes::scene("furnace").expect("a built-in scene"));
+/// assert!(inspection.closed && inspection.findings.is_empty());
+/// ```
 #[must_use]
 pub fn inspect(scene: &Scene) -> Inspection {
     let findings = [

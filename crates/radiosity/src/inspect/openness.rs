@@ -14,17 +14,18 @@ const FACTORS: usize = 30_000;
 /// A view that misses less is closed: the form factors' rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The widest opening.
+/// The widest opening of a scene.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Opening {
-    /// The patch from whose middle most of the view leaves the scene.
+    /// The patch from whose middle the largest share of the view leaves the scene.
     pub patch: String,
-    /// What share: 1 minus the sum of the form factors.
+    /// That share: 1 minus the sum of the form factors.
     pub share: f64,
 }
 
 impl Opening {
-    /// Whether it is no more than rounding.
+    /// Whether the opening is no more than rounding.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.share.abs() < ROUNDING

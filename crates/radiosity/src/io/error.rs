@@ -14,7 +14,7 @@ pub enum FileError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// The file could not be written; what stood there before still stands.
+    /// The file could not be written; an older file in its place is unchanged.
     #[error("{}: cannot be written: {source}; check the folder and its permissions", path.display())]
     Write {
         /// The file.
@@ -52,7 +52,7 @@ pub enum FileError {
         /// What the parser says.
         source: Box<gltf::Error>,
     },
-    /// A part of a glTF file cannot be taken.
+    /// A part of a glTF file has a fault.
     #[error("{file}: {part}: {fault}")]
     Part {
         /// The file.
@@ -62,7 +62,7 @@ pub enum FileError {
         /// What is wrong with it.
         fault: Fault,
     },
-    /// A line of a text file cannot be taken.
+    /// A line of a text file has a fault.
     #[error("{file}:{line}: {fault}")]
     Line {
         /// The file.
@@ -72,13 +72,13 @@ pub enum FileError {
         /// What is wrong with it.
         fault: Fault,
     },
-    /// The file is of no kind that is read.
+    /// The file's extension names no format that is read.
     #[error("{file}: unknown kind of scene; give a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file")]
     Unknown {
         /// The file.
         file: String,
     },
-    /// An element of the file cannot be taken.
+    /// An element of a COLLADA file has a fault.
     #[error("{file}:{line}:{column}: <{element}>: {fault}")]
     Scene {
         /// The file.

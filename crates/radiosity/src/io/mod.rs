@@ -1,4 +1,4 @@
-//! Scene files in, results out: COLLADA, glTF, View3D's format; whole files only.
+//! Reading scene files and writing results: COLLADA, glTF and View3D's format. Files are written completely or not at all.
 //!
 //! ```text
 //! source     a scene file of any kind

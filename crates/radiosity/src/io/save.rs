@@ -1,15 +1,15 @@
-//! Whole files or none.
+//! Files are written completely or not at all.
 use super::error::FileError;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Writes a file whole or not at all: into a temporary file of the same folder, renamed when complete.
+/// Writes a file completely or not at all: into a temporary file of the same folder, which is renamed at the end.
 ///
-/// A link is followed, so that its target is replaced and not the link. What is not a regular file (`/dev/stdout`, a
-/// pipe) is written to directly.
+/// Of a link, the target is replaced and not the link. What is not a regular file (`/dev/stdout`, a pipe) is written to
+/// directly.
 ///
 /// # Errors
-/// [`FileError::Write`]; what stood at `path` before still stands.
+/// [`FileError::Write`]; an older file at `path` is then unchanged.
 pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
     let path = path.as_ref();
     let written = match path.metadata() {

@@ -7,13 +7,13 @@ use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use std::path::Path;
 
-/// A scene file, as its extension says: COLLADA (`.dae`), glTF (`.gltf`, `.glb`) or View3D (`.vs3`).
+/// A scene file in the format of its extension: COLLADA (`.dae`), glTF (`.gltf`, `.glb`) or View3D (`.vs3`).
 ///
 /// ```no_run
 /// use radiosity::io::Source;
 /// let scene = Source::open("room.glb")?.scene()?;
 /// println!("{} patches", scene.patches.len());
-/// # Ok::<(), radiosity::io::Error>(())
+/// # Ok::<(), radiosity::io::FileError>(())
 /// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -45,7 +45,7 @@ impl Source {
     /// The scene: patches, cameras and warnings.
     ///
     /// # Errors
-    /// What the file gets wrong: see [`FileError`].
+    /// [`FileError`] for a fault of the file.
     pub fn scene(&self) -> Result<Scene, FileError> {
         match self {
             Self::Collada(file) => file.scene(),
@@ -54,8 +54,8 @@ impl Source {
         }
     }
 
-    /// A COLLADA text with the mesh's triangles in place of the scene's polygons and `colours`, three per vertex of the
-    /// mesh, at their vertices: [`Collada::with_light`] for COLLADA, a new file for the other formats.
+    /// A COLLADA text in which the mesh's triangles replace the scene's polygons, with `colours` (red, green and blue for each
+    /// vertex of the mesh) at their vertices: [`Collada::with_light`] for COLLADA, a new text for the other formats.
     ///
     /// `scene` must be this file's scene and `mesh` a mesh of its patches.
     ///

@@ -1,7 +1,7 @@
-//! View3D's input files (`.vs3`, geometry `3`): vertices and surfaces of three or four of them.
+//! View3D's input files (`.vs3`, geometry `3`): vertices, and surfaces of three or four vertices.
 //!
-//! A surface is a one-sided patch that reflects 1 − its emittance and gives no light of its own. A surface with a base
-//! surface is cut out of it, and so is a null surface, which is nothing but a hole; an obstruction only blocks.
+//! A surface becomes a one-sided patch with reflectance 1 − emittance and without emission. A surface that has a base surface
+//! is cut out of it; a null surface is a hole in its base; an obstruction only blocks.
 use super::error::{Fault, FileError};
 use crate::plane::Plane;
 use crate::scene::Scene;
@@ -24,19 +24,19 @@ impl Vs3 {
     /// Reads a file's text; bytes that are not UTF-8, as in old comments, are replaced.
     ///
     /// # Errors
-    /// [`FileError::Read`] when the system does not give it.
+    /// [`FileError::Read`] when the file cannot be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         Ok(Self::from_text(path.display().to_string(), String::from_utf8_lossy(&bytes)))
     }
 
-    /// Takes a text as the file `name`, which messages will show.
+    /// A text as the contents of a file; messages show its `name`.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
 
-    /// The scene: one band; z up, since the format says nothing.
+    /// The scene: one band, z up (the format has no up axis).
     ///
     /// # Errors
     /// [`FileError::Line`], with the line.

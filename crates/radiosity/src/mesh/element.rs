@@ -1,15 +1,15 @@
 //! The mesh: triangles, each of which carries a value.
 use glam::DVec3;
 
-/// Triangles over all patches of a scene.
+/// The triangles of all patches of a scene.
 ///
-/// Vertices are shared neither between patches nor across a line on which another patch touches theirs: light is
-/// discontinuous there.
+/// Light is discontinuous between patches and along lines on which one patch touches another, so triangles do not share
+/// vertices there.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Positions, in the scene's coordinates.
     pub vertices: Vec<DVec3>,
-    /// The triangles; those of one patch stand together, in the order of the patches.
+    /// The triangles, sorted by patch.
     pub elements: Vec<Element>,
 }
 

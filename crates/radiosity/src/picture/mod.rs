@@ -1,4 +1,4 @@
-//! A picture of the light: the mesh's triangles seen by a camera, as PNG.
+//! Pictures: a mesh with its light, as a camera sees it, in PNG.
 //!
 //! ```text
 //! framing    a camera for scenes that have none
@@ -25,12 +25,12 @@ const BAND: usize = 8;
 /// The longest side, in pixels.
 const MAX_SIDE: u32 = 16_384;
 
-/// Draws the mesh as the camera sees it; returns the bytes of a PNG, 8 bits per channel, sRGB.
+/// Draws a mesh as a camera sees it. Returns the bytes of a PNG with 8 bits per channel, sRGB.
 ///
-/// `radiosity` is red, green and blue at every vertex of the mesh; it is interpolated over the triangles, then exposed.
-/// Patches are one-sided: seen from behind they are not drawn, so that a closed room can be looked into from outside.
-/// Where nothing is seen the picture is black. `width` and the height that the camera's aspect gives are kept between
-/// 1 and 16384. Each pixel is the mean of 16 samples. The bytes do not depend on the number of threads.
+/// `radiosity` holds red, green and blue at every vertex of the mesh; it is interpolated over the triangles, then exposed.
+/// `width` is in pixels; the height follows from the camera's aspect, and both are kept between 1 and 16384. Patches are not
+/// drawn from behind, so that a camera outside sees into a closed room. The background is black. Each pixel is the mean of 16
+/// samples. The bytes do not depend on the number of threads.
 ///
 /// # Panics
 /// When `radiosity` is shorter than the mesh's vertices.

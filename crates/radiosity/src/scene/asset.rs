@@ -2,7 +2,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// What the coordinates of a scene mean; they stay as the file has them.
+/// The up axis and the unit of a scene. Coordinates stay as the file has them.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Asset {
     /// The axis that points up; y where the file says nothing.

@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 pub struct Camera {
     /// The camera's name in the file.
     pub name: String,
-    /// The pinhole.
+    /// Where the eye is.
     pub position: DVec3,
-    /// Where it looks; any length but zero.
+    /// The direction of view; any length but zero.
     pub direction: DVec3,
-    /// What is up in the picture; any length, not parallel to `direction`.
+    /// The direction that is up in the picture; any length, not parallel to `direction`.
     pub up: DVec3,
     /// Vertical field of view in radians, between 0 and π.
     pub vertical_fov: f64,

@@ -1,17 +1,17 @@
-//! What will trouble a solution, with its repair.
+//! What will trouble a solution, and how to repair it.
 use serde::Serialize;
 use std::fmt;
 
-/// Something that will trouble a solution.
+/// Something in a scene that will trouble a solution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// What kind of thing.
+    /// The kind.
     pub kind: Kind,
     /// The patches concerned, by name.
     pub patches: Vec<String>,
-    /// What it is, in a sentence.
+    /// A description, in a sentence.
     pub what: String,
-    /// What to do about it.
+    /// How to repair it, in a sentence.
     pub repair: String,
 }
 
@@ -34,7 +34,7 @@ impl fmt::Display for Finding {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Kind {
-    /// Something in the file that is not read, or is taken another way.
+    /// Something in the file that is not read, or is read as something else.
     File,
     /// A polygon that is not planar and was split into triangles.
     NonPlanar,

@@ -1,4 +1,4 @@
-//! What is lit: patches, what they reflect and emit, and who looks at them.
+//! The scene: patches, what they reflect and emit, and cameras.
 //!
 //! ```text
 //! middle     a point inside a patch
@@ -21,9 +21,9 @@ use finding::Finding;
 use glam::DVec3;
 use patch::Patch;
 
-/// Surfaces, cameras, and what the reader had to say about the file.
+/// A scene: surfaces, cameras, and warnings of the reader.
 ///
-/// Coordinates are the file's own: its units, its axes.
+/// Coordinates are in the file's unit and axes.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// The surfaces, in the order of the file.
@@ -32,17 +32,17 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Number of bands of every reflectance and emission; 3 for red, green, blue.
     pub bands: usize,
-    /// The bands' wavelengths in nm, where they are those of light: pictures show what an observer sees of them. Empty
-    /// where bands are red, green and blue, or no light at all.
+    /// The wavelength of each band in nm; pictures then show what an observer sees. Empty where the bands are red, green and
+    /// blue, or are not visible light.
     pub wavelengths: Vec<f64>,
-    /// What was odd about the file and how it was taken.
+    /// What the reader found odd about the file, and how it read that.
     pub warnings: Vec<Finding>,
-    /// What the coordinates mean.
+    /// The up axis and the unit.
     pub asset: Asset,
 }
 
 impl Scene {
-    /// The corners of the box around all patches; those of the unit box where there are none.
+    /// The lower and the upper corner of the box around all patches; of the unit box where there are none.
     #[must_use]
     pub fn extent(&self) -> [DVec3; 2] {
         let points = self.patches.iter().flat_map(|patch| patch.polygon.loops()).flatten();

@@ -1,4 +1,4 @@
-//! Patches: what is lit.
+//! Patches.
 use super::texture::Texture;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
@@ -6,27 +6,27 @@ use glam::DVec3;
 /// A planar surface that reflects diffusely and may emit, on its front side.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Unique name: the node's, with `.k` when the node holds several polygons, `.k.m` for pieces of a split one.
+    /// A unique name: that of the file's node, with `.k` when the node holds several polygons, `.k.m` for pieces of a split one.
     pub name: String,
-    /// The shape; its front is the side that gives and takes light, both sides block it.
+    /// The shape. The front, where the outline is counter-clockwise, sends and receives light; both sides block it.
     pub polygon: PlanarPolygon,
     /// Diffuse reflectance per band, 0 to below 1.
     pub reflectance: Vec<f64>,
     /// Emitted radiance L per band, W/m²/sr; the emitted radiosity is E = πL.
     pub emission: Vec<f64>,
-    /// A picture on it, which replaces `reflectance` point by point; `reflectance` is then the mean.
+    /// A picture on the patch: the reflectance of each point. `reflectance` is then its mean.
     pub texture: Option<Texture>,
-    /// Patches of one object with the same number are facets of one curved surface; none for a facet that is meant
-    /// flat.
+    /// The smoothing group: patches of one object with the same number are facets of one curved surface and share their light
+    /// where they meet. `None` for a flat surface.
     pub smoothing: Option<usize>,
-    /// Whether it only stands in the way of light, and has no part in it otherwise.
+    /// Whether the patch only blocks light: it sends none and its own light is of no interest.
     pub only_blocks: bool,
-    /// Where in the file it stands.
+    /// The place in the file.
     pub origin: Origin,
 }
 
 impl Patch {
-    /// A plain patch, without texture, that stands in no file.
+    /// A patch without texture and without a file.
     ///
     /// ```
     /// use radiosity::{Patch, formfactor::PlanarPolygon};
@@ -48,7 +48,7 @@ impl Patch {
         Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, origin }
     }
 
-    /// The reflectance per band of a triangle on the patch: its own, or the mean of its texture there.
+    /// The reflectance per band of a triangle on the patch: the patch's own, or the mean of the texture over the triangle.
     #[must_use]
     pub fn reflectance_over(&self, corners: [DVec3; 3]) -> Vec<f64> {
         match &self.texture {
@@ -60,14 +60,14 @@ impl Patch {
         }
     }
 
-    /// Whether it gives light of its own in some band.
+    /// Whether the patch emits light in some band.
     #[must_use]
     pub fn emits(&self) -> bool {
         self.emission.iter().any(|&radiance| radiance > 0.0)
     }
 }
 
-/// Where a patch stands in its file, so that a writer can put the result back in its place.
+/// The place of a patch in its file, so that a writer can put the result back there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// Which geometry instance, counted in the order in which the reader met them.

@@ -68,14 +68,14 @@ use state::State;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-/// Solves the scene; `watch` is called before every step and may end the run early.
+/// Solves for the light of a scene. `watch` is called before every step and may end the run early.
 ///
 /// A scene without emission is solved at once: it is dark. The result does not depend on the number of threads.
 /// Time: (pieces) × (elements) form factors, and O(elements) for each shot or O(pieces²) for each product.
 ///
 /// # Errors
 /// A reflectance outside [0, 1], one of 1 in a closed lit room, negative emission, a polygon that cannot be cut into
-/// triangles: see [`Error`]. A defect of this program ends the run early instead, and stands in the solution.
+/// triangles: see [`Error`]. A panic in a form factor ends the run early instead; see [`Solution::fault`].
 pub fn solve(
     scene: &Scene,
     options: &Options,
@@ -84,9 +84,9 @@ pub fn solve(
     solve_from(scene, options, &mut State::default(), watch)
 }
 
-/// [`solve()`] that finds in `state` the form factors of an earlier run of the same scene, and leaves there all it knows.
+/// Solves like [`solve()`], with the form factors that an earlier run of the same scene left in `state`; adds its own to them.
 ///
-/// The result has the same bits whatever `state` holds.
+/// An empty state starts from nothing. The result has the same bits whatever `state` holds.
 ///
 /// # Errors
 /// As [`solve()`], and [`Error::Foreign`] when `state` is of another scene or another number of elements.

@@ -1,6 +1,6 @@
 //! Norms of what a mesh does not resolve.
 
-/// How the difference between an element's radiosity and the linear function through its corners' is measured.
+/// A norm of the difference between an element's radiosity B and the linear function u through the radiosities of its corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Norm {
     /// The largest difference between two corners: where light changes quickly.

@@ -1,46 +1,46 @@
-//! How the solver is asked.
+//! The options of the solver.
 use super::norm::Norm;
 
-/// How the light is found.
+/// The method of solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// [`Method::Cg`] where a closed room reflects at least 0.9 of its light, else [`Method::Shoot`].
     #[default]
     Auto,
-    /// Progressive refinement: the piece with most light to shoot shoots it, again and again. Soon there is something to see;
-    /// needs about 1 / (1 − ρ) rounds.
+    /// Progressive refinement: the piece with the most unshot light shoots it, again and again. Early results are already good
+    /// to look at; the number of rounds is about 1 / (1 − ρ) for reflectance ρ.
     Shoot,
-    /// The full matrix, every piece as small as the mesh's cells, by Gaussian elimination: cubic in the pieces.
+    /// Gaussian elimination on the full matrix, with pieces as small as the mesh's cells: cubic time, for checks.
     Matrix,
-    /// Conjugate gradients on symmetric exchange areas, scaled to close: power adds up, and some tens of
-    /// matrix-vector products do at any reflectance below 1.
+    /// Conjugate gradients on symmetric exchange areas, which are scaled so that closed rooms lose no power. A few tens of
+    /// matrix-vector products are enough at any reflectance below 1.
     Cg,
-    /// GMRES on the factors as they are, one-sided.
+    /// GMRES on the unscaled form factors.
     Gmres,
 }
 
-/// How fine, how far, how long.
+/// The options of [`solve`](crate::solve()): how fine the mesh is, how exact the light, and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// How the light is found.
+    /// The method of solution.
     pub method: Method,
     /// About how many elements to cut the scene into.
     pub elements: usize,
-    /// How often to solve, look where the light is not resolved, and cut the scene anew, finer there.
+    /// How often to solve and then refine the mesh where the light is not resolved.
     pub passes: usize,
-    /// What tells where the light is not resolved.
+    /// The norm that tells where the light is not resolved.
     pub norm: Norm,
-    /// Of so many of the strongest emitters the edges of shadows become edges of elements.
+    /// How many of the strongest emitters cast shadows whose edges become edges of elements.
     pub shadows: usize,
-    /// Take form factors from hemicubes of so many cells across, instead of exact ones: to see what that costs and brings.
+    /// The resolution of hemicubes that replace exact form factors, to compare with; `None` for exact ones.
     pub hemicube: Option<u32>,
-    /// In the end, find the light straight from the emitters exactly at every vertex.
+    /// Whether to compute the direct light exactly at every vertex at the end.
     pub gather: bool,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
-    /// Split a shooter while its power deviates from that of a uniform piece by more than this share of the power that
-    /// all send.
+    /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
+    /// pieces send.
     pub spread: f64,
     /// Stop after so many shots.
     pub max_shots: usize,
@@ -49,7 +49,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// About 6000 elements; what is left unshot or unresolved is far below what a mesh of that size resolves.
+    /// About 6000 equal elements; the algebraic error is far below the error of a mesh of that size.
     fn default() -> Options {
         Options {
             method: Method::Auto,

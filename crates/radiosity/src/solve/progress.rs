@@ -1,24 +1,24 @@
-//! What whoever follows a run is shown.
+//! The progress of a run, as its caller sees it.
 use super::factors::Factors;
 use super::ledger::Ledger;
 use super::light::Light;
 use super::solution::Solution;
 use super::state::State;
 
-/// How far the solver has come.
+/// The progress of the solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'p> {
     /// Shots so far.
     pub shots: usize,
     /// Matrix-vector products so far.
     pub products: usize,
-    /// Unshot power over emitted power, the worst band.
+    /// Unshot power over emitted power, in the worst band.
     pub unshot: f64,
     /// See [`Solution::bound`].
     pub bound: &'p [f64],
-    /// Where the emitted power is.
+    /// Where the emitted power is now.
     pub ledger: &'p Ledger,
-    /// Time since the start.
+    /// Seconds since the start.
     pub seconds: f64,
     pub(super) light: &'p Light,
     pub(super) scaling: Option<f64>,
@@ -27,7 +27,7 @@ pub struct Progress<'p> {
 }
 
 impl Progress<'_> {
-    /// The light as it is now.
+    /// The light so far.
     #[must_use]
     pub fn solution(&self) -> Solution {
         Solution {
@@ -50,7 +50,7 @@ impl Progress<'_> {
         }
     }
 
-    /// What can be gone on from.
+    /// The state from which the run can be resumed.
     #[must_use]
     pub fn state(&self) -> &State {
         self.factors.state

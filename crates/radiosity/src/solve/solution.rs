@@ -16,14 +16,13 @@ pub struct Solution {
     pub irradiance: Vec<f64>,
     /// Where the emitted power went.
     pub ledger: Ledger,
-    /// Per band, a bound on the algebraic error of every piece's radiosity, and so of every element's, W/m²:
-    /// ‖r‖∞ / (1 − max ρ ΣF). It is of the discrete system: what the mesh does not resolve is not in it. Infinite where
-    /// there is none: a patch reflects all light.
+    /// Per band, a bound on the algebraic error of every element's radiosity in W/m²: ‖r‖∞ / (1 − max ρ ΣF). The error of the
+    /// mesh is not part of it: see [`Solution::error_estimate`]. Infinite where a patch reflects all light.
     pub bound: Vec<f64>,
-    /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. Not known for a run that was
-    /// stopped, or where finding it would take longer than the solution.
+    /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, and
+    /// where computing it would take longer than the solution.
     pub closure: Option<f64>,
-    /// The largest relative change of a form factor that closure scaling made; none where nothing was scaled.
+    /// The largest relative change of a form factor by closure scaling; `None` where nothing was scaled.
     pub scaling: Option<f64>,
     /// How many shots were made.
     pub shots: usize,
@@ -31,9 +30,9 @@ pub struct Solution {
     pub products: usize,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// [`Error::Defect`] where that ended the run early: all else is as far as it had come.
+    /// The [`Error::Defect`] that ended the run early, if one did; the light is as far as the run had come.
     pub fault: Option<Error>,
-    /// How long it took.
+    /// Seconds that the run took.
     pub seconds: f64,
     /// Reflectance of every element, elements × bands.
     pub(crate) reflectance: Vec<f64>,
@@ -44,8 +43,8 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// The irradiance that is still missing everywhere, if what is unshot spread evenly, per band: for the display of a
-    /// run that was stopped, whose dark places are not meant to be dark.
+    /// The irradiance per band that every element would still receive if the unshot light spread evenly. It brightens the
+    /// picture of a run that was stopped.
     ///
     /// ΣAΔB / ΣA / (1 − ρ̄), ρ̄ the mean reflectance: all its reflections to come (Cohen, Chen, Wallace and Greenberg 1988).
     #[must_use]
@@ -60,7 +59,7 @@ impl Solution {
         (0..self.bands).map(in_band).collect()
     }
 
-    /// The solution with the ambient irradiance added to every element: to be looked at, not to be measured.
+    /// The solution with [`Solution::ambient`] added to every element, for display only.
     #[must_use]
     pub fn with_ambient(&self) -> Solution {
         let ambient = self.ambient();
@@ -72,7 +71,7 @@ impl Solution {
         lit
     }
 
-    /// Area-weighted means of element values over every patch of the scene, `patches` × bands.
+    /// Area-weighted means of `values` (elements × bands) over each of the scene's patches: patches × bands.
     #[must_use]
     pub fn patch_means(&self, values: &[f64], patches: usize) -> Vec<Vec<f64>> {
         let mut sums = vec![vec![0.0; self.bands]; patches];

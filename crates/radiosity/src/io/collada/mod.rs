@@ -1,12 +1,13 @@
-//! COLLADA 1.4 and 1.5: scenes read, and written back with light on their surfaces.
+//! COLLADA 1.4 and 1.5: reading scenes, and writing them with light on their surfaces.
 //!
 //! Read: the visual scene that `<scene>` instances, nodes with their transforms (all but `<skew>`), `<instance_node>`,
 //! `<polylist>`, `<polygons>` with holes, `<triangles>`, `<tristrips>`, `<trifans>`, materials by the diffuse colour
 //! (reflectance) and the emission colour (radiance) of their common profile, or spectra of any number of bands from an
-//! `<extra>` of this program's, perspective cameras. What is left out draws a warning. Every polygon becomes a one-sided patch; its front is the side from which it is counter-clockwise.
+//! `<extra>` of this program, perspective cameras. A warning tells what is not read. Every polygon becomes a one-sided patch;
+//! its front is the side from which it is counter-clockwise.
 //!
-//! A polygon that is not planar is split into triangles, one without area is left out, both with a warning. A node whose
-//! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
+//! A polygon that is not planar is split into triangles, and one without area is left out, both with a warning. A solid keeps
+//! its outside where a node's transform mirrors it; a node whose transform flattens it is left out, with a warning.
 mod camera;
 pub(crate) mod compose;
 mod exposed;
@@ -34,7 +35,7 @@ use glam::DVec3;
 use model::Model;
 use std::path::Path;
 
-/// The text of a COLLADA file, which a result can be written back into.
+/// The text of a COLLADA file, into which a result can be written.
 #[derive(Clone, Debug)]
 pub struct Collada {
     name: String,
@@ -45,7 +46,7 @@ impl Collada {
     /// Reads a file's text.
     ///
     /// # Errors
-    /// [`FileError::Read`] when the system does not give it, [`FileError::Encoding`] when it is not UTF-8.
+    /// [`FileError::Read`] when the file cannot be read, [`FileError::Encoding`] when it is not UTF-8.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
@@ -56,8 +57,8 @@ impl Collada {
         }
     }
 
-    /// A new file of a scene, a node for each patch; its scene has the same patches. Spectra are
-    /// written as such, beside what they look like.
+    /// A new file of a scene, with a node for each patch. Read again, it has the same patches. Spectra are written as such,
+    /// beside their colours.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         Self::from_text("scene.dae", text(&Model::of(scene)))
@@ -69,7 +70,7 @@ impl Collada {
         &self.text
     }
 
-    /// Takes a text as the file `name`, which messages will show.
+    /// A text as the contents of a file; messages show its `name`.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
@@ -90,9 +91,9 @@ impl Collada {
         })
     }
 
-    /// The file's text with each lit geometry replaced by the mesh's triangles, `colours` (three per vertex of the
-    /// mesh) at their vertices, in the node's coordinates. Everything else stays byte for byte; a geometry that several
-    /// nodes instance gets a copy for each.
+    /// The file's text in which the mesh's triangles replace each lit geometry, in the node's coordinates, with `colours` (red,
+    /// green and blue for each vertex of the mesh) at their vertices. Everything else stays byte for byte. A geometry that
+    /// several nodes instance gets a copy for each.
     ///
     /// `scene` must be this file's scene and `mesh` a mesh of its patches.
     ///
@@ -102,8 +103,8 @@ impl Collada {
         self.with_file(|file| write::with_light(&self.text, file, &write::LitScene { scene, mesh, colours }))
     }
 
-    /// The file's text with its vertex colours, taken as radiosity, exposed to intensities from 0 to 1; everything else
-    /// byte for byte. Without an exposure one is chosen: the geometric mean over the lit vertices becomes mid grey.
+    /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte
+    /// for byte. Without an exposure, the geometric mean over the lit vertices becomes mid grey.
     ///
     /// # Errors
     /// [`FileError::Xml`] and [`FileError::Scene`], with the line; the latter also when no surface has vertex colours.

@@ -1,4 +1,4 @@
-//! A lit GLB with other colours: `COLOR_0` anew from `_RADIOSITY`.
+//! A lit GLB with other colours: a new `COLOR_0` from `_RADIOSITY`.
 use super::buffer::{container, single};
 use super::container::chunks;
 use crate::expose::Exposure;
@@ -6,8 +6,8 @@ use crate::io::error::{Fault, FileError};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The bytes of a GLB file, written by this program, with its colours exposed anew; without an exposure one is chosen from
-/// the light: the geometric mean over the lit vertices becomes mid grey.
+/// The bytes of a GLB file that [`glb`](super::glb) wrote, with colours of another exposure. Without an exposure, the geometric
+/// mean over the lit vertices becomes mid grey.
 ///
 /// # Errors
 /// [`FileError::Read`] and [`FileError::Gltf`]; [`FileError::Part`] where no primitive has `_RADIOSITY` and `COLOR_0` of three floats.

@@ -16,12 +16,12 @@ const LARGEST: f64 = f32::MAX as f64;
 /// The bytes of a GLB file: one mesh with `POSITION`, `COLOR_0` (exposed, linear) and `_RADIOSITY` (red, green and blue,
 /// W/m², as it is), unlit materials, and the scene's cameras.
 ///
-/// Patches that show a picture have primitives of their own: `_IRRADIANCE` is what falls on them, times the factor of the
-/// picture's colours, and `COLOR_0` is that exposed; viewers multiply it with the picture. The root node turns the scene's
-/// up axis to y and its unit to metres. Positions are single precision, relative to the middle of the mesh.
+/// Patches with a picture have primitives of their own: `_IRRADIANCE` is the irradiance times the factor of the picture's
+/// colours, and `COLOR_0` is its exposed form, which viewers multiply with the picture. The root node turns the scene's up axis
+/// to y and its unit to metres. Positions are in single precision, relative to the middle of the mesh.
 ///
 /// # Errors
-/// [`FileError::Size`] when the data do not fit into the format's 4 GiB.
+/// [`FileError::Size`] when the data exceed the format's 4 GiB.
 pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
     let (middle, radius) = ball(&record.vertices);
     let mut buffer = Buffer::default();
