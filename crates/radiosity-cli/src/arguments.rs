@@ -1,4 +1,4 @@
-//! The command line: what may be asked, and who answers.
+//! The command line: its commands, and who runs them.
 use crate::commands::compare::{self, Compare};
 use crate::commands::expose::{self, Expose};
 use crate::commands::factors::{self, Factors};
@@ -13,11 +13,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use std::process::ExitCode;
 
-/// Diffuse light of a scene by progressive radiosity with exact form factors.
+/// The diffuse light of a scene, by radiosity with exact form factors.
 ///
-/// Data goes to stdout, all else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
-/// 3 bad scene, 4 stopped before the tolerance, 5 a difference above `--fail-above`, 130 stopped by Ctrl-C (of a stopped run
-/// result and state are written).
+/// Data goes to stdout, everything else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
+/// 3 bad scene, 4 stopped before the tolerance was reached, 5 a difference above `--fail-above`, 130 stopped by Ctrl-C. A
+/// stopped run writes its result and a state to resume from.
 #[derive(Debug, Parser)]
 #[command(name = "radiosity", version, max_term_width = 110)]
 pub(crate) struct Arguments {
@@ -28,33 +28,33 @@ pub(crate) struct Arguments {
     threads: Option<u16>,
 }
 
-/// What can be asked.
+/// The commands.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Solve a scene's light and write it as a picture, a scene, or numbers
+    /// Solve for the light of a scene and write it as a picture, a scene, a page or numbers
     Solve(Solve),
-    /// Turn a written solution to colours that a screen can show
+    /// Turn a solution into displayable colours
     Expose(Expose),
-    /// Write a page that shows a solution in a browser
+    /// Write an HTML page that shows a solution in a browser
     View(View),
-    /// Form factors from a point, from patches, or the whole matrix of a scene
+    /// Print form factors: from a point, from patches, or the whole matrix of a scene
     Factors(Factors),
-    /// Tell what a scene is and what about it will trouble a solution
+    /// Describe a scene and find what will trouble a solution
     Inspect(Inspect),
-    /// Tell how far two solutions of one scene are from each other: relative L1, L2 and maximum of reflected light
+    /// Compare two solutions of one scene: relative L1, L2 and maximum difference of reflected light
     Compare(Compare),
-    /// Measure every method on every scene, error against time, and write it as one page
+    /// Benchmark: measure error against time of every form factor method on every scene, and write it as a page
     Report(Report),
     /// Write one of the built-in scenes
     Scene(BuiltIn),
-    /// Print what a shell needs to complete this program's command lines
+    /// Print completions for a shell
     Completions {
         /// The shell
         shell: Shell,
     },
 }
 
-/// Answers; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
+/// Runs the command; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;

@@ -95,7 +95,7 @@ impl Contents<'_> {
     fn collada(&self) -> Result<Vec<u8>, Failure> {
         let (source, scene) = self.source.ok_or_else(|| {
             Failure::usage(
-                "COLLADA is written by solve, into the scene's own file; expose turns that to colours",
+                "only solve writes COLLADA, into the scene's own file; expose then turns it into colours",
             )
         })?;
         Ok(source.with_light(scene, &self.record.mesh(), &self.record.colours())?.into_bytes())

@@ -1,4 +1,4 @@
-//! How pictures are taken: exposure, width, camera.
+//! View options: exposure, width, camera.
 use crate::failure::Failure;
 use crate::parse::positive;
 use clap::Args;
@@ -6,16 +6,16 @@ use radiosity::expose::Exposure;
 use radiosity::glam::DVec3;
 use radiosity::{Camera, Record};
 
-/// Of every command that writes pictures.
+/// The options of every command that writes pictures.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct ViewOptions {
-    /// The brightness: intensity is 1 - exp(-K B) [default: chosen from the light]
+    /// The exposure K: intensity is 1 - exp(-K B) [default: chosen from the light]
     #[arg(short = 'k', visible_short_alias = 'K', long, value_name = "K", value_parser = positive)]
     pub(crate) exposure: Option<f64>,
-    /// A picture's width in pixels
+    /// The width of a picture in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub(crate) width: u32,
-    /// A picture's camera: the name of one of the scene's, or X,Y,Z,TX,TY,TZ[,DEGREES]: the eye, what it looks at, and the
+    /// The camera of a picture: the name of a camera of the scene, or X,Y,Z,TX,TY,TZ[,DEGREES]: the eye, the target and the
     /// vertical field of view [default: the scene's first camera, or one that sees everything]
     #[arg(long, value_name = "CAMERA", allow_hyphen_values = true)]
     pub(crate) camera: Option<String>,

@@ -362,7 +362,7 @@ fn a_stopped_run_is_4_and_writes_its_result() {
     assert_eq!(code(&output), 4, "{}", stderr(&output));
     assert_eq!(json(&output)["shots"], 3);
     assert_eq!(folder.names(), ["a.png", "a.png.state"]);
-    assert!(stderr(&output).contains("go on with --resume"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("continue with --resume"), "{}", stderr(&output));
     let state = text_of(&folder.path("a.png.state"));
     let resumed = radiosity(&[&SOLVE[..], &["--json", "--resume", &state]].concat());
     let whole = radiosity(&[&SOLVE[..], &["--json"]].concat());

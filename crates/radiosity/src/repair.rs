@@ -1,8 +1,7 @@
 //! The repair of patches that overlap in one plane.
 use crate::inspect::overlap::overlaps;
 use crate::plane::Plane;
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use polycsg::{Csg, Region};
 use std::collections::{BTreeMap, HashSet};

@@ -13,14 +13,14 @@ const ABOVE: u8 = 5;
 /// `radiosity compare`
 #[derive(Args, Debug)]
 pub(crate) struct Compare {
-    /// A solution that solve wrote as .json
+    /// A solution: a .json file of solve
     a: PathBuf,
-    /// Another one of the same scene, of any mesh: the reference
+    /// The reference: another solution of the same scene, with any mesh
     b: PathBuf,
-    /// End with exit code 5 when any norm in any band is above this; 0 asks for the same light
+    /// Exit with code 5 when a norm in a band is above this; 0 demands the same light
     #[arg(long, value_name = "SHARE", value_parser = share)]
     fail_above: Option<f64>,
-    /// Print JSON instead of text; a norm that is infinite is null
+    /// Print JSON instead of text; an infinite norm is null
     #[arg(long)]
     json: bool,
 }
@@ -31,7 +31,7 @@ fn share(text: &str) -> Result<f64, String> {
     if number >= 0.0 && number.is_finite() {
         Ok(number)
     } else {
-        Err("give 0 or a finite number above".to_owned())
+        Err("give 0 or a finite number above 0".to_owned())
     }
 }
 
@@ -67,7 +67,7 @@ fn text(comparison: &Comparison) -> String {
         );
     }
     if !comparison.same_mesh {
-        text += "the meshes differ: element against all it overlaps\n";
+        text += "the meshes differ: each element is compared with all elements that it overlaps\n";
     }
     text
 }

@@ -12,13 +12,13 @@ use std::process::ExitCode;
 /// `radiosity expose`
 #[derive(Args, Debug)]
 pub(crate) struct Expose {
-    /// A solution that solve wrote: .json, or .dae or .glb with the radiosity at their vertices
+    /// A solution: a .json, .dae or .glb file of solve
     solution: PathBuf,
-    /// Where to write it with displayable colours: of .json any kind but .dae, else the same kind; may be given several
-    /// times
+    /// Write it with displayable colours to this file: from .json in any format but .dae, otherwise in the same format; may be
+    /// given several times
     #[arg(short, long, value_name = "FILE", required = true)]
     output: Vec<PathBuf>,
-    /// Choose K from the light; this is also what happens without -k
+    /// Choose K from the light, as without -k
     #[arg(long, conflicts_with = "exposure")]
     auto: bool,
     #[command(flatten)]
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
 fn save(arguments: &Expose, kind: &str, bytes: &[u8]) -> Result<(), Failure> {
     if let Some(path) = arguments.output.iter().find(|path| end(path) != kind) {
         let message = format!(
-            "{}: of a .{kind} solution only .{kind} is written; other kinds of a .json one",
+            "{}: a .{kind} solution is written as .{kind} only; a .json solution as other kinds",
             path.display()
         );
         return Err(Failure::usage(message));

@@ -20,10 +20,10 @@ pub(crate) struct Inspect {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Cut faces that overlap in one plane out of each other, lamps out of ceilings too; -o says where to write the scene
+    /// Cut faces that overlap in one plane out of each other; needs -o
     #[arg(long, requires = "output")]
     repair: bool,
-    /// Where to write the repaired scene, as COLLADA
+    /// Write the repaired scene to this file, as COLLADA
     #[arg(short, long, value_name = "FILE", requires = "repair")]
     output: Option<PathBuf>,
 }
@@ -95,13 +95,9 @@ fn names(patches: &[String]) -> String {
 fn openness(inspection: &Inspection) -> String {
     match &inspection.opening {
         None => "no patch to look from".to_owned(),
-        Some(_) if inspection.closed => "closed: from no patch any view leaves the scene".to_owned(),
+        Some(_) if inspection.closed => "closed: no view from a patch leaves the scene".to_owned(),
         Some(opening) if opening.share < 0.0 => {
-            format!(
-                "more than closed: {} sees {:.3} % twice; patches overlap",
-                opening.patch,
-                -100.0 * opening.share
-            )
+            format!("overlapping: {} sees {:.3} % twice", opening.patch, -100.0 * opening.share)
         }
         Some(opening) => {
             format!(

@@ -11,17 +11,17 @@ use std::process::ExitCode;
 /// `radiosity report`
 #[derive(Args, Debug)]
 pub(crate) struct Report {
-    /// Scenes: the names of built-in ones, or files [default: all built-in ones, and what belongs to no scene: single
-    /// points, axes of stress, solvers, Booleans]
+    /// Scenes: names of built-in ones, or files [default: all built-in ones, and measurements without a scene: single points,
+    /// axes of stress, solvers, Booleans]
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
-    /// The folder for report.html, report.jsonl and tables.md; made where there is none
+    /// The folder for report.html, report.jsonl and tables.md; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer points, settings and rounds: within three minutes on two cores, instead of forty
+    /// Use fewer points, settings and rounds: three minutes on two cores instead of forty
     #[arg(long)]
     quick: bool,
-    /// What other libraries of polygon Booleans take: the JSON lines that tests/peers writes
+    /// Add other libraries of polygon Booleans: the JSON lines that tests/peers writes
     #[arg(long, value_name = "FILE")]
     peers: Option<PathBuf>,
 }
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
     let plan = plan(arguments)?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::internal(format!("{}: cannot be made: {error}; name another folder", folder.display()))
+        Failure::internal(format!("{}: cannot be created: {error}; name another folder", folder.display()))
     })?;
     // Half an hour of work is not begun for a folder that takes no files.
     Output::new(&folder.join("report.html"))?;
@@ -73,7 +73,7 @@ fn scene(name: &str) -> Result<Scene, Failure> {
     if scene.patches.iter().any(radiosity::Patch::emits) {
         return Ok(scene);
     }
-    Err(Failure::scene(format!("{name}: no patch emits, so there is no light to ask for; give it a lamp")))
+    Err(Failure::scene(format!("{name}: no patch emits light; give it an emitter")))
 }
 
 fn peers(path: &Path) -> Result<Peers, Failure> {

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 pub(crate) struct BuiltIn {
     /// The scene's name
     name: String,
-    /// Where to write it, as COLLADA [default: stdout]
+    /// Write it to this file, as COLLADA [default: stdout]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

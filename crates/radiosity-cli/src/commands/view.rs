@@ -10,12 +10,12 @@ use std::{path::PathBuf, process::ExitCode};
 /// `radiosity view`
 #[derive(Args, Debug)]
 pub(crate) struct View {
-    /// A solution that solve wrote as .json
+    /// A solution: a .json file of solve
     solution: PathBuf,
-    /// Where to write the page [default: beside the solution, as .html]
+    /// Write the page to this file [default: beside the solution, as .html]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The brightness to start with: intensity is 1 - exp(-K B) [default: chosen from the light]
+    /// The exposure K to start with: intensity is 1 - exp(-K B) [default: chosen from the light]
     #[arg(short = 'k', long, value_name = "K", value_parser = positive)]
     exposure: Option<f64>,
 }
@@ -24,7 +24,7 @@ pub(crate) struct View {
 pub(crate) fn run(arguments: &View) -> Result<ExitCode, Failure> {
     let path = arguments.output.clone().unwrap_or_else(|| arguments.solution.with_extension("html"));
     if path.extension().is_none_or(|end| !end.eq_ignore_ascii_case("html")) {
-        return Err(Failure::usage(format!("{}: a page is written; name it .html", path.display())));
+        return Err(Failure::usage(format!("{}: the output is a page; name it .html", path.display())));
     }
     let output = Output::new(&path)?;
     let record = input::solution(&arguments.solution)?;

@@ -113,7 +113,7 @@ fn benchmarks_has_the_tables_that_its_command_writes() {
 }
 
 #[test]
-fn half_of_the_points_see_the_lamps_in_part_or_all_that_do() {
+fn half_of_the_points_see_the_emitters_in_part_or_all_that_do() {
     for (name, scene) in &plan(&["chessboard", "small-occluders", "furnace"]).scenes {
         let test_scene = TestScene::new(name, scene, 400).unwrap();
         let in_part = |count: usize| {

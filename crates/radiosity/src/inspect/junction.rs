@@ -3,8 +3,10 @@
 //! Form factors do not mind them; but elements on both sides do not share vertices there, so that interpolated light can
 //! show a seam.
 use crate::plane::slack;
-use crate::scene::Scene;
-use crate::scene::finding::{Finding, Kind};
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+};
 use glam::DVec3;
 use std::collections::BTreeMap;
 

@@ -1,12 +1,12 @@
 //! A description of a scene, and findings: what will trouble a solution.
 //!
 //! ```text
-//! surface      impossible reflectances, patches that are thinner than rounding
-//! orientation  neighbours that face opposite ways
-//! overlap      patches that cover each other in one plane, duplicates among them
-//! junction     vertices that end in the middle of another patch's edge
 //! openness     how much of the view from the patches leaves the scene
 //! cost         how long the form factors will take
+//! junction     vertices that end in the middle of another patch's edge
+//! overlap      patches that cover each other in one plane, duplicates among them
+//! orientation  neighbours that face opposite ways
+//! surface      impossible reflectances, patches that are thinner than rounding
 //! ```
 //! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
 //! [`PlanarPolygon`](formfactor::PlanarPolygon).
@@ -21,9 +21,7 @@ pub use crate::scene::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
 
-use crate::scene::Scene;
-use crate::scene::asset::Asset;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
 
 /// A description of a scene.

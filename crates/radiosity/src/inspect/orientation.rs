@@ -3,9 +3,11 @@
 //! Two patches that share an edge and belong to one surface run along it in opposite directions. Where they run the same
 //! way, one of them is flipped: of a connected surface the side with the smaller area. Of patches with the same edges only
 //! the first counts: a duplicate runs along all of them the same way, and is not flipped.
-use crate::scene::Scene;
-use crate::scene::finding::{Finding, Kind};
-use crate::scene::patch::Patch;
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+    patch::Patch,
+};
 use std::collections::{HashMap, HashSet};
 
 type EdgeKey = [[u64; 3]; 2];

@@ -1,8 +1,10 @@
 //! Patches that face the same way and cover each other in one plane.
 use crate::plane::{Plane, slack};
-use crate::scene::Scene;
-use crate::scene::finding::{Finding, Kind};
-use crate::scene::patch::Patch;
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+    patch::Patch,
+};
 use glam::DVec3;
 use polycsg::Region;
 

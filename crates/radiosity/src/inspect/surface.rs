@@ -1,8 +1,10 @@
 //! What a patch gets wrong by itself.
 use crate::plane::slack;
-use crate::scene::Scene;
-use crate::scene::finding::{Finding, Kind};
-use crate::scene::patch::Patch;
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+    patch::Patch,
+};
 use glam::DVec3;
 
 /// A patch whose width is less than so many times its coordinates' rounding is a sliver.

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! source     a scene file of any kind
-//! collada    COLLADA 1.4 and 1.5, read and written
 //! gltf       glTF 2.0, read and written
+//! collada    COLLADA 1.4 and 1.5, read and written
 //! vs3        View3D's input, read
 //! surface    what all readers do with polygons
 //! save       whole files or none

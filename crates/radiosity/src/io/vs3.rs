@@ -4,9 +4,11 @@
 //! is cut out of it; a null surface is a hole in its base; an obstruction only blocks.
 use super::error::{Fault, FileError};
 use crate::plane::Plane;
-use crate::scene::Scene;
-use crate::scene::finding::Finding;
-use crate::scene::patch::{Origin, Patch};
+use crate::scene::{
+    Scene,
+    finding::Finding,
+    patch::{Origin, Patch},
+};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use polycsg::{Csg, FillRule, Region};

@@ -13,6 +13,7 @@
 //! lattice      equal cells over a patch
 //! contacts     lines on which other patches touch a patch: light jumps there
 //! frame        a patch in two dimensions, its longest edge along x
+//! refusal      why a polygon could not be cut
 //! element      the mesh
 //! ```
 mod contacts;

@@ -6,8 +6,7 @@
 //! set of patches that share vertices, or a single loop of a patch that shares none. Lines that are missing cost some
 //! sharpness, lines too many some elements: so plain arithmetic will do.
 use super::spacing::strongest;
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,7 +1,6 @@
 //! How long the sides of cells are: the same everywhere, so that elements are shared out by area, unless one patch is most
 //! of the scene but little of what is lit, as the ground around a house is.
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::Enclosure;
 
 /// The light of so many of the strongest emitters tells what is lit.

@@ -1,8 +1,7 @@
 //! Laws of the mesh.
 use super::plan::Plan;
 use super::subdivide::Subdivision;
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 

@@ -1,10 +1,10 @@
 //! Pictures: a mesh with its light, as a camera sees it, in PNG.
 //!
 //! ```text
-//! framing    a camera for scenes that have none
 //! raster     triangles to samples
 //! painting   what is drawn
 //! png        pixels to the bytes of a file
+//! framing    a camera for scenes that have none
 //! ```
 pub(crate) mod framing;
 pub(crate) mod painting;

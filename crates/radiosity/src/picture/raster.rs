@@ -5,8 +5,7 @@
 //! volume −v0·(v1×v2), is 1 / depth (Olano and Greer 1997). Corners behind the eye need no care. Neighbours share the
 //! plane through their edge to the last bit, so that no ray passes between them.
 use super::painting::Painting;
-use crate::scene::camera::Camera;
-use crate::scene::texture::Image;
+use crate::scene::{camera::Camera, texture::Image};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 

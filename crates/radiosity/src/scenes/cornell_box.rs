@@ -5,8 +5,7 @@
 //! the lamp.
 use super::shapes::{Quad, face, halves, quad, surface};
 use crate::io::collada::model::{Face, Material, Model};
-use crate::scene::asset::Asset;
-use crate::scene::camera::Camera;
+use crate::scene::{asset::Asset, camera::Camera};
 use glam::DVec3;
 use polycsg::{FillRule, Region};
 

@@ -3,8 +3,7 @@ use super::light::Light;
 use super::rooms::Rooms;
 use super::run::Run;
 use crate::error::Error;
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;
 
 /// Follows the light from the emitters. What no light reaches is left out, and no factor to it is found; what only

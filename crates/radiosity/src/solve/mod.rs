@@ -1,26 +1,30 @@
 //! From a scene to its light.
 //!
 //! ```text
-//! drive      one mesh from its first step to its solution: which method, the steps, closure, direct light
-//! refine     where the light is not resolved, and a plan for a finer mesh
-//! direct     light straight from the emitters, exact at every vertex
-//! relax      all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
-//! shoot      progressive refinement: the piece with most to shoot shoots, again and again
-//! follow     the light followed through the rooms
-//! run        what the steps of a run share
-//! progress   what whoever follows a run is shown
-//! hemicube   form factors by hemicubes, to compare with
-//! factors    column of exact form factors from every element's centroid to one piece; kept in the state
-//! occluders  patches that continue each other hide as one polygon
-//! state      the form factors found so far, as bytes
-//! ledger     where the power went, and how far the light is from the solution
-//! shooters   which pieces shoot, how much each has shot, when one is split
-//! rooms      which patches light reaches, and which of them close a room
-//! light      radiosity and irradiance of every element
-//! solution   what comes out; interpolate, from its elements to its vertices
-//! check      refuse what has no solution: negative emission, reflectance above 1
-//! overlap    refuse patches that lie on each other
-//! options    how the solver is asked
+//! refine       where the light is not resolved, and a plan for a finer mesh
+//! drive        one mesh from the first step to its solution: which method, the steps, closure, direct light
+//! direct       light straight from the emitters, exact at every vertex
+//! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
+//! shoot        progressive refinement: the piece with most to shoot shoots, again and again
+//! follow       the light followed through the rooms
+//! run          what the steps of a run share
+//! progress     the progress of a run, as its caller sees it
+//! factors      columns of exact form factors from every element's centroid to one piece; kept in the state
+//! hemicube     form factors by hemicubes, to compare with
+//! workers      many form factors at once, by all threads
+//! occluders    patches that continue each other hide as one polygon
+//! interpolate  from elements to vertices
+//! solution     what comes out
+//! ledger       where the power went, and how far the light is from the solution
+//! shooters     which pieces shoot, how much each has shot, when one is split
+//! rooms        which patches light reaches, and which of them close a room
+//! light        radiosity and irradiance of every element
+//! state        the form factors found so far, as bytes; fingerprint tells meshes apart
+//! magnitude    how large many numbers are
+//! check        refuse what has no solution: negative emission, reflectance above 1
+//! overlap      refuse patches that lie on each other
+//! quality      options by one word
+//! options      the options, with norm
 //! ```
 //!
 //! The discrete system is B = E + ρ F P B: elements i receive at their centroids, F_ij is the exact form factor

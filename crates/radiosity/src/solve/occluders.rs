@@ -2,8 +2,7 @@
 //!
 //! A wall that comes as a thousand triangles hides what the wall hides, at a thousandth of the cost. Which edges lie
 //! inside a wall is read off the vertices, which neighbours share; nothing is intersected.
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;
 use formfactor::PlanarPolygon;
 use glam::DVec3;

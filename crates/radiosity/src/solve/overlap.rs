@@ -1,8 +1,7 @@
 //! Refuses patches that lie on each other: form factors to both would count the same view twice.
 use crate::error::Error;
 use crate::extent::Extent;
-use crate::scene::Scene;
-use crate::scene::patch::Patch;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};

@@ -22,22 +22,22 @@ pub(crate) struct Factors {
     /// From this point with this normal, in the file's units and axes
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = point_and_normal, allow_hyphen_values = true)]
     from: Option<[f64; 6]>,
-    /// The patch that the point lies on: it never blocks the view, and the point sees nothing of it
+    /// The patch that the point lies on; it neither blocks the view nor is seen
     #[arg(long, value_name = "PATCH", requires = "from")]
     on: Option<String>,
-    /// From this patch; may be given several times. Without --from and --row: the whole matrix
+    /// From this patch; may be given several times [default: the whole matrix, without --from]
     #[arg(long, value_name = "PATCH", conflicts_with = "from")]
     row: Vec<String>,
-    /// From area to area, each row to this absolute tolerance; else from the middle of each patch, exactly
+    /// From area to area, each row to this absolute tolerance [default: exactly from the middle of each patch]
     #[arg(long, value_name = "TOLERANCE", value_parser = positive, conflicts_with = "from")]
     area: Option<f64>,
-    /// How to print
+    /// The output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// Where to write it [default: stdout]
+    /// Write to this file [default: stdout]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -49,7 +49,7 @@ enum Format {
     Text,
     /// Factors that are not 0, one a line
     Csv,
-    /// Everything
+    /// Everything, as JSON
     Json,
     /// The output format 0 of View3D: areas, the matrix, emittances; needs --area and the whole matrix
     View3d,
@@ -59,8 +59,7 @@ enum Format {
 pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     let whole = arguments.row.is_empty() && arguments.from.is_none();
     if arguments.format == Format::View3d && !(whole && arguments.area.is_some()) {
-        let message =
-            "View3D's format holds a whole matrix from area to area; give --area TOLERANCE and no --row";
+        let message = "View3D's format holds a whole matrix from area to area; give --area TOLERANCE and no --row or --from";
         return Err(Failure::usage(message));
     }
     let (scene, _) = input::read(&arguments.scene)?;

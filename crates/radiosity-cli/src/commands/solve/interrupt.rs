@@ -47,10 +47,10 @@ impl<'o> Follower<'o> {
             if flag.swap(true, Ordering::SeqCst) {
                 std::process::exit(INTERRUPTED.into());
             }
-            eprintln!("stopping; what was found is being written; Ctrl-C again ends at once");
+            eprintln!("stopping and writing the result so far; Ctrl-C again ends at once");
         };
         ctrlc::set_handler(stop)
-            .map_err(|error| Failure::internal(format!("Ctrl-C cannot be taken over: {error}")))?;
+            .map_err(|error| Failure::internal(format!("Ctrl-C cannot be handled: {error}")))?;
         Ok(Follower {
             outputs,
             bar: Bar::new(options(outputs.arguments).tolerance),
@@ -112,7 +112,7 @@ impl<'o> Follower<'o> {
             return ExitCode::SUCCESS;
         }
         match &self.state {
-            Some(path) if self.state_written => eprintln!("go on with --resume {}", path.display()),
+            Some(path) if self.state_written => eprintln!("continue with --resume {}", path.display()),
             _ => {}
         }
         if let Some(fault) = &solution.fault {

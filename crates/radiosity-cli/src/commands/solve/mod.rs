@@ -27,7 +27,7 @@ use std::process::ExitCode;
 /// Ctrl-C stops the run: what was found so far is written, and the state. A second Ctrl-C ends the program at once.
 pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
-        return Err(Failure::usage("no result is asked for; give -o FILE, or --json"));
+        return Err(Failure::usage("there is no output; give -o FILE or --json"));
     }
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
@@ -59,6 +59,8 @@ fn report(solution: &Solution) {
 /// A scene without light is solved: it is dark. Most likely it was not meant.
 fn warn_of_darkness(scene: &Scene) {
     if scene.patches.iter().all(|patch| patch.emission.iter().all(|&radiance| radiance == 0.0)) {
-        eprintln!("warning: no patch emits light, so all is dark; give a material an <emission> above 0");
+        eprintln!(
+            "warning: no patch emits light, so the scene is dark; give a material an <emission> above 0"
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! What may be asked of `radiosity solve`, and what the solver is asked.
+//! The options of `radiosity solve`, and those of the solver that they lead to.
 use crate::parse::{count, positive};
 use crate::view_options::ViewOptions;
 use clap::{Args, ValueEnum};
@@ -10,51 +10,51 @@ use std::path::PathBuf;
 pub(crate) struct Solve {
     /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
     pub(super) scene: PathBuf,
-    /// Where to write the result, by extension: a picture (.png), a scene (.dae, .glb), a page (.html), all of it (.json),
-    /// a table of patches (.csv) or of elements (.elements.csv); may be given several times
+    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb), a page (.html),
+    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); may be given several times
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Print the result's figures on stdout as JSON
     #[arg(long)]
     pub(super) json: bool,
-    /// How much work the light is worth
+    /// How fine and how exact the result is
     #[arg(long, value_enum, default_value_t = Quality::Normal)]
     pub(super) quality: Quality,
     /// About how many elements to cut the scene into [default: by quality]
     #[arg(long, value_name = "N", value_parser = count)]
     pub(super) elements: Option<usize>,
-    /// How often to look where the light is not resolved and cut the scene anew; 0: equal elements [default: by quality]
+    /// How often to refine the mesh where the light is not resolved; 0: equal elements [default: by quality]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=4))]
     pub(super) passes: Option<u8>,
-    /// What tells where the light is not resolved
+    /// The norm that tells where the light is not resolved
     #[arg(long, value_enum, default_value_t = Norm::L2)]
     pub(super) norm: Norm,
-    /// Of so many of the strongest lamps, lay element edges along the edges of shadows [default: by quality]
-    #[arg(long, value_name = "LAMPS")]
+    /// How many of the strongest emitters get element edges along the edges of their shadows [default: by quality]
+    #[arg(long, value_name = "EMITTERS")]
     pub(super) shadows: Option<u8>,
-    /// How to find the light
+    /// The method of solution
     #[arg(long, value_enum, default_value_t = Method::Auto)]
     pub(super) method: Method,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness
     /// [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) tolerance: Option<f64>,
-    /// Split a shooter while it deviates from a uniform one by more than this share of all power [default: by quality]
+    /// Split a piece while its power deviates from a uniform piece by more than this share of all power [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) spread: Option<f64>,
     /// Take form factors from hemicubes of N × N cells instead of exact ones, to compare
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=4096))]
     pub(super) hemicube: Option<u32>,
-    /// Stop after so many shots
+    /// Stop after this many shots
     #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
     pub(super) max_shots: usize,
-    /// Stop after so many seconds
+    /// Stop after this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub(super) time: Option<f64>,
-    /// Go on from the state that a stopped run of the same scene wrote
+    /// Resume from the state that a stopped run of the same scene wrote
     #[arg(long, value_name = "FILE")]
     pub(super) resume: Option<PathBuf>,
-    /// Write the outputs as they stand so often, and the state beside the first of them
+    /// Write all outputs and the state whenever this many seconds have passed; the state stands beside the first output
     #[arg(long, value_name = "SECONDS", value_parser = positive, requires = "output")]
     pub(super) snapshot_every: Option<f64>,
     /// Write the bound and the ledger of every step as CSV
@@ -94,17 +94,17 @@ pub(super) enum Norm {
 pub(super) enum Method {
     /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
     Auto,
-    /// Progressive refinement: the piece with most light to shoot shoots it, again and again
+    /// Progressive refinement: the piece with the most unshot light shoots it, again and again
     Shoot,
-    /// The full matrix by Gaussian elimination: to check with, for some thousand elements
+    /// Gaussian elimination on the full matrix, for checks with up to a few thousand elements
     Matrix,
     /// Conjugate gradients on symmetric exchange areas: for bright closed rooms
     Cg,
-    /// GMRES on one-sided factors
+    /// GMRES on unscaled form factors
     Gmres,
 }
 
-/// How the solver is asked.
+/// The options of the solver.
 pub(super) fn options(arguments: &Solve) -> Options {
     let by_quality = match arguments.quality {
         Quality::Draft => radiosity::Quality::Draft,

@@ -2,8 +2,7 @@
 use super::file::{File, XmlNode, child, descend};
 use super::walk::{CameraInstance, name_of};
 use crate::io::error::{Fault, FileError};
-use crate::scene::camera::Camera;
-use crate::scene::finding::Finding;
+use crate::scene::{camera::Camera, finding::Finding};
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -2,9 +2,7 @@
 use super::model::{Face, Material, Model};
 use super::spectra::PROFILE;
 use super::xml::{TOOL, decimal, escape, list};
-use crate::scene::asset::Asset;
-use crate::scene::camera::Camera;
-use crate::scene::texture::Texture;
+use crate::scene::{asset::Asset, camera::Camera, texture::Texture};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::fmt::Write;

@@ -1,8 +1,7 @@
 //! The pictures that textures name: in the file itself, in a `data:` address, or beside the file.
 use super::file::{File, XmlNode, child, children, descend};
 use crate::image_file;
-use crate::scene::finding::Finding;
-use crate::scene::texture::Image;
+use crate::scene::{finding::Finding, texture::Image};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

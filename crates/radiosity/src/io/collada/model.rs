@@ -1,9 +1,5 @@
 //! A scene on its way to becoming a file: named faces and their materials.
-use crate::scene::Scene;
-use crate::scene::asset::Asset;
-use crate::scene::camera::Camera;
-use crate::scene::patch::Patch;
-use crate::scene::texture::Texture;
+use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Texture};
 use crate::spectrum::Colours;
 use glam::DVec3;
 use std::collections::BTreeMap;

@@ -8,8 +8,10 @@ use crate::io::error::{Fault, FileError};
 use crate::io::surface::facets;
 use crate::io::surface::finish::Surface;
 use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
-use crate::scene::finding::Finding;
-use crate::scene::patch::{Origin, Patch};
+use crate::scene::{
+    finding::Finding,
+    patch::{Origin, Patch},
+};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 

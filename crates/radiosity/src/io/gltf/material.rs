@@ -2,8 +2,7 @@
 use super::accessor::Buffers;
 use crate::image_file;
 use crate::io::surface::finish::Finish;
-use crate::scene::finding::Finding;
-use crate::scene::texture::Image;
+use crate::scene::{finding::Finding, texture::Image};
 use gltf::material::AlphaMode;
 use std::collections::HashMap;
 use std::path::Path;

@@ -4,8 +4,7 @@ use super::lit::{materials, primitives};
 use crate::expose::Exposure;
 use crate::io::error::FileError;
 use crate::record::Record;
-use crate::scene::asset::Asset;
-use crate::scene::camera::Camera;
+use crate::scene::{asset::Asset, camera::Camera};
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
 

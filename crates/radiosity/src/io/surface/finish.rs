@@ -1,7 +1,6 @@
 //! Surfaces: polygons, where they stand, and what they reflect and emit.
 use super::polygon::Facet;
-use crate::scene::patch::Origin;
-use crate::scene::texture::Image;
+use crate::scene::{patch::Origin, texture::Image};
 use glam::DMat4;
 use std::sync::Arc;
 

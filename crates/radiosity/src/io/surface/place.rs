@@ -3,9 +3,11 @@ use super::finish::{Finish, Spectra, Surface};
 use super::flaws::Flaws;
 use super::polygon::{Corner, Facet, Polygon, bits};
 use super::split::split;
-use crate::scene::finding::Finding;
-use crate::scene::patch::{Origin, Patch};
-use crate::scene::texture::Texture;
+use crate::scene::{
+    finding::Finding,
+    patch::{Origin, Patch},
+    texture::Texture,
+};
 use crate::union_find::UnionFind;
 use formfactor::PlanarPolygon;
 use glam::{DMat4, DVec3};
