@@ -1,14 +1,14 @@
 //! What to measure.
 use radiosity::Scene;
 
-/// What to measure.
+/// A plan of what to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The scenes, by name.
     pub scenes: Vec<(String, Scene)>,
-    /// Fewer points, settings and rounds: some minutes instead of half an hour.
+    /// Whether to use fewer points, settings and rounds: some minutes instead of half an hour.
     pub quick: bool,
-    /// Whether what belongs to no scene is measured too: single points, axes of stress, solvers, Booleans.
+    /// Whether to measure also without a scene: single points, axes of stress, solvers, Booleans.
     pub general: bool,
 }
 

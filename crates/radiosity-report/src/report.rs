@@ -14,7 +14,7 @@ use crate::results::Report;
 use crate::rows::{Chapter, Measured, Row};
 use radiosity::Error;
 
-/// Measures all that a plan says; `say` is told what comes next. Nothing else should run at that time.
+/// Measures what a plan says; `say` receives the name of each part before it starts. Nothing else should run on the machine.
 ///
 /// ```no_run
 /// use radiosity::scenes;
@@ -28,7 +28,7 @@ use radiosity::Error;
 /// ```
 ///
 /// # Errors
-/// What [`solve`](radiosity::solve()) refuses in a scene.
+/// The errors of [`solve`](radiosity::solve()).
 pub fn report(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Report, Error> {
     let steps = steps(plan);
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
@@ -47,7 +47,7 @@ pub fn report(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Report, Error> {
     Ok(Report { rows, machine: Machine::here(), quick: plan.quick, images: pictures })
 }
 
-/// What belongs to no scene.
+/// The measurements without a scene.
 fn general(plan: &Plan, steps: &[Step], mut say: impl FnMut(&str)) -> Result<Vec<Measured>, Error> {
     let mut rows = Vec::new();
     say("points by kind");
@@ -75,7 +75,7 @@ fn pictured(plan: &Plan) -> Vec<Step> {
 }
 
 impl Report {
-    /// The rows as JSON, one a line, after one about the machine.
+    /// The rows as lines of JSON, after one line about the machine.
     #[must_use]
     pub fn lines(&self) -> String {
         let line =
@@ -85,13 +85,13 @@ impl Report {
             + &rows.collect::<String>()
     }
 
-    /// The page, with what is known of other libraries.
+    /// The HTML page; with `peers`, it has a chapter on other libraries.
     #[must_use]
     pub fn page(&self, peers: Option<&Peers>) -> String {
         page(self, peers)
     }
 
-    /// The tables as Markdown, each under the command that makes it: those of a README.
+    /// The tables as Markdown.
     #[must_use]
     pub fn tables(&self) -> String {
         let mut text = format!("## Methods by scene\n\n{}", summary(self).markdown());

@@ -3,7 +3,7 @@ use crate::analysis::subjects;
 use crate::machine::Machine;
 use crate::rows::{Chapter, ErrorImage, Measured, Row};
 
-/// What was measured.
+/// A report: what was measured.
 #[derive(Clone, Debug)]
 pub struct Report {
     pub(crate) rows: Vec<Row>,

@@ -7,9 +7,9 @@ use serde::Serialize;
 pub(crate) enum Row {
     /// An error and what it cost.
     Measured(Measured),
-    /// What was left out in a scene, and what that saved.
+    /// Work that was saved in a scene.
     LeftOut(LeftOut),
-    /// A row of a published table, measured anew.
+    /// A row of a published table, measured again.
     Published(Published),
 }
 
@@ -46,9 +46,9 @@ pub(crate) struct Measured {
     pub(crate) error: Deviation,
     /// A bound that the method itself gives with its result: on the largest error.
     pub(crate) bound: Option<f64>,
-    /// From how many points it was asked; none where no points are asked.
+    /// The number of points queried; `None` where no points are queried.
     pub(crate) points: Option<usize>,
-    /// From how many of them something hides the targets, but not all of them.
+    /// The number of points from which the targets are partly hidden.
     pub(crate) in_part: Option<usize>,
     /// Whether the result passes an exact check, where there is one.
     pub(crate) valid: Option<bool>,
@@ -56,7 +56,7 @@ pub(crate) struct Measured {
     pub(crate) time: Time,
 }
 
-/// An economy in a scene.
+/// Work that was saved in a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct LeftOut {
     /// The scene.
@@ -65,15 +65,15 @@ pub(crate) struct LeftOut {
     pub(crate) economy: &'static str,
     /// How many were left out, per form factor; of elements, how many in all.
     pub(crate) count: f64,
-    /// The share of all there are.
+    /// The share of all.
     pub(crate) share: f64,
     /// Seconds that one costs where it is not left out, measured here.
     pub(crate) unit: f64,
-    /// What was saved, by the time of what was done.
+    /// The time saved over the time taken.
     pub(crate) saved: f64,
 }
 
-/// A row of a published table, measured anew.
+/// A row of a published table, measured again.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Published {
     /// The table's number.
@@ -129,7 +129,7 @@ pub(crate) struct Spread {
     pub(crate) high: f64,
 }
 
-/// What counts as wrong to the eye.
+/// A deviation that the eye sees.
 const WRONG: f64 = 1e-3;
 
 impl Deviation {

@@ -31,7 +31,7 @@ pub(crate) struct QuerySet {
 }
 
 impl QuerySet {
-    /// What one method answers.
+    /// The answers of one method.
     fn answers(&self, step: &Step) -> Vec<f64> {
         let total = |query: &Query| {
             let row = step.method.row(&self.enclosures[query.enclosure], &query.from, &query.targets);
@@ -40,7 +40,7 @@ impl QuerySet {
         self.queries.iter().map(total).collect()
     }
 
-    /// Asks all methods, in turns.
+    /// Measures all methods, in turns.
     pub(crate) fn measure(&self, steps: &[Step], rounds: usize) -> Vec<Measured> {
         let job = |step| -> Job<'_, Vec<f64>> { Box::new(move || self.answers(step)) };
         let jobs: Vec<Job<'_, Vec<f64>>> = steps.iter().map(job).collect();

@@ -11,7 +11,7 @@ const MANY: usize = 50;
 /// The fewest points.
 const FEWEST: usize = 16;
 
-/// A scene, cut in elements, with all that hides and all that shines.
+/// A scene cut in elements, with its occluders and emitters.
 #[derive(Debug)]
 pub(crate) struct TestScene<'s> {
     pub(crate) name: &'s str,
@@ -60,7 +60,7 @@ impl<'s> TestScene<'s> {
         QuerySet { queries: picked.into_iter().map(|point| self.query(point)).collect(), ..all }
     }
 
-    /// What is asked from a point.
+    /// The query from a point.
     fn query(&self, point: usize) -> Query {
         let [exact, bound] = self.light[point];
         Query { enclosure: 0, from: self.points[point], targets: self.emitters.clone(), exact, bound }

@@ -1,9 +1,9 @@
-//! The chapters of what was left out and of the published tables.
+//! The chapters of the work saved and of the published tables.
 use super::table::{Table, error, percent, seconds, short};
 use crate::results::Report;
 use crate::rows::{LeftOut, Published, Row};
 
-/// What was left out in each scene, and what that saved.
+/// The work that was saved in each scene.
 pub(crate) fn left_out(report: &Report) -> String {
     let rows = left_out_table(report);
     if rows.rows.is_empty() {

@@ -4,7 +4,7 @@ use super::table::{Table, error, seconds};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// Lines about peers.
+/// Times of other libraries.
 #[derive(Clone, Debug, Default)]
 pub struct Peers {
     lines: Vec<PeerLine>,
@@ -23,10 +23,10 @@ struct PeerLine {
 }
 
 impl Peers {
-    /// Reads the lines.
+    /// Reads the JSON lines that `tests/peers` writes.
     ///
     /// # Errors
-    /// The number of the first line that is none, and why; or that there is no line.
+    /// A message with the number of the first wrong line and the reason; or that there is no line.
     pub fn read(text: &str) -> Result<Peers, String> {
         let line = |(number, line): (usize, &str)| {
             serde_json::from_str(line).map_err(|error| {
