@@ -16,8 +16,8 @@ const WINDOW_2: RangeInclusive<f64> = power(-480)..=power(500);
 /// The same for degree 3: 2^-353 and 2^-1059, and below 2^910.
 const WINDOW_3: RangeInclusive<f64> = power(-300)..=power(300);
 
-fn all_in(window: RangeInclusive<f64>, coordinates: impl IntoIterator<Item = f64>) -> bool {
-    coordinates.into_iter().all(|x| x == 0.0 || window.contains(&x.abs()))
+fn are_in<const D: usize, const N: usize>(window: &RangeInclusive<f64>, points: &[[f64; D]; N]) -> bool {
+    points.iter().all(|point| point.iter().all(|&x| x == 0.0 || window.contains(&x.abs())))
 }
 
 /// A number with the sign of `(a - c) × (b - c)`: positive where `a b c` run counter-clockwise, 0 where they are collinear.
@@ -25,7 +25,7 @@ fn all_in(window: RangeInclusive<f64>, coordinates: impl IntoIterator<Item = f64
 /// The points are finite; of the number the sign alone is right.
 #[must_use]
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    if all_in(WINDOW_2, [a, b, c].into_iter().flatten()) {
+    if are_in(&WINDOW_2, &[a, b, c]) {
         let [a, b, c] = [a, b, c].map(|[x, y]| robust::Coord { x, y });
         return robust::orient2d(a, b, c);
     }
@@ -46,7 +46,7 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 /// ```
 #[must_use]
 pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64 {
-    if all_in(WINDOW_3, [a, b, c, d].into_iter().flatten()) {
+    if are_in(&WINDOW_3, &[a, b, c, d]) {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y, z]| robust::Coord3D { x, y, z });
         return robust::orient3d(a, b, c, d);
     }

@@ -25,7 +25,12 @@ pub const BITS: u32 = 61;
 #[must_use]
 pub fn scaled<const D: usize, const N: usize>(points: [[f64; D]; N]) -> Option<[[i64; D]; N]> {
     let exponent = |x: f64| decode(x).2.unwrap_or(i32::MAX);
-    let lowest = points.iter().flatten().fold(i32::MAX, |least, &x| least.min(exponent(x)));
+    let mut lowest = i32::MAX;
+    for point in points {
+        for x in point {
+            lowest = lowest.min(exponent(x));
+        }
+    }
     let mut all_fit = true;
     let mut multiple = |x: f64| {
         let (sign, mantissa, exponent) = decode(x);
@@ -39,6 +44,7 @@ pub fn scaled<const D: usize, const N: usize>(points: [[f64; D]; N]) -> Option<[
 }
 
 /// The product of two numbers below 2^127 in full: its high and its low half.
+#[inline]
 fn full_product(a: u128, b: u128) -> [u128; 2] {
     let halves = |x: u128| [x >> 64, x & u128::from(u64::MAX)];
     let ([a1, a0], [b1, b0]) = (halves(a), halves(b));
@@ -48,6 +54,7 @@ fn full_product(a: u128, b: u128) -> [u128; 2] {
 }
 
 /// The order of `a b` and `c d`, of numbers below 2^127 in magnitude.
+#[inline]
 #[must_use]
 pub fn compare_products([a, b]: [i128; 2], [c, d]: [i128; 2]) -> Ordering {
     let (left, right) = (a.signum() * b.signum(), c.signum() * d.signum());

@@ -5,6 +5,7 @@ use dashu_int::{IBig, Sign, UBig, ops::BitTest};
 use std::cmp::Ordering;
 
 /// Sign, odd mantissa and exponent of a finite `f64`: `x = ± mantissa · 2^exponent`; zero has no exponent.
+#[inline]
 pub(crate) fn decode(x: f64) -> (Sign, u64, Option<i32>) {
     let bits = x.to_bits();
     let sign = if bits >> 63 == 0 { Sign::Positive } else { Sign::Negative };
