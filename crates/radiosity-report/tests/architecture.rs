@@ -4,7 +4,7 @@
 mod street;
 
 use std::path::Path;
-use street::complaints;
+use street::{complaints, shared_names};
 
 /// Each folder of `src`, from the top to the bottom.
 const STREET: [(&str, &[&str]); 3] = [
@@ -52,4 +52,10 @@ const STREET: [(&str, &[&str]); 3] = [
 fn imports_run_one_way() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     assert_eq!(complaints(&src, &STREET), Vec::<String>::new());
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    assert_eq!(shared_names(&src), Vec::<String>::new());
 }

@@ -3,7 +3,7 @@
 mod street;
 
 use std::path::Path;
-use street::{complaints, listed, upward};
+use street::{complaints, listed, shared_names, upward};
 
 /// Each folder of `src`, from the top to the bottom.
 const STREET: [(&str, &[&str]); 14] = [
@@ -136,6 +136,12 @@ const STREET: [(&str, &[&str]); 14] = [
 fn imports_run_one_way() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     assert_eq!(complaints(&src, &STREET), Vec::<String>::new());
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    assert_eq!(shared_names(&src), Vec::<String>::new());
 }
 
 /// Every way to write an import that runs up is seen, and so is a file that the street does not name.

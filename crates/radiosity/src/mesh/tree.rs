@@ -41,6 +41,7 @@ pub(super) fn grow(
     let mut placed: Vec<Placed> = split.triangles.iter().zip(&split.zones).map(place).collect();
     let node = |elements| Node { patch, elements, ..Node::default() };
     nodes[patch] = node(first..first + placed.len());
+    // Every node is a range of triangles; its halves are the two parts of that range, sorted in place.
     let mut open = vec![patch];
     while let Some(parent) = open.pop() {
         let Range { start, end } = nodes[parent].elements;

@@ -24,6 +24,7 @@ pub(super) fn follow(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Rooms>, 
         for (element, factor) in run.factors.column(sender)?.iter() {
             let receiver = patch_of[element];
             sums[element] += factor;
+            // A black patch without emission ends the light that reaches it: it connects nobody.
             if !sends[sender] {
                 continue;
             }

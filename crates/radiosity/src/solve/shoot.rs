@@ -16,6 +16,7 @@ pub(super) fn shoot(run: &mut Run<'_>) -> Result<bool, Error> {
             return Ok(false);
         }
         let next = run.next();
+        // A piece that was split shoots in a later round, as its halves.
         if !run.shooters.split(next, &run.light, run.options.spread) {
             let column = run.factors.column(run.shooters.node(next))?;
             run.light.receive(&column, &run.shooters.shoot(next));

@@ -22,6 +22,25 @@ pub(crate) fn complaints(src: &Path, street: Street<'_>) -> Vec<String> {
     amiss.chain(imports).collect()
 }
 
+/// The names that two types of a crate have in common.
+pub(crate) fn shared_names(src: &Path) -> Vec<String> {
+    let (mut names, mut shared) = (BTreeSet::new(), Vec::new());
+    for file in files(src, "") {
+        let text = std::fs::read_to_string(src.join(&file).with_extension("rs")).expect("a source file");
+        for line in text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default().lines() {
+            let mut words =
+                line.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+            let kind = words.find(|word| !["pub", "crate", "super"].contains(word)).unwrap_or_default();
+            let name = words.next().unwrap_or_default();
+            let is_type = ["struct", "enum", "trait", "type"].contains(&kind);
+            if is_type && !line.starts_with(' ') && !names.insert(name.to_owned()) {
+                shared.push(format!("{file}: {name}"));
+            }
+        }
+    }
+    shared
+}
+
 /// The paths in a file's text that do not run down.
 pub(crate) fn upward(text: &str, file: &str, files: &BTreeSet<String>, street: Street<'_>) -> Vec<String> {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();

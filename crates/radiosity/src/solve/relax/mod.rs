@@ -122,12 +122,15 @@ fn solve_band(
     x: &mut [f64],
     method: Method,
 ) -> ControlFlow<()> {
+    // Black pieces send what they emit: they are no unknowns.
     for piece in (0..x.len()).filter(|&piece| balance.reflectance[piece] == 0.0) {
         x[piece] = balance.emittance[piece];
     }
     let mut residual = balance.residual(x);
     let mut before = f64::INFINITY;
     let mut going = ControlFlow::Continue(());
+    // The methods update their residual step by step, so that it drifts from the true one: solve again for that, while it
+    // halves each time.
     for _ in 0..REPEATS {
         let near = settle(run, balance, band, x, &residual, largest(&residual));
         if near || going.is_break() || 2.0 * largest(&residual) > before {
