@@ -59,7 +59,8 @@ fn given(view: &[f64], up: DVec3) -> Result<Camera, Failure> {
     let degrees = view.get(6).copied().unwrap_or(40.0);
     let (position, direction) = (DVec3::new(x, y, z), DVec3::new(tx - x, ty - y, tz - z));
     if direction.cross(up).try_normalize().is_none() {
-        let message = "--camera: it looks nowhere, or straight up or down; move the eye or the target";
+        let message =
+            "--camera: the view has no direction, or points straight up or down; move the eye or the target";
         return Err(Failure::usage(message));
     }
     if !(degrees > 0.0 && degrees < 180.0) {

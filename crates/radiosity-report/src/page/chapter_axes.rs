@@ -11,8 +11,8 @@ use crate::rows::{Chapter, Measured};
 
 /// Points whose form factors are known to 34 digits: error against time, by kind.
 pub(crate) fn points(report: &Report) -> String {
-    let intro = "Single points with references of 34 digits, among them what is nearly hidden, far, thin or seen at a \
-                 grazing angle. Here the exact method's error is measured like any other's.";
+    let intro = "Single points with references of 34 digits. Some targets are nearly hidden, far, thin, or seen at a \
+                 grazing angle. Here the error of the exact method is measured like that of the others.";
     let section = |(kind, rows): (&str, Vec<&Measured>)| {
         let lines = lines(&rows);
         let plot = against_time(
@@ -36,8 +36,8 @@ pub(crate) fn points(report: &Report) -> String {
 
 /// Form factors along axes of stress.
 pub(crate) fn stability(report: &Report) -> String {
-    let intro = "One target, of which two boards or more leave a rectangle in view whose form factor has a closed form \
-                 without cancellation. The error is relative. Each method at one setting.";
+    let intro = "Two or more boards hide a target except for a rectangle, whose form factor has a closed form without \
+                 cancellation. The error is relative. Each method has one setting.";
     along_axes(
         report,
         Chapter::Stability,
@@ -49,9 +49,10 @@ pub(crate) fn stability(report: &Report) -> String {
 
 /// Solvers on stiff rooms.
 pub(crate) fn solvers(report: &Report) -> String {
-    let intro = "Every solver to a tolerance of 1e-8, form factors known beforehand, whole patches as elements. In the \
-                 furnace the radiosity is 1 everywhere. In the cube each solver is held against its own system solved to the \
-                 end, the full matrix against itself. A solver that stops early, at its limit of shots, shows what it had by then.";
+    let intro = "Every solver runs to a tolerance of 1e-8, with whole patches as elements and form factors computed \
+                 before. In the furnace the radiosity is 1 everywhere. In the cube each solver is compared with the exact \
+                 solution of its own system, the full matrix with itself. A solver that stops at its limit of shots shows its \
+                 error at that point.";
     along_axes(
         report,
         Chapter::Solvers,
@@ -66,7 +67,7 @@ pub(crate) fn booleans(report: &Report) -> String {
     let rows: Vec<&Measured> = report.measured(Chapter::Booleans).collect();
     let invalid = rows.iter().filter(|row| row.valid == Some(false)).count();
     let intro = format!(
-        "polycsg from raw rings, results held against known areas and checked exactly: {} results, {invalid} of them invalid.",
+        "polycsg on raw rings. Results are compared with known areas and validated exactly: {} results, {invalid} of them invalid.",
         rows.len()
     );
     along_axes(

@@ -10,10 +10,10 @@ pub(crate) fn left_out(report: &Report) -> String {
         return String::new();
     }
     format!(
-        "<h2 id=\"left-out\">Work saved</h2>\n<p>For each scene what the exact method did not look at, how many per \
-         form factor (of elements: in all), what one costs where it is not left out, measured in this run, and what leaving \
-         it out saved, in units of the time that the scene's form factors took. The economies overlap: an occluder that was \
-         never looked at needs no culling either. An economy that saves nothing anywhere has no place in the code.</p>\n{}\
+        "<h2 id=\"left-out\">Work saved</h2>\n<p>The table shows what the exact method did not compute in each \
+         scene: how many items per form factor (of elements: in all), the time of one item, measured in this run, and the time \
+         saved, in units of the time that the scene's form factors took. Savings overlap: an occluder that was never looked at \
+         needs no culling either. What saves nothing in any scene has no place in the code.</p>\n{}\
          <details><summary>every scene</summary>\n{}</details>\n",
         economies(&left_out_rows(report)).html(),
         rows.html()
@@ -70,11 +70,11 @@ pub(crate) fn published(report: &Report) -> String {
     format!(
         "<h2 id=\"published\">Published tables, measured again</h2>\n<p>Barreto (2008), tables 4.1 to 4.5, on an Intel Core Duo of 2.5 GHz; \
          his table 4.5 repeats the row of 4.4. Gomes (2010), tables 5.1 and 5.2, on a Core 2 of 2.4 GHz with a GTX 260. Here \
-         the methods that are compared solve the same elements; of cornell-3842 these are its patches, cut where a block stands \
-         on them. Errors are of reflected light against the exact solution \
-         on these elements: the largest in shares of the largest, the mean in shares of the mean.{}</p>\n{}",
+         all methods solve the same elements; in cornell-3842 these are its patches, cut where a block stands on them. Errors \
+         are those of reflected light, compared with the exact solution on these elements: the largest error over the largest \
+         light, the mean error over the mean light.{}</p>\n{}",
         if report.quick {
-            " The quick report has one element in sixteen, and leaves out cornell-3842, whose patches are that many."
+            " The quick report has one element in sixteen, and no cornell-3842, which has too many patches for that."
         } else {
             ""
         },
