@@ -109,3 +109,19 @@ fn only_predicates_decides_signs() {
         assert!(!asks || source.ends_with("numeric/predicates.rs"), "{}", source.display());
     }
 }
+
+#[test]
+fn no_two_types_share_a_name() {
+    let is_kind = |word: &str| ["struct", "enum", "trait", "type"].contains(&word);
+    let declared = |line: &str| {
+        let mut words =
+            line.split(|c: char| !c.is_alphanumeric() && c != '_').skip_while(|word| !is_kind(word));
+        words.nth(1).filter(|_| !line.starts_with(' ')).map(str::to_owned)
+    };
+    let sources = sources(&crate_file("src"));
+    let mut names: Vec<String> =
+        sources.iter().flat_map(|(_, code)| code.lines().filter_map(declared)).collect();
+    names.sort();
+    let shared: Vec<_> = names.windows(2).filter(|pair| pair[0] == pair[1]).collect();
+    assert!(names.len() > 50 && shared.is_empty(), "{shared:?} of {}", names.len());
+}

@@ -15,11 +15,11 @@ pub(super) struct Screen {
     columns: Vec<f64>,
     rows: Vec<f64>,
     /// Row after row.
-    cells: Vec<Cell>,
+    cells: Vec<Pixel>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Cell {
+struct Pixel {
     /// 1/t: 0 is infinitely far.
     nearness: f64,
     /// The plane of what is there.
@@ -28,13 +28,13 @@ struct Cell {
     item: Option<usize>,
 }
 
-impl Cell {
+impl Pixel {
     /// Keeps the nearer; of two in one plane, where rounding would decide, the first whose front is seen.
     fn meet(&mut self, item: &Item, nearness: f64) {
         let is_first =
             if self.plane == Some(item.plane) { self.item.is_none() } else { nearness > self.nearness };
         if is_first {
-            *self = Cell { nearness, plane: Some(item.plane), item: item.is_front.then_some(item.id) };
+            *self = Pixel { nearness, plane: Some(item.plane), item: item.is_front.then_some(item.id) };
         }
     }
 }
@@ -56,7 +56,7 @@ impl Screen {
         rows: impl Iterator<Item = Range<f64>>,
     ) -> Self {
         let (columns, rows) = (middles(columns), middles(rows));
-        let cells = vec![Cell::default(); columns.len() * rows.len()];
+        let cells = vec![Pixel::default(); columns.len() * rows.len()];
         Self { axes, columns, rows, cells }
     }
 

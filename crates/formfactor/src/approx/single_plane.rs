@@ -32,7 +32,7 @@ impl Method for SinglePlane {
         let axes = frame(from, Rotation::Angle(0.0));
         let mut factors = vec![0.0; enclosure.polygons().len()];
         let half = self.half_width.abs().min(WIDEST);
-        let whole = Cell { x: -half..half, y: -half..half, items: items.iter().collect() };
+        let whole = Square { x: -half..half, y: -half..half, items: items.iter().collect() };
         let mut open = vec![whole];
         while let Some(cell) = open.pop() {
             let weight = delta::top(&cell.x, &cell.y);
@@ -55,15 +55,15 @@ const WIDEST: f64 = 1e6;
 /// Keeps the number of cells along an edge within some 10^5.
 const LEAST: f64 = 1e-9;
 
-/// A cell and what may be seen through it.
+/// A square cell, and what may be seen through it.
 #[derive(Clone, Debug)]
-struct Cell<'i, 'a> {
+struct Square<'i, 'a> {
     x: Range<f64>,
     y: Range<f64>,
     items: Vec<&'i Item<'a>>,
 }
 
-impl Cell<'_, '_> {
+impl Square<'_, '_> {
     /// The directions to its corners, counter-clockwise about the normal.
     fn corners(&self, axes: &[DVec3; 3]) -> [DVec3; 4] {
         let Self { x, y, .. } = self;

@@ -15,7 +15,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// A directed edge.
-type Edge = [DVec3; 2];
+type Segment = [DVec3; 2];
 
 /// `A1 F12` and an estimate of its error, rounding included; right only where each polygon is before the other's plane.
 pub(super) fn exchange(one: &PlanarPolygon, other: &PlanarPolygon, tolerance: f64) -> [f64; 2] {
@@ -34,7 +34,7 @@ pub(super) fn exchange(one: &PlanarPolygon, other: &PlanarPolygon, tolerance: f6
 }
 
 /// The edges of a polygon's rings, outer ones counter-clockwise and holes clockwise.
-fn edges(polygon: &PlanarPolygon) -> Vec<Edge> {
+fn edges(polygon: &PlanarPolygon) -> Vec<Segment> {
     let region = leaf(&polygon.flat_loops()).evaluate();
     let raised: Vec<Vec<DVec3>> =
         region.rings().map(|ring| ring.iter().map(|p| polygon.raise(*p)).collect()).collect();
@@ -46,7 +46,7 @@ fn edges(polygon: &PlanarPolygon) -> Vec<Edge> {
 }
 
 /// (p . q) times the integral of ln(r / size), which in sum over closed loops is that of ln r.
-fn pair([a, b]: Edge, [c, d]: Edge, size: f64, tolerance: f64) -> [f64; 2] {
+fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2] {
     let (way, other) = (b - a, d - c);
     let (length, cosine) = (way.length(), way.dot(other) / (way.length() * other.length()));
     if way.dot(other) == 0.0 {
@@ -62,7 +62,7 @@ fn pair([a, b]: Edge, [c, d]: Edge, size: f64, tolerance: f64) -> [f64; 2] {
 }
 
 /// The double integral for parallel edges, and its rounding.
-fn parallel([a, b]: Edge, [c, d]: Edge, size: f64) -> [f64; 2] {
+fn parallel([a, b]: Segment, [c, d]: Segment, size: f64) -> [f64; 2] {
     let direction = (b - a).normalize();
     let (length, from, to) = ((b - a).length(), direction.dot(c - a), direction.dot(d - a));
     let height = (c - a - direction * from).length();
@@ -82,7 +82,7 @@ fn second_integral(z: f64, h: f64) -> f64 {
 }
 
 /// The integral of ln(r / size) from a point over an edge.
-fn along(point: DVec3, [c, d]: Edge, size: f64) -> f64 {
+fn along(point: DVec3, [c, d]: Segment, size: f64) -> f64 {
     let direction = (d - c).normalize();
     let from = direction.dot(c - point);
     let (low, high) = (from / size, direction.dot(d - point) / size);

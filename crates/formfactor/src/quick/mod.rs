@@ -29,14 +29,14 @@ use crate::shapes::polygon::PlanarPolygon;
 use crate::stats::Stats;
 use classify::{Class, classify};
 use cone::{Cones, Corner, Edge};
-use target::{Side, Target};
+use target::{HalfSpace, Target};
 
 /// The quick route's buffers, to be used again.
 #[derive(Debug, Default)]
 pub(crate) struct QuickBuffers {
     corners: [Vec<Corner>; 2],
     edges: Vec<Edge>,
-    sides: Vec<Side>,
+    sides: Vec<HalfSpace>,
     cones: Cones,
     trace: trace::TraceBuffers,
 }

@@ -17,21 +17,21 @@ pub(crate) struct Target<'a> {
     pub(super) to: &'a PlanarPolygon,
     pub(super) edges: &'a [Edge],
     /// The half-spaces in which a part of an occluder must be to hide any of the target.
-    sides: &'a [Side],
+    sides: &'a [HalfSpace],
     /// A bound on the form factor of what its vertices' deviation leaves open.
     pub(super) error: f64,
 }
 
 /// A half-space around dA: normal . p + shift >= 0, known within `error` by the size of p, and `least`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
+pub(super) struct HalfSpace {
     normal: DVec3,
     shift: f64,
     error: f64,
     least: f64,
 }
 
-impl Side {
+impl HalfSpace {
     /// The side of a target's plane that it faces.
     fn before(to: &PlanarPolygon, origin: DVec3) -> Self {
         let (normal, anchor) = (to.plane().rounded(), to.plane().corners[0] - origin);
@@ -90,7 +90,7 @@ impl<'a> Target<'a> {
         to: &'a PlanarPolygon,
         [corners, spare]: &mut [Vec<Corner>; 2],
         edges: &'a mut Vec<Edge>,
-        sides: &'a mut Vec<Side>,
+        sides: &'a mut Vec<HalfSpace>,
     ) -> Option<Self> {
         let (origin, normal) = (from.position(), from.given_normal());
         if !to.is_convex() || to.plane().quick_side(origin) != Some(Ordering::Greater) {
@@ -113,8 +113,8 @@ impl<'a> Target<'a> {
         }
         let error = deviation_error(origin, corners, edges)? + deviation::of_facing(origin, to);
         sides.clear();
-        sides.extend([Side::before(to, origin), Side::above(from)]);
-        sides.extend(edges.iter().map(Side::within));
+        sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
+        sides.extend(edges.iter().map(HalfSpace::within));
         Some(Self { from, to, edges, sides, error })
     }
 
