@@ -7,17 +7,32 @@
 //! tan(phi - beta) = (A_z a_z b_z - (a_h . b_h) A_h^2 / (|A| + A_z)) / ((a_h . b_h)(a . b) + A_z |A|),
 //!
 //! where phi is the azimuth between a and b, beta the angle between them, and the azimuths add to 2 pi.
-use crate::horizon::sight;
-use crate::lambert::{Sight, swept};
-use crate::polygon::ROUNDING;
-use crate::twofold::{accurate_cross, accurate_dot};
-use crate::view::View;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon, unoccluded};
+use crate::exact::horizon::Vertex;
+use crate::exact::lambert::{Direction, swept};
+use crate::exact::view::View;
+use crate::form_factor::FormFactor;
+use crate::numeric::offset::{accurate_cross, accurate_dot};
+use crate::numeric::rounding::ROUNDING;
+use crate::pipeline::unoccluded;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// `1 - F` for a polygon with nothing in between: small values keep their digits when the normal is along an axis, as
-/// those of a large convex polygon close above dA.
+/// `1 - F` for a polygon with nothing in between, without the cancellation of a subtraction.
+///
+/// A large convex polygon close above dA leaves little of the hemisphere free. Where dA's normal is along an axis the result
+/// keeps its digits however little that is; elsewhere what rounding the unit normal changes is in the bound.
+///
+/// ```
+/// use formfactor::{DVec3, DifferentialArea, PlanarPolygon, unoccluded_complement};
+/// // A square of side 2e9 at distance 1.
+/// let (from, s) = (DifferentialArea::new(DVec3::ZERO, DVec3::Z)?, 1e9);
+/// let sky = PlanarPolygon::new([[[-s, s, 1.0], [s, s, 1.0], [s, -s, 1.0], [-s, -s, 1.0]]])?;
+/// let free = unoccluded_complement(&from, &sky);
+/// assert!(free.value > 0.0 && free.value < 1e-17 && free.error_bound < 1e-13 * free.value);
+/// # Ok::<(), formfactor::Error>(())
+/// ```
 #[must_use]
 pub fn unoccluded_complement(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
     skirts(from, to).unwrap_or_else(|| {
@@ -32,15 +47,16 @@ fn skirts(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
     if !to.is_convex() {
         return None;
     }
-    let sights: Vec<Sight> = view.loops.iter().flatten().map(sight).collect();
-    let mut free = FormFactor { value: 0.0, error_bound: view.doubt + tilt(from) };
-    for (a, b) in sights.iter().zip(sights.iter().cycle().skip(1)) {
+    let directions: Vec<Direction> = view.loops.iter().flatten().map(Vertex::direction).collect();
+    let mut free = FormFactor { value: 0.0, error_bound: view.facing_error + tilt(from) };
+    for (a, b) in directions.iter().zip(directions.iter().cycle().skip(1)) {
         // Seen from the front the loop is counter-clockwise, seen from above clockwise.
         let skirt = skirt(from.normal(), b.toward, a.toward)?;
         free.value += skirt.value;
         free.error_bound += skirt.error_bound + swept(*a, *b);
     }
-    let rounding = 4.0 * ROUNDING * free.value * f64::from(u32::try_from(sights.len()).unwrap_or(u32::MAX));
+    let rounding =
+        4.0 * ROUNDING * free.value * f64::from(u32::try_from(directions.len()).unwrap_or(u32::MAX));
     Some(FormFactor { value: free.value.clamp(0.0, 1.0), error_bound: free.error_bound + rounding })
 }
 

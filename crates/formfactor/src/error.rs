@@ -1,7 +1,7 @@
-//! What can be wrong with input.
+//! Errors in the input.
 use std::fmt;
 
-/// Why a differential area or a polygon was refused.
+/// Why an input was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
@@ -9,11 +9,11 @@ pub enum Error {
     BadPoint,
     /// The normal has no direction: it is zero, or its length is outside 2^-200 to 2^200.
     BadNormal,
-    /// A tolerance that is not positive, or NaN.
+    /// The tolerance is not positive, or NaN.
     BadTolerance,
-    /// A polygon without loops.
+    /// The polygon has no loops.
     NoLoops,
-    /// A loop with fewer than three vertices.
+    /// A loop has fewer than three vertices.
     TooFewVertices {
         /// Index of the loop, in the order given.
         loop_index: usize,
@@ -27,9 +27,9 @@ pub enum Error {
         /// Index of the vertex within that loop.
         vertex: usize,
     },
-    /// The first loop encloses no area, or is smaller than 2^-200: the polygon has no front.
+    /// The first loop encloses no area, or is smaller than 2^-200, so that the polygon has no front.
     ZeroArea,
-    /// A vertex lies off the polygon's plane by more than its coordinates' rounding explains.
+    /// A vertex lies further off the polygon's plane than rounding of its coordinates explains.
     NotPlanar {
         /// Index of the loop, in the order given.
         loop_index: usize,

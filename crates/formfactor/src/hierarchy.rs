@@ -1,21 +1,25 @@
-//! The second route: Equation 3.6 through the boundary representation of what is hidden.
-use crate::exact::{Shadows, shadows, unseen};
-use crate::lambert::{ContourSum, Sight};
-use crate::polygon::ROUNDING;
-use crate::region::leaf;
-use crate::view::View;
-use crate::visible::union;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon, Stats};
+//! A second way to form factors, as a check: Equation 3.6 through the boundary representation of what is hidden.
+use crate::exact::deviation::unseen;
+use crate::exact::lambert::{ContourSum, Direction};
+use crate::exact::shadows::{Shadows, shadows};
+use crate::exact::view::View;
+use crate::exact::visible::union;
+use crate::form_factor::FormFactor;
+use crate::numeric::rounding::ROUNDING;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::loops::leaf;
+use crate::shapes::polygon::PlanarPolygon;
+use crate::stats::Stats;
 use glam::DVec2;
 use polycsg::Region;
 
-/// The form factor by the hierarchy of the target's hidden part [Barreto 2008, (3.6)]:
+/// The form factor by a second way, to check [`form_factor`](fn@crate::form_factor): through the rings of the target's hidden
+/// part and their nesting [Barreto 2008, (3.6)].
 ///
 /// F = F(target) - sum of F(outer rings) + sum of F(holes), over the polygons of the target's intersection with the union
 /// of the shadows; islands in holes are polygons again.
 ///
-/// It goes through valid rings and their nesting where [`crate::form_factor`] goes through the bare boundary of the visible
-/// part, and serves to check it. It loses digits when almost all of the target is hidden.
+/// It is slower, and loses digits when almost all of the target is hidden; its bound says so.
 #[must_use]
 pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> FormFactor {
     let Some(view) = View::new(from, to) else {
@@ -31,7 +35,12 @@ pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pl
     };
     FormFactor {
         value: (whole.value - hidden.value).max(0.0),
-        error_bound: whole.error_bound + hidden.error_bound + view.rounding + view.doubt + error + ROUNDING,
+        error_bound: whole.error_bound
+            + hidden.error_bound
+            + view.clip_error
+            + view.facing_error
+            + error
+            + ROUNDING,
     }
 }
 
@@ -53,8 +62,8 @@ fn of_region(view: &View, region: &Region) -> FormFactor {
 
 /// The form factor of what a counter-clockwise ring encloses.
 fn of_ring(view: &View, ring: impl Iterator<Item = DVec2>) -> FormFactor {
-    let sights: Vec<Sight> = ring.map(|p| view.sight(p)).collect();
+    let directions: Vec<Direction> = ring.map(|p| view.direction(p)).collect();
     let mut sum = ContourSum::new(view.from.normal());
-    sum.add_loop(&sights);
+    sum.add_loop(&directions);
     sum.form_factor(0.0)
 }

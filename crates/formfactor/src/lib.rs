@@ -22,16 +22,29 @@
 //! # Ok::<(), formfactor::Error>(())
 //! ```
 //!
+//! # Where to start
+//!
+//! | you have | you want | call |
+//! | --- | --- | --- |
+//! | one target, some occluders | the form factor from a point | [`form_factor`](fn@form_factor), [`unoccluded`] |
+//! | one target, some occluders | the part of the target that the point sees | [`visible_part`](fn@visible_part) |
+//! | many polygons that are targets and occluders | form factors from a point to one, or to all | [`Enclosure::form_factor`], [`Enclosure::row`] |
+//! | many polygons | form factors from many points to one of them | [`Enclosure::form_factors`] |
+//! | many polygons | form factors from polygon to polygon | [`Enclosure::area_form_factor`], [`Enclosure::area_matrix`] |
+//! | a polygon that hides almost all of the hemisphere | 1 - F with all digits | [`unoccluded_complement`] |
+//! | an enclosure | approximate form factors to compare with | [`approx`] |
+//!
 //! # Definitions
 //!
-//! * A **differential area** is a point with a normal. It sees the half-space in front of its *horizon*, the plane through
-//!   it across the normal.
-//! * A **polygon** is the set of points inside an odd number of its loops. Its *front* is where its loop 0 is
-//!   counter-clockwise. As a **target** it is one-sided: a dA on or behind its plane sees 0 of it. F is discontinuous there.
-//! * An **occluder** is a polygon of which either side blocks. It *blocks* the ray from dA to a point of the target exactly when it
-//!   meets the ray strictly between them (0 < t < 1). One that is coplanar with the target, or whose plane contains dA,
-//!   blocks nothing.
-//! * An [`Enclosure`] is a set of polygons each of which is a target and occludes the others.
+//! * A **differential area** dA is a point with a normal. It sees the half-space in front of its *horizon*, the plane through
+//!   the point perpendicular to the normal.
+//! * A **polygon** is the set of points inside an odd number of its loops. Its *front* is the side from which its loop 0 runs
+//!   counter-clockwise.
+//! * A **target** is a polygon as it is seen. It is one-sided: a dA on or behind its plane sees 0 of it. F jumps there.
+//! * An **occluder** is a polygon that stands in the way. It is two-sided. It *blocks* the ray from dA to a point of the
+//!   target exactly when it meets the ray strictly between them (0 < t < 1). One that is coplanar with the target, or whose
+//!   plane contains dA, blocks nothing.
+//! * An [`Enclosure`] is a set of polygons. Each of them is a target, and an occluder of the others.
 //!
 //! # How it works
 //!
@@ -39,58 +52,61 @@
 //!
 //! | stage | what it does |
 //! | --- | --- |
-//! | `horizon` | cuts off what of the target lies below dA's horizon |
-//! | `cull` | drops occluders that cannot matter, and stops when one hides everything: exact decisions |
-//! | `project` | clips the others to the space between dA and the target and casts them on the target's plane |
-//! | `visible` | subtracts the union of the shadows from the target with `polycsg`: exact topology |
-//! | `lambert` | sums 1/(2 pi) beta N . n over the directed edges of what remains, beta the angle an edge subtends and n the unit normal of its plane through dA |
+//! | `horizon` | cuts off the part of the target below dA's horizon |
+//! | `cull` | drops occluders that cannot block, and stops when one hides everything: exact decisions |
+//! | `project` | clips the other occluders to the space between dA and the target, and projects them on the target's plane |
+//! | `visible` | subtracts the union of these shadows from the target with `polycsg`: exact topology |
+//! | `lambert` | sums 1/(2 pi) beta N . n over the directed edges of what remains; beta is the angle that an edge subtends, n the unit normal of its plane through dA |
 //!
-//! The plane's coordinates are two of the three in space, so that a target's vertices keep theirs bit for bit and a shadow
-//! that is representable is cast exactly. No tolerance decides anything.
+//! Points of the target's plane keep two of their three coordinates. So the target's vertices stay the same bit for bit,
+//! and a shadow whose vertices are doubles is exact. No tolerance decides anything.
 //!
-//! **What is not needed is not done.** Before all that a route in plain doubles (`quick`) takes a convex target and convex
-//! occluders as cones from dA and clips edges against cones; every sign comes with a bound on its error, and where one is
-//! open the stages above decide. The far side of closed convex bodies is dropped, and all of the target's own. An
-//! [`Enclosure`] finds occluders in a tree of boxes; [`Stats`] tells what was left out.
+//! **The quick route.** Most form factors never get that far. For a convex target and convex occluders a route in plain
+//! doubles (`quick`) clips each edge against the cones that dA spans with the other polygons. Every sign comes with a bound on
+//! its error; where one is open, the stages above decide. Of closed convex bodies only the near side is looked at. An
+//! [`Enclosure`] finds the occluders in a tree of boxes. [`Stats`] counts what was left out.
 //!
-//! **Cancelling.** The contour's terms cancel for small, far and sliver targets, down to nothing: an unoccluded target whose
-//! sum is known to less than 1e-13 of itself is integrated instead (`cubature`), all terms positive, with a bound on the rule.
+//! **Cancellation.** The terms of the contour sum cancel for small, far and sliver targets. Where an unoccluded target's sum
+//! is known to less than 13 digits, the target is integrated instead (`cubature`): all terms are positive, and the rule's
+//! error is bounded.
 //!
-//! **From area to area**, [`Enclosure::area_form_factor`] is the mean of point form factors: a double contour integral where
-//! nothing stands in between, and else a cubature on cells cut along the lines where the view changes its shape, with an
-//! estimate of its error.
+//! **From area to area.** [`Enclosure::area_form_factor`] is the mean of point form factors. Where nothing stands in between
+//! it is a double contour integral. Elsewhere it is a cubature on cells, cut along the lines where the view changes its
+//! shape; it comes with an estimate of its error, not with a bound.
 //!
 //! # Conventions and limits
 //!
 //! * *Sign.* With R_k the vertices relative to dA, counter-clockwise seen from the target's front, which faces dA,
-//!   2 pi F = sum of beta_k N . (R_{k+1} x R_k) / |R_{k+1} x R_k|. Seen along the target's normal the order turns round, and
-//!   with it the sign: sources that write R_k x R_{k+1} mean loops that are clockwise from the front.
-//! * *Horizon.* The sum is right for what lies above the horizon only: below it cos(theta) is negative and would be
+//!   2 pi F = sum of beta_k N . (R_{k+1} x R_k) / |R_{k+1} x R_k|. Sources that write R_k x R_{k+1} mean loops that run
+//!   clockwise seen from the front.
+//! * *Horizon.* The sum is right only for what lies above the horizon: below it cos(theta) is negative and would be
 //!   subtracted. An edge along the horizon contributes its angle, as N . n = 1.
-//! * *An edge seen end-on* spans no angle and adds nothing. An edge through dA has no plane: the bound is then 1.
+//! * *An edge seen end-on* subtends no angle and adds nothing. An edge through dA has no plane: the bound is then 1.
 //! * *dA on the target's plane* sees 0; just before a point inside the target it sees 1, or 1/2 before an edge: F jumps
 //!   there. Values at the vertices of a mesh are limits from one side, or interpolated.
+//! * *Range.* Coordinates up to 2^200 in magnitude, and extents down to 2^-200. Units are yours: F has none.
 //!
 //! # The error bound
 //!
-//! `error_bound` holds always: |value - exact| <= `error_bound`, where exact is for the doubles as given. It adds up
+//! |value - exact| <= `error_bound` always holds, where *exact* is for the doubles as given. The bound adds up
 //!
-//! 1. the *arithmetic* of each term of the sum: some roundings of beta;
-//! 2. the *blur* of each vertex of the visible boundary: rounding a crossing to doubles turns the direction to it, by at
-//!    most that angle, and the turned edges sweep a part of the hemisphere;
-//! 3. the blur of each vertex of each shadow, *measured* as the angle between the directions to the vertex and to the
-//!    double it was projected to: the union of the shadows errs by no more than all that their edges sweep;
+//! 1. the arithmetic of each term of the sum: some roundings of beta;
+//! 2. for each vertex of the visible boundary, the angle by which rounding a crossing to doubles may turn the direction to it:
+//!    the turned edges sweep a part of the hemisphere;
+//! 3. the same for each vertex of each shadow, where that angle is measured: it lies between the directions to the vertex
+//!    and to the double that it was projected to. The union of the shadows errs by no more than all that their edges sweep;
 //! 4. for polygons of more than three vertices that are not exactly coplanar, what moving the vertices onto the plane can
-//!    change.
+//!    change. How far they move is the polygon's *deviation*.
 //!
-//! Where exact arithmetic decides that nothing is seen, the value is exactly 0: a target that turns its back or lies
-//! below the horizon, one that a single convex occluder covers, covers whose projections are doubles.
+//! Where exact arithmetic decides that nothing is seen, the value is exactly 0: for a target that turns its back or lies
+//! below the horizon, for one that a single convex occluder covers, and for covers whose projections are doubles.
 //!
-//! # What it is compared with
+//! # Features and versions
 //!
-//! [`approx`] has the methods that sample, from disks to hemicubes and rays, behind one trait.
+//! The feature `rayon` finds rows and matrices between areas on all threads, with the same result for any number of them.
 //!
-//! With the feature `rayon` rows and matrices between areas are found by all threads, with the same result for any number.
+//! Points and vectors are those of [`glam`], which is re-exported: use `formfactor::glam` or `formfactor::DVec3` and the
+//! versions agree. A new breaking version of glam is a new breaking version of this crate.
 //!
 //! Sources: Barreto, *Cálculo do Fator-de-Forma exato entre Áreas Diferencial e Finita Usando CSG* (2008), for the method;
 //! Lambert (1760) for the contour formula; Stark and Riesenfeld (2000) for tracing visible edges; Sparrow (1963) for the double
@@ -101,38 +117,28 @@ pub use glam::DVec3;
 pub mod approx;
 
 mod area;
-mod body;
+mod buffers;
 mod complement;
-mod cubature;
-mod cull;
-mod differential_area;
-mod doubt;
-mod enclosure;
 mod error;
 mod exact;
-mod gauss;
+mod form_factor;
 mod hierarchy;
-mod horizon;
-mod lambert;
-mod polygon;
-mod pool;
-mod predicates;
-mod project;
+mod numeric;
+mod pipeline;
 mod quick;
-mod region;
+mod scene;
+mod shapes;
 mod stats;
-mod tree;
-mod twofold;
-mod view;
-mod visible;
+mod visible_part;
 
 pub use area::{AreaFormFactor, Row};
 pub use complement::unoccluded_complement;
-pub use differential_area::DifferentialArea;
-pub use enclosure::Enclosure;
 pub use error::Error;
-pub use exact::{FormFactor, form_factor, unoccluded};
+pub use form_factor::FormFactor;
 pub use hierarchy::by_hierarchy;
-pub use polygon::PlanarPolygon;
+pub use pipeline::{form_factor, unoccluded};
+pub use scene::enclosure::Enclosure;
+pub use shapes::differential_area::DifferentialArea;
+pub use shapes::polygon::PlanarPolygon;
 pub use stats::Stats;
-pub use visible::{VisiblePart, visible_part};
+pub use visible_part::{VisiblePart, visible_part};

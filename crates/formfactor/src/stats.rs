@@ -1,26 +1,28 @@
-//! What was left out, and what was not.
+//! Counts of the work behind form factors.
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// Counts of the work behind one form factor or, added up, behind many: what had to be looked at, and what was left out.
+/// Counts of the work behind one form factor or, added up, behind many.
+///
+/// [`Enclosure::form_factor_with_stats`](crate::Enclosure::form_factor_with_stats) returns them; `+` and `sum()` add them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Stats {
-    /// Targets of which nothing hides anything, those that turn their back or lie below the horizon included.
+    /// Targets that nothing hides, including those that turn their back or lie below the horizon.
     pub none: u64,
-    /// Targets that are hidden wholly.
+    /// Targets that are hidden completely.
     pub total: u64,
     /// Targets that are hidden in part, or by several occluders together.
     pub partial: u64,
-    /// Occluders that the tree found, or all where there is no tree.
+    /// Occluders that were looked at: those that the tree found, or all where there is no tree.
     pub looked_at: u64,
-    /// Those of them that cannot block: outside of the target's pyramid, behind it, below the horizon, edge-on.
+    /// Those of them that cannot block: outside of the target's pyramid, behind the target, below the horizon, edge-on.
     pub culled: u64,
-    /// Those that were cut where they pass through the target's plane.
+    /// Occluders that were cut because they pass through the target's plane.
     pub clipped: u64,
-    /// Targets that are hidden in part for which plain doubles decided everything: no CSG was evaluated.
+    /// Targets that are hidden in part and were decided in plain doubles: no polygon Boolean was evaluated.
     pub traced: u64,
-    /// Edges that went into a CSG.
+    /// Edges that went into polygon Booleans.
     pub csg_edges: u64,
 }
 

@@ -103,9 +103,9 @@ fn point_factors_equal_their_closed_forms() {
         let error = (factor.value - expected).abs();
         println!("{id:28} {:e} off by {error:.1e}, bound {:.1e}", factor.value, factor.error_bound);
         // The reference is rounded to a double, and once more where it is taken from 1/2.
-        let slack = expected * f64::EPSILON;
+        let rounding = expected * f64::EPSILON;
         assert!(
-            error <= factor.error_bound + slack,
+            error <= factor.error_bound + rounding,
             "{id}: {error:e} is over the bound {:e}",
             factor.error_bound
         );

@@ -51,14 +51,14 @@ fn orders(occluders: &[PlanarPolygon]) -> Vec<Vec<PlanarPolygon>> {
 }
 
 /// Half an ulp of the reference, which was rounded to a double.
-fn slack(case: &Case) -> f64 {
+fn tolerance(case: &Case) -> f64 {
     case.expected * f64::EPSILON / 2.0
 }
 
 fn check(case: &Case, factor: FormFactor, what: &str) {
     let error = (factor.value - case.expected).abs();
     assert!(factor.value >= 0.0, "{} ({what}): {:e} is negative", case.name, factor.value);
-    let bound = factor.error_bound + slack(case);
+    let bound = factor.error_bound + tolerance(case);
     assert!(error <= bound, "{} ({what}): off by {error:e}, bound {bound:e}", case.name);
 }
 

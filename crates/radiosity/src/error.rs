@@ -1,4 +1,4 @@
-//! What can go wrong between a scene and its light.
+//! Errors of solving.
 use thiserror::Error;
 
 /// Why a scene was not solved.
@@ -20,7 +20,7 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
-    /// Light that is sent into a closed room with such a patch may never be absorbed.
+    /// A closed and lit room has a patch that reflects all light, so that light may never be absorbed.
     #[error(
         "the room of patch {room} ({patches} patches) is closed and lit, and patch {patch} in it reflects all light: \
          give it a reflectance below 1"
@@ -39,8 +39,8 @@ pub enum Error {
         /// How many pieces exchange light.
         pieces: usize,
     },
-    /// The state is of another scene, or of another mesh of it.
-    #[error("the state is of another scene, or of another number of elements; start the run anew")]
+    /// The state belongs to another scene or mesh.
+    #[error("the state belongs to another scene, or to another number of elements; start a new run")]
     Foreign,
     /// A patch's emission is negative or not finite.
     #[error(
@@ -54,10 +54,9 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
-    /// A patch emits so much that the light of the scene, or its power, may leave the range of doubles.
+    /// A patch emits so much that a radiosity or a power may exceed the range of f64.
     #[error(
-        "patch {patch}: emission {value} in band {band} is too large for the numbers of this program; give all emissions in \
-         a larger unit"
+        "patch {patch}: emission {value} in band {band} exceeds the range of numbers; give all emissions in a larger unit"
     )]
     Bright {
         /// The patch's name.
@@ -67,7 +66,7 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
-    /// A patch's reflectance or emission has another number of bands than the scene.
+    /// A patch has another number of bands than the scene.
     #[error(
         "patch {patch}: {found} bands where the scene has {expected}; give every patch the scene's bands"
     )]
@@ -79,9 +78,9 @@ pub enum Error {
         /// How many the scene has.
         expected: usize,
     },
-    /// Two patches lie on each other, facing the same way: which one light meets is not said.
+    /// Two patches that face the same way overlap in one plane.
     #[error(
-        "patches {first} and {second} overlap in one plane, {share:.3} of the smaller one; let `inspect --mend` cut one, \
+        "patches {first} and {second} overlap in one plane, {share:.3} of the smaller one; let `inspect --repair` cut one, \
          or remove it"
     )]
     Overlap {
@@ -100,7 +99,7 @@ pub enum Error {
         /// What stood in the way.
         reason: String,
     },
-    /// A patch's piece or element is refused by the form factors.
+    /// The form factors do not accept a piece of a patch.
     #[error("patch {patch}: {source}")]
     Shape {
         /// The patch's name.
@@ -108,7 +107,7 @@ pub enum Error {
         /// What the form factors say.
         source: formfactor::Error,
     },
-    /// A form factor could not be found, which is a defect of this program.
+    /// The computation of a form factor failed, which is a defect of this library.
     #[error(
         "patch {patch}: a form factor to it was not found: {reason}; this is a defect, please report it with the scene"
     )]
@@ -117,13 +116,5 @@ pub enum Error {
         patch: String,
         /// What the panic said.
         reason: String,
-    },
-    /// A patch of this name does not exist.
-    #[error("no patch is named {name}; the scene has {known}")]
-    NoSuchPatch {
-        /// The name asked for.
-        name: String,
-        /// Names that exist, shortened.
-        known: String,
     },
 }

@@ -1,27 +1,29 @@
-//! Exposure: from radiosity, which has no upper end, to what a screen can show.
+//! Exposure: from radiosity, which has no upper limit, to the colours of a screen.
+use crate::scene::Scene;
+use crate::solve::solution::Solution;
 use crate::spectrum::Colours;
-use crate::{Scene, Solution};
 
 /// The intensity that the average surface gets: mid grey.
 const MID_GREY: f64 = 0.18;
 
-/// Intensity = 1 − exp(−K·B) in every band: a small K is dark, a large K bright (Gomes 2010, equation 2.17).
+/// An exposure: it turns a radiosity B into the intensity 1 − exp(−K·B). A small K is dark, a large K bright (Gomes 2010,
+/// equation 2.17).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposure {
     k: f64,
 }
 
 impl Exposure {
-    /// With the given K, in m²/W; `None` unless it is positive and finite.
+    /// The exposure of a given K in m²/W; `None` unless K is positive and finite.
     #[must_use]
     pub fn new(k: f64) -> Option<Self> {
         (k.is_finite() && k > 0.0).then_some(Self { k })
     }
 
-    /// K such that the average radiosity of what does not emit becomes mid grey, 0.18 of full intensity.
+    /// The exposure at which the average radiosity of patches that do not emit becomes mid grey, 0.18 of full intensity.
     ///
-    /// The average is geometric, over the lit elements of patches without emission, weighted by area; of the bands it
-    /// takes the luminance (Rec. 709). Where nothing but lamps is lit, the lamps count; where nothing is lit, K is 1.
+    /// The average is the geometric mean of the luminance (Rec. 709) over lit elements, weighted by area. Where nothing but
+    /// emitters is lit, the emitters count; where nothing is lit, K is 1.
     #[must_use]
     pub fn automatic(scene: &Scene, solution: &Solution) -> Self {
         let mesh = &solution.mesh;
@@ -31,9 +33,11 @@ impl Exposure {
         }))
     }
 
-    /// The same from colours with the area that each covers and whether it is a lamp's.
-    pub(crate) fn of(lit: impl Iterator<Item = ([f64; 3], f64, bool)> + Clone) -> Self {
-        let others = lit.clone().filter(|(_, _, lamp)| !lamp);
+    /// The automatic exposure of any colours, each given as red, green and blue radiosity, the area that it covers, and whether
+    /// it is an emitter's; see [`Exposure::automatic`].
+    #[must_use]
+    pub fn of(lit: impl Iterator<Item = ([f64; 3], f64, bool)> + Clone) -> Self {
+        let others = lit.clone().filter(|(_, _, emitter)| !emitter);
         let mean = mean_luminance(others).or_else(|| mean_luminance(lit));
         let k = mean.map(|luminance| -(-MID_GREY).ln_1p() / luminance);
         k.and_then(Self::new).unwrap_or(Self { k: 1.0 })
@@ -45,17 +49,26 @@ impl Exposure {
         self.k
     }
 
-    /// The linear intensities, 0 to 1, of red, green and blue radiosities.
+    /// The linear intensities, 0 to 1, of a red, green and blue radiosity.
     #[must_use]
     pub fn intensity(self, radiosity: [f64; 3]) -> [f64; 3] {
         radiosity.map(|band| -(-self.k * band.max(0.0)).exp_m1())
     }
 }
 
-/// Red, green and blue out of values that stand band by band: the first three bands; of fewer, the last is repeated.
+/// Red, green and blue out of values that stand band by band.
+///
+/// `wavelengths` are those of the bands, in nm: what an observer sees of them, as linear sRGB; parts are negative where no
+/// screen can show the colour. Without them the first three bands are red, green and blue; of fewer, the last is repeated.
+///
+/// ```
+/// use radiosity::expose::rgb;
+///
+/// assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 2, &[]), [[1.0, 2.0, 2.0], [3.0, 4.0, 4.0]]);
+/// ```
 #[must_use]
-pub fn rgb(values: &[f64], bands: usize) -> Vec<[f64; 3]> {
-    Colours::of(bands, &[]).rows(values)
+pub fn rgb(values: &[f64], bands: usize, wavelengths: &[f64]) -> Vec<[f64; 3]> {
+    Colours::of(bands, wavelengths).rows(values)
 }
 
 /// The sRGB transfer function: what an 8-bit channel stores for a linear intensity from 0 to 1 (IEC 61966-2-1).
@@ -97,9 +110,9 @@ mod tests {
 
     #[test]
     fn fewer_bands_than_three_repeat_the_last() {
-        assert_eq!(rgb(&[1.0, 2.0], 1), [[1.0; 3], [2.0; 3]]);
-        assert_eq!(rgb(&[1.0, 2.0], 2), [[1.0, 2.0, 2.0]]);
-        assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 4), [[1.0, 2.0, 3.0]]);
+        assert_eq!(rgb(&[1.0, 2.0], 1, &[]), [[1.0; 3], [2.0; 3]]);
+        assert_eq!(rgb(&[1.0, 2.0], 2, &[]), [[1.0, 2.0, 2.0]]);
+        assert_eq!(rgb(&[1.0, 2.0, 3.0, 4.0], 4, &[]), [[1.0, 2.0, 3.0]]);
     }
 
     #[test]

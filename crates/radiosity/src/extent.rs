@@ -1,5 +1,5 @@
 //! Boxes around patches.
-use crate::Patch;
+use crate::scene::patch::Patch;
 use glam::DVec3;
 
 /// The least box with sides along the axes that holds a patch.

@@ -1,20 +1,23 @@
-//! Scenes in, light out: progressive radiosity whose form factors are exact.
+//! The diffuse light of a 3D scene, by the radiosity method with exact form factors.
 //!
-//! A [`Scene`] is a list of one-sided planar [`Patch`]es, each with a reflectance and an emission per band.
-//! [`solve()`] cuts the patches into triangular elements ([`Mesh`]) and shoots light until almost none is left
-//! unshot; the [`Solution`] holds the radiosity of every element, an energy ledger and a bound on the
-//! algebraic error.
+//! A [`Scene`] is a list of one-sided planar [`Patch`]es, each with a reflectance and an emission per band (a band is a
+//! colour channel or a wavelength). [`solve()`] cuts the patches into triangular elements (a [`Mesh`]) and exchanges light
+//! between them until the error is within the tolerance. The [`Solution`] holds the radiosity of every element in W/m², a
+//! [`Ledger`] of the energy and a bound on the algebraic error. A [`Record`] is a solution as it is written to files, pictures
+//! and pages.
+//!
+//! Lengths are in the scene file's unit. Emission is radiance L in W/m²/sr; a patch emits the radiosity E = πL.
 //!
 //! ```no_run
-//! use radiosity::{Options, Record, io::Source, solve};
+//! use radiosity::{Quality, Record, io::Source, solve};
 //! use std::ops::ControlFlow;
 //!
 //! let scene = Source::open("room.glb")?.scene()?;
-//! let solution = solve(&scene, &Options::default(), |progress| {
+//! let solution = solve(&scene, &Quality::Normal.options(), |progress| {
 //!     eprintln!("{:.1e} unshot", progress.unshot);
 //!     ControlFlow::Continue(())
 //! })?;
-//! println!("error of every radiosity at most {:?} W/m²", solution.bound);
+//! println!("no radiosity is wrong by more than {:?} W/m²", solution.bound);
 //! let record = Record::new("room.glb", &scene, &solution);
 //! let page = radiosity::viewer::page(&record, record.exposure());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -22,13 +25,14 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | scene files in, results out | [`io`]: COLLADA, glTF, View3D |
-//! | what is wrong with a scene, and its mend | [`inspect`], [`mend()`] |
+//! | reading scene files, writing results | [`io`]: COLLADA, glTF, View3D |
+//! | what will trouble a solution, and its repair | [`inspect`], [`repair()`] |
 //! | the scenes of the literature | [`scenes`] |
-//! | a solution as it is written, tables of it | [`Record`], [`patch_table`], [`element_table`] |
+//! | a solution as it is written, and tables | [`Record`], [`patch_table`], [`element_table`] |
 //! | how far two solutions are from each other | [`compare`] |
-//! | error against time, for every method and scene | [`report`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
+//!
+//! [`glam`] and [`formfactor`] are part of this interface: a breaking version of one is a breaking version of this crate.
 pub use formfactor;
 pub use glam;
 
@@ -36,31 +40,38 @@ pub mod compare;
 mod error;
 pub mod expose;
 mod extent;
-mod finding;
-mod groups;
+mod image_file;
 pub mod inspect;
-mod interpolate;
 pub mod io;
-mod mend;
 mod mesh;
 pub mod picture;
 mod plane;
+mod predicates;
 mod record;
-pub mod report;
+mod repair;
 mod scene;
 pub mod scenes;
 mod solve;
 mod spectrum;
 mod table;
-
+mod union_find;
 pub mod viewer;
 
 pub use error::Error;
-pub use mend::mend;
-pub use mesh::{Element, Mesh};
+pub use mesh::element::{Element, Mesh};
 pub use record::{PatchRecord, Record};
-pub use scene::{Asset, Camera, Image, Origin, Patch, Scene, Texture};
-pub use solve::{
-    Ledger, Method, Norm, Options, Progress, Quality, Solution, State, StateError, solve, solve_from,
-};
-pub use table::{element_table, patch_table, table};
+pub use repair::repair;
+pub use scene::Scene;
+pub use scene::asset::Asset;
+pub use scene::camera::Camera;
+pub use scene::patch::{Origin, Patch};
+pub use scene::texture::{Image, Texture};
+pub use solve::ledger::Ledger;
+pub use solve::norm::Norm;
+pub use solve::options::{Method, Options};
+pub use solve::progress::Progress;
+pub use solve::quality::Quality;
+pub use solve::solution::Solution;
+pub use solve::state::{State, StateError};
+pub use solve::{solve, solve_from};
+pub use table::{element_table, patch_table};

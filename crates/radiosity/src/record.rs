@@ -1,29 +1,33 @@
-//! A solution as it is written: all that pictures, pages and tables need, apart from the scene's own file.
+//! A solution as it is written: all that pictures, pages and tables need, without the scene's file.
 use crate::expose::Exposure;
-use crate::io::fetch;
-use crate::picture::Paint;
+use crate::image_file::fetch;
+use crate::mesh::element::{Element, Mesh};
+use crate::picture::framing::framing;
+use crate::picture::paint;
+use crate::picture::painting::Painting;
+use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Image};
+use crate::solve::solution::Solution;
 use crate::spectrum::Colours;
-use crate::{Asset, Camera, Element, Image, Mesh, Patch, Scene, Solution};
 use base64::Engine;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A solution with what it is a solution of. It is written as JSON and read back.
+/// A solution with a description of its scene, as it is written to JSON and read back.
 ///
-/// Values stand one after the other, band by band: those of the first vertex (element), then those of the second, …
+/// Lists of values hold all bands of the first vertex or element, then all bands of the second, and so on.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Record {
-    /// The scene's file.
+    /// The name of the scene's file.
     pub scene: String,
-    /// What its coordinates mean.
+    /// The scene's up axis and unit.
     pub asset: Asset,
-    /// Its cameras.
+    /// The scene's cameras.
     pub cameras: Vec<Camera>,
     /// Number of bands of every value.
     pub bands: usize,
-    /// The bands' wavelengths in nm; empty where they are red, green and blue, or no light at all.
+    /// The wavelength of each band in nm; see [`Scene::wavelengths`].
     #[serde(default)]
     pub wavelengths: Vec<f64>,
     /// Per band, a bound on the algebraic error of every radiosity, W/m²; see [`Solution::bound`].
@@ -36,7 +40,7 @@ pub struct Record {
     pub vertex_radiosity: Vec<f64>,
     /// Interpolated irradiance at the vertices, W/m².
     pub vertex_irradiance: Vec<f64>,
-    /// Where in the picture of its patch each vertex lies; none where no patch has one.
+    /// The texture coordinates of each vertex in the picture of its patch; empty where no patch has a picture.
     pub places: Vec<DVec2>,
     /// The elements: the patch, and the vertices at the three corners, counter-clockwise seen from the front.
     pub elements: Vec<[usize; 4]>,
@@ -44,7 +48,7 @@ pub struct Record {
     pub radiosity: Vec<f64>,
     /// Irradiance of the elements, W/m².
     pub irradiance: Vec<f64>,
-    /// The pictures, as `data:` addresses.
+    /// The pictures, as `data:` URLs.
     pub pictures: Vec<String>,
 }
 
@@ -71,7 +75,7 @@ pub struct PatchRecord {
 }
 
 impl Record {
-    /// Takes down a solution of `scene`, which was read from the file `name`.
+    /// The record of a solution of `scene`, which was read from the file `name`.
     #[must_use]
     pub fn new(name: &str, scene: &Scene, solution: &Solution) -> Record {
         let mesh = &solution.mesh;
@@ -110,7 +114,7 @@ impl Record {
         }
     }
 
-    /// Checks that what was read is whole: every index within its list, every list as long as it must be.
+    /// Checks a record that was read: that every index is within its list, and that every list has the right length.
     ///
     /// # Errors
     /// A sentence that says what is wrong.
@@ -165,7 +169,7 @@ impl Record {
         }
     }
 
-    /// The elements.
+    /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> Mesh {
         let element = |&[patch, a, b, c]: &[usize; 4]| Element { patch, corners: [a, b, c] };
@@ -173,8 +177,7 @@ impl Record {
         Mesh { vertices: self.vertices.clone(), elements }
     }
 
-    /// Red, green and blue radiosity at the vertices: what an observer sees where wavelengths are known, else the first
-    /// three bands.
+    /// Red, green and blue radiosity at the vertices; see [`rgb`](crate::expose::rgb).
     #[must_use]
     pub fn colours(&self) -> Vec<[f64; 3]> {
         self.shown().rows(&self.vertex_radiosity)
@@ -185,8 +188,8 @@ impl Record {
         Colours::of(self.bands, &self.wavelengths)
     }
 
-    /// The bytes of a PNG, as [`draw`](crate::picture::draw) draws it; pictures on patches are shown under the light that
-    /// falls on them, unless they cannot be read any more.
+    /// The bytes of a PNG, drawn as by [`draw`](crate::picture::draw). Patches with pictures show these in the light that falls
+    /// on them. `width` is in pixels.
     #[must_use]
     pub fn draw(&self, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
         let pictures: Vec<Option<Image>> =
@@ -199,8 +202,8 @@ impl Record {
                 light[corner] = under[corner];
             }
         }
-        let paint = Paint { mesh: &self.mesh(), light: &light, places: &self.places, images: &images };
-        crate::picture::paint(&paint, camera, exposure, width)
+        let painting = Painting { mesh: &self.mesh(), light: &light, places: &self.places, images: &images };
+        paint(&painting, camera, exposure, width)
     }
 
     /// What a picture's colours are multiplied with at every vertex: the irradiance times the patch's tint.
@@ -218,18 +221,18 @@ impl Record {
         light
     }
 
-    /// The exposure that suits the light; see [`Exposure::automatic`].
+    /// The automatic exposure; see [`Exposure::automatic`].
     #[must_use]
     pub fn exposure(&self) -> Exposure {
         let (mesh, colours) = (self.mesh(), self.shown().rows(&self.radiosity));
         let lit = colours.iter().enumerate().map(|(index, colour)| {
-            let lamp = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
-            (*colour, mesh.area(index), lamp)
+            let emitter = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
+            (*colour, mesh.area(index), emitter)
         });
         Exposure::of(lit)
     }
 
-    /// The camera of that name, or the first; where there is none, one that sees everything.
+    /// The camera of that name, or `None` if there is none. Without a name the first camera, or one that sees all of the scene.
     #[must_use]
     pub fn camera(&self, name: Option<&str>) -> Option<Camera> {
         match name {
@@ -241,7 +244,7 @@ impl Record {
     fn framing(&self) -> Camera {
         let boxes = self.vertices.iter().map(|point| [*point, *point]);
         let extent = boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-        crate::picture::framing(extent.unwrap_or([DVec3::ZERO, DVec3::ONE]), self.asset.up)
+        framing(extent.unwrap_or([DVec3::ZERO, DVec3::ONE]), self.asset.up)
     }
 }
 

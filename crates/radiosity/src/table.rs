@@ -1,12 +1,12 @@
-//! Tables for spreadsheets: comma-separated values, a header, a row for each thing.
-use crate::Record;
+//! Tables for spreadsheets: comma-separated values with a header.
+use crate::record::{PatchRecord, Record};
 
-/// A row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities per band.
+/// A table with a row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities per band.
 #[must_use]
 pub fn patch_table(record: &Record) -> String {
     let groups = ["reflectance", "emission", "irradiance", "radiosity"];
     let header = ["patch", "area"].map(Into::into).into_iter().chain(columns(&groups, record.bands));
-    let row = |patch: &crate::PatchRecord| {
+    let row = |patch: &PatchRecord| {
         let values = [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity];
         let numbers = std::iter::once(&patch.area).chain(values.into_iter().flatten());
         std::iter::once(patch.name.clone()).chain(numbers.map(ToString::to_string)).collect()
@@ -14,7 +14,7 @@ pub fn patch_table(record: &Record) -> String {
     table(header.collect(), record.patches.iter().map(row))
 }
 
-/// A row for every element: its number, the patch's name, centroid, area, irradiances and radiosities per band.
+/// A table with a row for every element: its number, the patch's name, centroid, area, irradiances and radiosities per band.
 #[must_use]
 pub fn element_table(record: &Record) -> String {
     let first = ["element", "patch", "x", "y", "z", "area"].map(Into::into);
@@ -37,12 +37,8 @@ fn columns(names: &[&str], bands: usize) -> impl Iterator<Item = String> {
     names.iter().flat_map(move |name| (0..bands).map(move |band| format!("{name}.{band}")))
 }
 
-/// Comma-separated values: a header and rows of the same length; what needs quotes gets them.
-///
-/// # Panics
-/// When a row has another length than the header.
-#[must_use]
-pub fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> String {
+/// A header and rows of the same length; what needs quotes gets them.
+fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in std::iter::once(header).chain(rows) {
         writer.write_record(&row).expect("rows have the header's length, and memory takes them");

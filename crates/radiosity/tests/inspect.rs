@@ -1,8 +1,8 @@
-//! What `inspect` finds in scenes with known faults, and what `mend` makes of them.
+//! What `inspect` finds in scenes with known faults, and what `repair` makes of them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 use radiosity::formfactor::PlanarPolygon;
 use radiosity::inspect::{Kind, inspect};
-use radiosity::{Patch, Scene, mend, scenes};
+use radiosity::{Patch, Scene, repair, scenes};
 
 /// A level rectangle, `[low x, low y, high x, high y]`, that faces up.
 fn level(name: &str, [x0, y0, x1, y1]: [f64; 4], z: f64) -> Patch {
@@ -50,24 +50,24 @@ fn closed_rooms_are_closed_and_open_ones_are_not() {
 }
 
 #[test]
-fn lamps_are_named_with_their_power() {
+fn emitters_are_named_with_their_power() {
     let inspection = inspect(&scenes::scene("cornell-box").unwrap());
-    assert_eq!(inspection.lamps.len(), 1);
+    assert_eq!(inspection.emitters.len(), 1);
     let power = std::f64::consts::PI * 17.0 * 130.0 * 105.0;
-    assert!((inspection.lamps[0].power[0] / power - 1.0).abs() < 1e-12);
+    assert!((inspection.emitters[0].power[0] / power - 1.0).abs() < 1e-12);
     assert_eq!((inspection.unit, inspection.up), (0.001, [0.0, 1.0, 0.0]));
 }
 
 #[test]
-fn a_lamp_in_a_face_is_found_and_cut_out_of_it() {
+fn an_emitter_in_a_face_is_found_and_cut_out_of_it() {
     let scene = pair();
-    assert_eq!(found(&scene, Kind::LampInFace), [["a", "lamp"]]);
-    let (mended, changes) = mend(&scene);
+    assert_eq!(found(&scene, Kind::EmitterInFace), [["a", "lamp"]]);
+    let (repaired, changes) = repair(&scene);
     assert_eq!(changes, ["a: cut, by lamp"]);
-    assert_eq!(mended.patches[0].polygon.area(), 0.75);
-    assert_eq!(mended.patches[0].polygon.loops().count(), 2);
-    assert_eq!(mended.patches[2].polygon.area(), 0.25);
-    assert!(inspect(&mended).findings.is_empty(), "{:?}", inspect(&mended).findings);
+    assert_eq!(repaired.patches[0].polygon.area(), 0.75);
+    assert_eq!(repaired.patches[0].polygon.loops().count(), 2);
+    assert_eq!(repaired.patches[2].polygon.area(), 0.25);
+    assert!(inspect(&repaired).findings.is_empty(), "{:?}", inspect(&repaired).findings);
 }
 
 #[test]
@@ -76,9 +76,9 @@ fn duplicates_vanish_but_for_one_and_backs_stay() {
     let back = face("back", &[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]]);
     let twice = scene(vec![lamp(a.clone()), Patch { name: "again".into(), ..lamp(a) }, back]);
     assert_eq!(found(&twice, Kind::Duplicate), [["a", "again"]]);
-    let (mended, changes) = mend(&twice);
+    let (repaired, changes) = repair(&twice);
     assert_eq!(changes, ["again: covered wholly and removed, by a"]);
-    assert_eq!(mended.patches.len(), 2);
+    assert_eq!(repaired.patches.len(), 2);
 }
 
 #[test]
@@ -87,9 +87,9 @@ fn the_smaller_of_two_that_overlap_stays_whole() {
     let across = level("across", [1.0, -1.0, 2.0, 2.0], 0.0);
     let crossed = scene(vec![lamp(large.clone()), lamp(across)]);
     assert_eq!(found(&crossed, Kind::Overlap), [["large", "across"]]);
-    let (mended, _) = mend(&crossed);
+    let (repaired, _) = repair(&crossed);
     let areas: Vec<(&str, f64)> =
-        mended.patches.iter().map(|patch| (patch.name.as_str(), patch.polygon.area())).collect();
+        repaired.patches.iter().map(|patch| (patch.name.as_str(), patch.polygon.area())).collect();
     assert_eq!(areas, [("large.1", 1.0), ("large.2", 2.0), ("across", 3.0)]);
 }
 
@@ -148,7 +148,7 @@ fn mending_a_tilted_ceiling_is_exact() {
         face(name, &[tilt(x0, y0), tilt(x1, y0), tilt(x1, y1), tilt(x0, y1)])
     };
     let before = scene(vec![quad("ceiling", [0.0, 0.0, 4.0, 4.0]), lamp(quad("lamp", [1.0, 1.0, 2.0, 3.0]))]);
-    let (after, _) = mend(&before);
+    let (after, _) = repair(&before);
     let areas: Vec<f64> = after.patches.iter().map(|patch| patch.polygon.area()).collect();
     assert!((areas[0] + areas[1] - before.patches[0].polygon.area()).abs() < 1e-12);
     assert!(inspect(&after).findings.is_empty(), "{:?}", inspect(&after).findings);

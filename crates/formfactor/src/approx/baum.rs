@@ -1,21 +1,22 @@
 //! The hemicube for what is far and for what is seen, the contour sum for what is near.
-use super::Method;
 use super::gather::{aim, as_contour};
 use super::hemicube::Hemicube;
+use super::method::Method;
 use super::parts::{Division, Part, divide, pieces};
 use super::screen::Screen;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
-/// A hemicube; where proximity is violated, the target's parts of which it shows the middle, each by the contour sum (2.4)
-/// [Baum, Rushmeier & Winget 1989].
+/// Uses a hemicube for far targets. A near target is divided into parts, and those whose middle the hemicube shows take the
+/// contour sum (2.4) [Baum, Rushmeier & Winget 1989].
 ///
 /// A target is near when some triangle or parallelogram of it has a diameter of more than `near` times its distance.
-/// The hemicube's error remains for far targets, and at shadow edges that of the parts and of the cells.
+/// The error is the hemicube's for far targets, and at shadow edges that of the parts and of the cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Baum {
     /// The item buffer.
     pub hemicube: Hemicube,
-    /// How large a target may be by its distance before it is near.
+    /// A target is near when its diameter is more than this times its distance.
     pub near: f64,
     /// Parts of a near target: n x n of each triangle and parallelogram of it; 0 is taken as 1.
     pub divisions: u32,

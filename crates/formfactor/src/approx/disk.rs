@@ -1,16 +1,18 @@
-//! One disk instead of the target.
-use super::Method;
+//! The target as one disk.
+use super::method::Method;
 use super::parts::pieces;
-use crate::{DifferentialArea, Enclosure, PlanarPolygon};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The target replaced by a disk of equal area about its centroid [Barreto 2008, (2.2)]:
+/// Replaces the target by a disk of equal area about its centroid [Barreto 2008, (2.2)]:
 ///
 /// F = a^2 cos(theta) cos(theta') / (r^2 + a^2), pi a^2 = A, without visibility.
 ///
-/// Exact for a disk that dA faces along its axis. Relative error of second order in size over distance, and no parameter
-/// to make it smaller. A centroid below the horizon, or a dA behind the target, gives 0.
+/// It is exact for a disk that dA faces along its axis. The relative error is of second order in size over distance, and no
+/// parameter makes it smaller. A centroid below the horizon, or a dA behind the target, gives 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Disk;
 

@@ -1,6 +1,7 @@
 //! The exact method, as one among the others.
-use super::Method;
-use crate::{DifferentialArea, Enclosure};
+use super::method::Method;
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
 /// The exact form factors of [`Enclosure::form_factor`], without their bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,13 +1,15 @@
 //! Axes about dA's normal.
 use super::random::Random;
-use crate::DifferentialArea;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// How a hemicube is turned about the normal.
 ///
-/// Neighbours whose cells are aligned with an edge alias alike, which shows as a pattern; turned at random, as noise.
+/// The errors of neighbouring points whose cells are aligned with the same edge are alike, which shows as a pattern. Turned at
+/// random they show as noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Rotation {
     /// By an angle in radians from an axis that the normal alone decides.
     Angle(f64),

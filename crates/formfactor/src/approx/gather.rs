@@ -1,9 +1,10 @@
-//! Target after target, part after part: what the methods by parts share.
+//! RayTarget after target, part after part: what the methods by parts share.
 use super::contour::{above, contour};
 use super::disk::disk;
 use super::parts::{Division, Part, divide};
-use super::ray::{Target, items};
-use crate::{DifferentialArea, Enclosure};
+use super::ray::{RayTarget, items};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 
 /// A row by a method that takes one target after the other; 0 for those that cannot be seen.
@@ -11,17 +12,17 @@ pub(super) fn row_of_targets(
     enclosure: &Enclosure,
     from: &DifferentialArea,
     targets: &[usize],
-    factor: impl Fn(&Target) -> f64,
+    factor: impl Fn(&RayTarget) -> f64,
 ) -> Vec<f64> {
     let items = items(enclosure, from);
-    let target = |id: &usize| Target::new(enclosure, &items, from.position(), *id);
+    let target = |id: &usize| RayTarget::new(enclosure, &items, from.position(), *id);
     targets.iter().map(|id| target(id).map_or(0.0, |target| factor(&target))).collect()
 }
 
 /// The sum over the parts whose centres a ray reaches.
 pub(super) fn by_parts(
     from: &DifferentialArea,
-    target: &Target,
+    target: &RayTarget,
     division: Division,
     factor: impl Fn(&Part) -> f64,
 ) -> f64 {
@@ -43,7 +44,7 @@ pub(super) fn aim(from: &DifferentialArea, part: &Part) -> Option<DVec3> {
 }
 
 /// A part as a disk.
-pub(super) fn as_disk(from: &DifferentialArea, target: &Target, part: &Part) -> f64 {
+pub(super) fn as_disk(from: &DifferentialArea, target: &RayTarget, part: &Part) -> f64 {
     disk(from.normal(), part.centre() - from.position(), target.item.polygon.normal(), part.area())
 }
 

@@ -1,19 +1,21 @@
-//! An item buffer on half a cube.
+//! The hemicube: an item buffer on half a cube.
+use super::delta;
 use super::frame::{Rotation, frame};
+use super::method::Method;
 use super::ray::items;
 use super::screen::{Screen, steps};
-use super::{Method, delta};
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 
-/// Five faces of half a cube around dA, of half-width and height 1, cut in cells of which each holds the id of the nearest
-/// polygon at its middle; F is the sum of the delta factors of the cells that hold the target [Cohen & Greenberg 1985]:
+/// Draws what dA sees on the five faces of half a cube around it, of half-width and height 1. Each cell holds the id of the
+/// polygon nearest at its middle; F is the sum of the delta factors of the target's cells [Cohen & Greenberg 1985]:
 ///
 /// dF = dA / (pi (x^2 + y^2 + 1)^2) in the top, z dA / (pi (y^2 + z^2 + 1)^2) in a side.
 ///
-/// Delta factors are integrals over the cell in closed form, scaled to add to 1 [Gomes 2010, 4.4]. Error of the order of
-/// the cells' width, and aliased: what is smaller than a cell is seen or not, whatever its weight. Of coplanar polygons
-/// that overlap it sees one.
+/// Delta factors are integrals over the cell in closed form, scaled to add to 1 [Gomes 2010, 4.4]. The error is of the order of
+/// the cells' width, and it aliases: a polygon smaller than a cell fills the cell or is not seen. Of coplanar polygons that
+/// overlap it sees one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hemicube {
     resolution: u32,
@@ -36,7 +38,7 @@ impl Hemicube {
         Self { resolution, rotation: Rotation::Angle(0.0), weights }
     }
 
-    /// The same, turned about the normal.
+    /// The same hemicube, turned about the normal.
     #[must_use]
     pub fn rotated(mut self, rotation: Rotation) -> Self {
         self.rotation = rotation;

@@ -1,14 +1,16 @@
-//! Rays at random.
-use super::Method;
+//! Monte Carlo: rays at random.
 use super::frame::{Rotation, along, frame};
+use super::method::Method;
 use super::random::Random;
 use super::ray::{along_ray, items, seen};
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// How the rays of a [`MonteCarlo`] row are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Sampling {
     /// Each independent of the others.
     Random,
@@ -16,18 +18,19 @@ pub enum Sampling {
     Stratified,
 }
 
-/// Cosine-weighted rays, which are uniform points of the unit disk raised to the hemisphere [Malley 1988]:
+/// Casts cosine-weighted rays: uniform points of the unit disk, raised to the hemisphere [Malley 1988].
 ///
 /// F = rays that meet the target first / all rays.
 ///
-/// Standard error sqrt(F (1 - F) / n) for random rays; n^-3/4 for stratified ones. No floor. The same for equal seeds.
+/// The standard error is sqrt(F (1 - F) / n) for n random rays, and falls as n^-3/4 for stratified ones. Equal seeds give equal
+/// results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MonteCarlo {
     /// The number of rays; 0 is taken as 1.
     pub rays: u32,
     /// How they are drawn.
     pub sampling: Sampling,
-    /// What the random numbers start from, with dA's position.
+    /// The seed of the random numbers, together with dA's position.
     pub seed: u64,
 }
 

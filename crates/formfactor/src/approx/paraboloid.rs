@@ -1,18 +1,19 @@
-//! The hemisphere in one image.
-use super::Method;
+//! The hemisphere in one image, by a paraboloid.
 use super::delta::normalise;
 use super::frame::{Rotation, along, frame};
+use super::method::Method;
 use super::monte_carlo::cast;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
-/// A square image of the hemisphere mirrored in the paraboloid z = 1/2 - (x^2 + y^2)/2 [Heidrich & Seidel 1998]: the
+/// Takes a square image of the hemisphere mirrored in the paraboloid z = 1/2 - (x^2 + y^2)/2 [Heidrich & Seidel 1998]. The
 /// direction d is seen at (x, y) = (d_x, d_y) / (1 + d_z), and the cell there receives
 ///
 /// dF = 4 (1 - s) / (pi (1 + s)^3) dx dy, s = x^2 + y^2 <= 1.
 ///
-/// The weights of the cells whose middles lie in the disk are scaled to add to 1. Straight edges are curved in the image: each cell
-/// looks for itself along its own ray, as joining projected vertices by straight lines would be wrong by much for large
-/// polygons. Error of the order of the cells' width; what is smaller than a cell is seen or not.
+/// The weights of the cells whose middles lie in the disk are scaled to add to 1. Straight edges are curved in the image, so
+/// that each cell casts its own ray: joining projected vertices by straight lines would be wrong by much for large polygons. The
+/// error is of the order of the cells' width; what is smaller than a cell is seen or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Paraboloid {
     resolution: u32,
@@ -22,7 +23,7 @@ pub struct Paraboloid {
 }
 
 impl Paraboloid {
-    /// With `resolution` x `resolution` cells, of which those in the disk count; 0 is taken as 1. Takes that many steps.
+    /// With `resolution` x `resolution` cells, of which those in the disk count; 0 is taken as 1.
     #[must_use]
     pub fn new(resolution: u32) -> Self {
         let resolution = resolution.max(1);

@@ -1,19 +1,20 @@
 //! Targets in parts: triangles and parallelograms, which divide into congruent ones.
-use crate::PlanarPolygon;
-use crate::region::leaf;
+use crate::shapes::loops::leaf;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::fmt;
 
 /// How a target is divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Division {
-    /// Each triangle and parallelogram that the target is made of into n x n congruent parts; 0 is taken as 1. A triangle
-    /// and a parallelogram are made of themselves, so that their n^2 parts are equal.
+    /// Each triangle and parallelogram that the target consists of into n x n congruent parts; 0 is taken as 1. The n^2 parts
+    /// of a target that is itself a triangle or a parallelogram are thus equal.
     Uniform(u32),
-    /// Into quarters, each again, while a part's diameter is more than `size` times its distance, at most `depth` times
+    /// Into quarters, again and again, while a part's diameter is more than `size` times its distance, at most `depth` times
     /// [Tampieri 1992].
     Adaptive {
-        /// The largest diameter of a part, by its distance from dA.
+        /// The largest diameter of a part, as a multiple of its distance from dA.
         size: f64,
         /// How often a part may be quartered.
         depth: u32,

@@ -1,14 +1,15 @@
-//! Near parts by the contour sum.
-use super::Method;
+//! Far parts as disks, near parts by the contour sum.
 use super::gather::{as_contour, as_disk, by_parts, row_of_targets};
+use super::method::Method;
 use super::parts::Division;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
-/// As [`Wallace`](super::Wallace), but a part that is too near for a disk takes the contour sum (2.4) over its corners
-/// [Pietrek 1993].
+/// Does as [`Wallace`](super::Wallace) does, but takes the contour sum (2.4) over the corners of parts that are too near for a
+/// disk [Pietrek 1993].
 ///
-/// Converges as 1/n, also for targets that touch dA. With `near` = 0 every part takes the sum, and only visibility is
-/// approximate: by one ray to the part's centre, or, when that is below the horizon, to what of the part is above.
+/// It converges as 1/n, also for targets that touch dA. With `near` = 0 every part takes the sum, and only visibility is
+/// approximate: one ray goes to the part's centre or, when that is below the horizon, to the middle of what is above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pietrek {
     /// How the target is divided.

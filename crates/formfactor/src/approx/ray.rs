@@ -1,7 +1,9 @@
 //! Rays from dA against an enclosure, by the exact method's rules: occluders block for 0 < t < 1, the owner never, nor
 //! does what is coplanar with the target or whose plane contains dA. Each polygon has a cone around it, to skip it by.
-use crate::tree::Extent;
-use crate::{DifferentialArea, Enclosure, PlanarPolygon};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::extent::Extent;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 
@@ -171,12 +173,12 @@ pub(super) fn seen<'i, 'a: 'i>(
 
 /// A target, and what may hide some of it.
 #[derive(Debug)]
-pub(super) struct Target<'i, 'a> {
+pub(super) struct RayTarget<'i, 'a> {
     pub(super) item: &'i Item<'a>,
     occluders: Vec<&'i Item<'a>>,
 }
 
-impl<'i, 'a> Target<'i, 'a> {
+impl<'i, 'a> RayTarget<'i, 'a> {
     /// `None` when the target is not seen whatever stands in between.
     pub(super) fn new(
         enclosure: &Enclosure,
@@ -214,6 +216,6 @@ fn is_coplanar(a: &Item, b: &Item) -> bool {
         return false;
     }
     let plane = a.polygon.plane();
-    let doubt = 2.0 * (a.polygon.deviation() + b.polygon.deviation()) * plane.normal.round().length();
-    b.polygon.points().iter().all(|p| plane.side(*p).value.hi.abs() <= doubt)
+    let height = 2.0 * (a.polygon.deviation() + b.polygon.deviation()) * plane.normal.round().length();
+    b.polygon.points().iter().all(|p| plane.side(*p).value.hi.abs() <= height)
 }

@@ -1,23 +1,24 @@
 //! One plane above dA, cut finer where edges are.
-use super::Method;
 use super::delta;
 use super::frame::{Rotation, along, frame};
+use super::method::Method;
 use super::ray::{Item, items, seen};
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;
 use std::ops::Range;
 
-/// A square above dA and parallel to it, quartered as Warnock does while edges cross a cell, so that small items get
-/// small cells; each cell then counts, by its delta factor in closed form, for what its middle sees [Sillion & Puech 1989].
+/// Quarters a square above dA and parallel to it as Warnock does, while edges cross a cell, so that small polygons get small
+/// cells. Each cell then counts, by its delta factor in closed form, for what its middle sees [Sillion & Puech 1989].
 ///
-/// A cell that no edge crosses is exact (but for polygons that pierce each other); the error is what the cells at the
-/// limit get wrong, at most their number times `smallest`: the order of its square root. What passes below the rim of the
-/// square is not seen: at most 1 / (1 + half_width^2) in all, a floor that only a wider square lowers.
+/// A cell that no edge crosses is exact, unless polygons pierce each other. The error is what the smallest cells get wrong: at
+/// most their number times `smallest`, which is of the order of its square root. What passes below the rim of the square is not
+/// seen: at most 1 / (1 + half_width^2) in all. Only a wider square makes that smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SinglePlane {
-    /// Half the square's side, its height being 1; taken as at most 1e6.
+    /// Half the square's side, at height 1 above dA; taken as at most 1e6.
     pub half_width: f64,
-    /// A cell is not quartered whose delta factor is no larger than this, or than 1e-9.
+    /// A cell is not quartered when its delta factor is at most this, or at most 1e-9.
     pub smallest: f64,
 }
 
@@ -96,7 +97,7 @@ fn is_outside(cone: &[DVec3; 4], item: &Item) -> bool {
     sides(cone).any(|side| item.loops.iter().flatten().all(|p| side.dot(*p) < 0.0))
 }
 
-/// Whether an edge of the item may cross the cell: never said of one that does, seldom of one that does not.
+/// Whether an edge of the item may cross the cell: true for each that does, and for few that do not.
 fn is_crossed(cone: &[DVec3; 4], item: &Item) -> bool {
     let crosses = |a: DVec3, b: DVec3| {
         let misses = sides(cone).any(|side| side.dot(a) < 0.0 && side.dot(b) < 0.0);

@@ -1,22 +1,22 @@
-//! Parts split where rays disagree.
-use super::Method;
+//! Parts, split where rays disagree.
 use super::gather::{aim, as_contour, as_disk, row_of_targets};
+use super::method::Method;
 use super::parts::{Part, pieces};
-use super::ray::Target;
-use crate::{DifferentialArea, Enclosure};
+use super::ray::RayTarget;
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
-/// As [`Pietrek`](super::Pietrek), and a part is also quartered while its *visibility index*, the fraction of sample rays
-/// that reach it, is neither 0 nor 1 [Wang; Lee & Chuang 2004].
+/// Does as [`Pietrek`](super::Pietrek) does, and quarters a part while its *visibility index*, the fraction of sample rays that
+/// reach it, is neither 0 nor 1 [Wang; Lee & Chuang 2004].
 ///
 /// The rays go to the middles of `samples` x `samples` congruent pieces of the part, those below the horizon left out.
-/// At the limit of depth a part counts by its index. What slips between the rays to a part is never looked for, be it an
-/// occluder or a corner that a shadow cuts off, however small the parts could get: an error that no depth removes, and that
-/// falls with the number of rays.
+/// At the limit of depth a part counts by its index. An occluder, or a corner that a shadow cuts off, is missed when it lies
+/// between the rays to a part. More depth does not remove that error; more rays make it smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VisibilityIndex {
-    /// A part takes the contour sum when its diameter is more than this times its distance, and else is a disk.
+    /// A part takes the contour sum when its diameter is more than this times its distance, and is a disk otherwise.
     pub near: f64,
-    /// Sample rays per part, by the side of their grid; 0 is taken as 1.
+    /// The side of the grid of sample rays to each part; 0 is taken as 1.
     pub samples: u32,
     /// How often a part may be quartered.
     pub depth: u32,
@@ -34,7 +34,7 @@ impl Method for VisibilityIndex {
 }
 
 impl VisibilityIndex {
-    fn factor(&self, from: &DifferentialArea, target: &Target) -> f64 {
+    fn factor(&self, from: &DifferentialArea, target: &RayTarget) -> f64 {
         let mut sum = 0.0;
         let mut open: Vec<(Part, u32)> =
             pieces(target.item.polygon).into_iter().map(|piece| (piece, self.depth)).collect();
@@ -50,7 +50,7 @@ impl VisibilityIndex {
     }
 
     /// The fraction of the sample rays that reach a part; 0 when it is below the horizon.
-    fn index(&self, from: &DifferentialArea, target: &Target, part: &Part) -> f64 {
+    fn index(&self, from: &DifferentialArea, target: &RayTarget, part: &Part) -> f64 {
         let (mut all, mut reached) = (0_u32, 0_u32);
         for point in part.grid(self.samples).iter().filter_map(|piece| aim(from, piece)) {
             all += 1;
@@ -59,7 +59,7 @@ impl VisibilityIndex {
         if all == 0 { 0.0 } else { f64::from(reached) / f64::from(all) }
     }
 
-    fn part(&self, from: &DifferentialArea, target: &Target, part: &Part) -> f64 {
+    fn part(&self, from: &DifferentialArea, target: &RayTarget, part: &Part) -> f64 {
         if part.is_large(from.position(), self.near) {
             as_contour(from, part)
         } else {

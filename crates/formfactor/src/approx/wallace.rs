@@ -1,15 +1,17 @@
-//! Disks instead of the target's parts.
-use super::Method;
+//! The target's parts as disks.
 use super::gather::{as_disk, by_parts, row_of_targets};
+use super::method::Method;
 use super::parts::Division;
-use crate::{DifferentialArea, Enclosure};
+use crate::scene::enclosure::Enclosure;
+use crate::shapes::differential_area::DifferentialArea;
 
-/// The target in parts, each a disk, with a ray to each part's centre [Wallace 1989; Barreto 2008, (2.3)]:
+/// Divides the target into parts, takes each for a disk, and casts a ray to each part's centre [Wallace 1989; Barreto 2008,
+/// (2.3)]:
 ///
 /// F = sum over k of V_k A_k cos(theta_k) cos(theta'_k) / (pi r_k^2 + A_k), where A_k = A/n for equal parts.
 ///
-/// Converges as 1/n without occlusion, slower across shadow edges, where a part is seen or not as its centre is. Not
-/// convergent in a part that touches dA's plane: divide adaptively, or use [`Pietrek`](super::Pietrek).
+/// It converges as 1/n without occlusion, and slower across shadow edges, where a part is seen or not as its centre is. It does
+/// not converge in a part that touches dA's plane: divide adaptively, or use [`Pietrek`](super::Pietrek).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wallace {
     /// How the target is divided.

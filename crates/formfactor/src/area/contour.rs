@@ -8,9 +8,9 @@
 //! G(z) = (z^2 - h^2) ln(z^2 + h^2) / 4 - 3 z^2 / 4 + h z atan(z / h), the second integral of ln sqrt(z^2 + h^2).
 //! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's rule,
 //! halved until it agrees with itself.
-use crate::PlanarPolygon;
-use crate::gauss::RULE_8;
-use crate::region::leaf;
+use crate::numeric::gauss::RULE_8;
+use crate::shapes::loops::leaf;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -25,9 +25,9 @@ pub(super) fn exchange(one: &PlanarPolygon, other: &PlanarPolygon, tolerance: f6
     let (mut sum, mut error) = (0.0, 0.0);
     for p in &ps {
         for q in &qs {
-            let [part, doubt] = pair(*p, *q, size, each);
+            let [part, part_error] = pair(*p, *q, size, each);
             sum += part;
-            error += doubt;
+            error += part_error;
         }
     }
     [sum / TAU, error / TAU]

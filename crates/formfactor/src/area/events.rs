@@ -3,7 +3,7 @@
 //! From there a vertex of the target lies behind an edge of an occluder, or an edge of the target behind a vertex of one; or
 //! the target turns from its front to its back; or an occluder's vertex lies behind another one's edge, which may open or
 //! close a slit. Kinks that three edges make together are curved and left to refinement.
-use crate::PlanarPolygon;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 
 /// More events than this are not looked for: refinement does better.

@@ -7,33 +7,34 @@ mod contour;
 mod events;
 mod pair;
 mod rule;
-pub(crate) mod shaft;
 
-use crate::Enclosure;
 use crate::error::Error;
+use crate::scene::enclosure::Enclosure;
 
-/// A form factor from a polygon to a polygon.
+/// A form factor from a polygon to a polygon, with an estimate of its error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct AreaFormFactor {
-    /// The fraction of the power leaving the first polygon's front that reaches the second's: between 0 and 1.
+    /// The fraction of the power leaving the front of the first polygon that reaches the front of the second directly: a number
+    /// from 0 to 1, without a unit.
     pub value: f64,
-    /// An estimate of the error, from the differences between rules; no bound.
+    /// An estimate of the error, from the differences between quadrature rules. It is not a bound.
     pub error_estimate: f64,
-    /// How many point form factors it took; 0 for a closed form.
+    /// The number of point form factors that were evaluated; 0 for a closed form.
     pub evaluations: u64,
 }
 
-/// A row of a matrix of form factors: for each polygon that is seen, in the order of the ids, its id and the factor.
+/// A row of a matrix of form factors: the id of each polygon that is seen and the factor to it, in the order of the ids.
 pub type Row = Vec<(usize, AreaFormFactor)>;
 
 impl Enclosure {
-    /// The form factor from polygon `from` to polygon `to`, all others hiding: the mean of the point form factors over the
-    /// front of `from`.
+    /// The form factor from polygon `from` to polygon `to`, with all other polygons as occluders: the mean of the point form
+    /// factors over the front of `from`.
     ///
-    /// It is integrated over the smaller polygon, and A1 F12 = A2 F21 gives the other direction: reciprocity holds to
-    /// rounding. Refinement ends when the estimated error of both directions is within `tolerance`, or after four million
-    /// point form factors; `error_estimate` tells which. Takes about 1e2 of them without occluders in between that have
-    /// edges near the line of sight, and 1e3 to 1e5 with.
+    /// The integral is taken over the smaller polygon; A1 F12 = A2 F21 gives the other direction, so that reciprocity holds to
+    /// rounding. Refinement stops when the estimated error of both directions is within `tolerance`, or after four million
+    /// point form factors: compare `error_estimate` with `tolerance`. About 1e2 evaluations suffice where no occluder's edge is
+    /// near the line of sight; elsewhere it takes 1e3 to 1e5.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.
@@ -56,8 +57,10 @@ impl Enclosure {
         Ok(found.map_or_else(AreaFormFactor::default, |[forth, _]| forth))
     }
 
-    /// The form factors from polygon `from` to all that it sees; `None` when `is_cancelled`, which is asked often, says so.
-    /// In a closed room they add to 1 within `tolerance`, of which each gets an equal share.
+    /// The form factors from polygon `from` to all polygons that it sees. In a closed room they add to 1 within `tolerance`.
+    ///
+    /// Each factor gets an equal share of the tolerance. `is_cancelled` is called often; once it returns `true` the result is
+    /// `None`.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.
@@ -78,10 +81,11 @@ impl Enclosure {
         Ok(entries.filter(|entry| entry.is_none_or(|(_, factor)| factor.value > 0.0)).collect())
     }
 
-    /// All rows, each pair of polygons integrated once; `None` when `is_cancelled`, which is asked often, says so. Takes
-    /// the square of the number of polygons in time, and memory for the factors that are not 0.
+    /// All rows, by id. Each pair of polygons is integrated once.
     ///
-    /// With the feature `rayon` pairs are shared among threads; the result is the same for any number of them.
+    /// The time grows with the square of the number of polygons, the memory with the number of factors that are not 0. With the
+    /// feature `rayon` pairs are shared among threads; the result is the same for any number of them. `is_cancelled` is called
+    /// often; once it returns `true` the result is `None`.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.

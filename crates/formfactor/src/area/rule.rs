@@ -1,6 +1,6 @@
 //! Products of Gauss's rules on a cell, one finer than the other, and what they say of their error.
 use super::cell::Cell;
-use crate::gauss::{RULE_4, RULE_5, RULE_8, RULE_11};
+use crate::numeric::gauss::{RULE_4, RULE_5, RULE_8, RULE_11};
 use glam::DVec2;
 
 /// An integral, an estimate of its error, and how many values of the integrand it took.

@@ -1,5 +1,15 @@
-//! Convex polygons as dA sees them: edges, each with the plane through it and dA.
-use crate::polygon::ROUNDING;
+//! Convex polygons as dA sees them: cones, bounded by the planes through dA and each edge.
+//!
+//! ```text
+//!    c ______ b       The polygon a b c runs counter-clockwise seen from dA. The plane through dA and the edge from a to b
+//!      \     |        has the normal `inward` = (b - a) x (a - dA), toward the polygon: a point p is inside the cone where
+//!        \   |        inward . (p - dA) > 0 for all edges.
+//!          \ |
+//!            a        A sign is trusted where the dot product is larger than a bound on its error: some roundings of the
+//!                     sum of its terms' magnitudes. Else the place is `Open`.
+//!        dA
+//! ```
+use crate::numeric::rounding::ROUNDING;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use std::ops::Range;
 
@@ -7,7 +17,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub(super) at: DVec3,
-    pub(super) slack: f64,
+    pub(super) deviation: f64,
 }
 
 /// An edge as dA sees it, the polygon to its left.
@@ -21,13 +31,13 @@ pub(super) struct Edge {
     /// The normal of its plane through dA, toward the polygon: `along x start`.
     pub(super) inward: DVec3,
     /// A bound on the error of `inward . p`, per component of p, and the sum over the components.
-    pub(super) doubt: DVec3,
+    pub(super) errors: DVec3,
     pub(super) error: f64,
     /// The larger size of the two ends.
     reach: f64,
     /// (|start| + |along|) |along|, in sums of components: no direction turns faster than by this over |inward|.
     pub(super) spread: f64,
-    /// What makes dot products of directions to it at most 1: the inverse square of the larger size.
+    /// Scales dot products of directions to it to at most 1: the inverse square of the larger size.
     pub(super) scale: f64,
 }
 
@@ -50,7 +60,7 @@ impl Edge {
     pub(super) fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
-        let doubt = ERROR * terms;
+        let errors = ERROR * terms;
         let reach = size(start).max(size(end));
         let spread = (size(start) + size(along)) * size(along);
         Self {
@@ -58,48 +68,48 @@ impl Edge {
             end,
             along,
             inward: along.cross(start),
-            doubt,
-            error: doubt.element_sum(),
+            errors,
+            error: errors.element_sum(),
             reach,
             spread,
             scale: 1.0 / (reach * reach),
         }
     }
 
-    /// A bound on the error of `inward` that costs less.
+    /// A coarser bound on the error of `inward`, which costs less.
     pub(super) fn coarse_error(&self) -> f64 {
         coarse_error(self.along, self.start)
     }
 
-    /// Whether both ends of an edge lie on one side for certain, by a coarser bound: which one.
+    /// The side on which both ends of an edge lie for certain, by a coarser bound.
     pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
         let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
-        let doubt = self.error * edge.reach + UNDERFLOW;
-        if start > doubt && end > doubt {
+        let error = self.error * edge.reach + UNDERFLOW;
+        if start > error && end > error {
             Some(Place::Inside)
-        } else if start < -doubt && end < -doubt {
+        } else if start < -error && end < -error {
             Some(Place::Outside)
         } else {
             None
         }
     }
 
-    /// How far inside a point is, relative to dA, and a bound on the error of that.
+    /// How far inside a point is, given relative to dA, and a bound on the error.
     pub(super) fn depth(&self, point: DVec3) -> (f64, f64) {
-        (self.inward.dot(point), self.doubt.dot(point.abs()) + UNDERFLOW)
+        (self.inward.dot(point), self.errors.dot(point.abs()) + UNDERFLOW)
     }
 
-    /// A lower bound on the angle that it spans: its sine, by more than the lengths.
+    /// A lower bound on the angle that it subtends: its sine, with sizes that are larger than the lengths.
     pub(super) fn least_angle(&self) -> f64 {
         self.inward.length() / (size(self.start) * size(self.end))
     }
 
     /// On which side of its plane a point lies.
     pub(super) fn place(&self, point: DVec3) -> Place {
-        let (depth, doubt) = self.depth(point);
-        if depth > doubt {
+        let (depth, error) = self.depth(point);
+        if depth > error {
             Place::Inside
-        } else if depth < -doubt {
+        } else if depth < -error {
             Place::Outside
         } else {
             Place::Open
@@ -112,28 +122,28 @@ pub(super) fn coarse_error(along: DVec3, start: DVec3) -> f64 {
     ERROR * size(along) * size(start)
 }
 
-/// The sum of the magnitudes of a vector's components.
+/// The size of a vector: the sum of its components' magnitudes, which is cheaper than the length and not less.
 pub(super) fn size(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// What the slopes of directions are measured by: a depth along one vector, and two axes of three.
+/// How slopes of directions are measured: two of three coordinates, divided by the depth along one vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     forward: DVec3,
-    /// The sum of the magnitudes of its components.
+    /// The size of `forward`.
     size: f64,
     dropped: usize,
 }
 
-/// A rectangle of slopes.
+/// A rectangle of slopes, around the directions to something.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
+pub(super) struct Slopes {
     pub(super) low: DVec2,
     pub(super) high: DVec2,
 }
 
-impl Extent {
+impl Slopes {
     const ALL: Self = Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
 
     pub(super) fn join(self, other: Self) -> Self {
@@ -154,14 +164,14 @@ impl Frame {
         Self { forward, size: size(forward), dropped }
     }
 
-    /// A little around the slopes of a direction; everything where it does not lead forward well enough.
+    /// A small rectangle around the slopes of a direction; everything where it does not lead forward enough.
     ///
     /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
     /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
-    fn slopes(&self, toward: DVec3) -> Extent {
+    fn slopes(&self, toward: DVec3) -> Slopes {
         let depth = self.forward.dot(toward);
         if depth < 1e-3 * self.size * toward.abs().max_element() {
-            return Extent::ALL;
+            return Slopes::ALL;
         }
         let kept = match self.dropped {
             0 => toward.yz(),
@@ -169,11 +179,11 @@ impl Frame {
             _ => toward.xy(),
         };
         let (slopes, margin) = (kept / depth, DVec2::splat(1e-6 / self.size));
-        Extent { low: slopes - margin, high: slopes + margin }
+        Slopes { low: slopes - margin, high: slopes + margin }
     }
 
-    /// Around the slopes of each edge.
-    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Extent>) {
+    /// Adds a rectangle around the slopes of each edge.
+    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Slopes>) {
         let Some(last) = edges.last() else { return };
         let mut around = self.slopes(last.end);
         for edge in edges {
@@ -197,13 +207,13 @@ pub(super) fn faces(origin: DVec3, corners: &[Corner], edges: &mut Vec<Edge>) {
     }
 }
 
-/// The cones of occluders: edges in a row, and where each cone's end.
+/// The cones of occluders: the edges of all, and where those of each end.
 #[derive(Debug, Default)]
 pub(super) struct Cones {
     edges: Vec<Edge>,
     ends: Vec<usize>,
-    edge_extents: Vec<Extent>,
-    extents: Vec<Extent>,
+    edge_extents: Vec<Slopes>,
+    extents: Vec<Slopes>,
 }
 
 impl Cones {
@@ -214,7 +224,7 @@ impl Cones {
         self.extents.clear();
     }
 
-    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them: its edges.
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them, and returns its edges.
     pub(super) fn push(&mut self, origin: DVec3, corners: &[Corner]) -> &[Edge] {
         let first = self.edges.len();
         faces(origin, corners, &mut self.edges);
@@ -222,13 +232,13 @@ impl Cones {
         &self.edges[first..]
     }
 
-    /// Finds what is around every edge and every cone.
+    /// Finds the rectangle of slopes around every edge and every cone.
     pub(super) fn measure(&mut self, frame: &Frame) {
         let mut start = 0;
         for end in &self.ends {
             frame.measure(&self.edges[start..*end], &mut self.edge_extents);
-            let extent = self.edge_extents[start..].iter().copied().reduce(Extent::join);
-            self.extents.push(extent.unwrap_or(Extent::ALL));
+            let extent = self.edge_extents[start..].iter().copied().reduce(Slopes::join);
+            self.extents.push(extent.unwrap_or(Slopes::ALL));
             start = *end;
         }
     }
@@ -246,11 +256,11 @@ impl Cones {
         &self.edges[self.range(cone)]
     }
 
-    pub(super) fn edge_extents(&self, cone: usize) -> &[Extent] {
+    pub(super) fn edge_extents(&self, cone: usize) -> &[Slopes] {
         &self.edge_extents[self.range(cone)]
     }
 
-    pub(super) fn extent(&self, cone: usize) -> &Extent {
+    pub(super) fn extent(&self, cone: usize) -> &Slopes {
         &self.extents[cone]
     }
 }

@@ -1,9 +1,11 @@
 //! Lambert's sum in plain doubles, with a bound.
 use super::cone::{Edge, coarse_error};
-use super::span::Span;
-use crate::polygon::ROUNDING;
-use crate::predicates::place;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use super::interval::Interval;
+use crate::form_factor::FormFactor;
+use crate::numeric::predicates::place;
+use crate::numeric::rounding::ROUNDING;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
@@ -12,11 +14,11 @@ use std::f64::consts::TAU;
 /// unit normal.
 const ROUNDINGS: f64 = 32.0;
 
-/// A bound on the error that is taken as it is, by the value.
+/// The relative error up to which the sum is good enough.
 const FINE: f64 = 1e-13;
 
 /// The form factor of a convex target with nothing in between; `None` where doubles do not decide that all of it is seen,
-/// and where they know it too roughly.
+/// and where the bound would be too large.
 pub(crate) fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
     let origin = from.position();
     if !to.is_convex() || to.deviation() > 0.0 || to.plane().quick_side(origin) != Some(Ordering::Greater) {
@@ -39,7 +41,7 @@ pub(crate) fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> Option<
     sum.fine(0.0)
 }
 
-/// Lambert's sum over edges and pieces of edges.
+/// Lambert's sum over edges and parts of edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sum {
     normal: DVec3,
@@ -50,7 +52,7 @@ pub(super) struct Sum {
     count: f64,
 }
 
-/// What the pieces of an edge have in common.
+/// What the parts of an edge have in common.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     /// |along x start|, its inverse, and its relative error.
@@ -61,8 +63,8 @@ pub(super) struct Line {
     pub(super) cosine: f64,
 }
 
-/// Angles between the ends of parts of an edge, added by multiplying (cosine, sine) as complex numbers: one arc tangent does
-/// for many. They are apart, and together below a half turn; each product takes less than 4 roundings of the sum.
+/// Angles between the ends of parts of an edge, added by multiplying (cosine, sine) as complex numbers: one arc tangent serves
+/// many. The parts are disjoint, so that the sum is below a half turn; each product errs by less than 4 roundings of the sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts {
     product: DVec2,
@@ -76,7 +78,7 @@ impl Default for Parts {
 }
 
 impl Parts {
-    /// So many, as long as the product does not underflow.
+    /// At most so many parts, so that the product does not underflow.
     const MOST: u8 = 8;
 
     fn is_full(&self) -> bool {
@@ -105,11 +107,11 @@ impl Sum {
     }
 
     /// What the parts of an edge in a plane with this normal have in common, the sum of whose components' errors is
-    /// within `doubt`.
-    pub(super) fn line(&self, inward: DVec3, doubt: f64) -> Line {
+    /// within `error`.
+    pub(super) fn line(&self, inward: DVec3, error: f64) -> Line {
         let sine = inward.length();
         let inverse = 1.0 / sine;
-        Line { sine, inverse, turned: doubt * inverse, cosine: self.normal.dot(inward) * inverse }
+        Line { sine, inverse, turned: error * inverse, cosine: self.normal.dot(inward) * inverse }
     }
 
     /// A whole edge.
@@ -117,9 +119,9 @@ impl Sum {
         self.add_angle(line, line.sine.atan2(edge.start.dot(edge.end)), 0.0);
     }
 
-    /// Adds a part of an edge to those before it, and what is not known about its ends.
+    /// Adds a part of an edge to those before it, and to the error what its ends leave open.
     #[inline]
-    pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Span, parts: &mut Parts) {
+    pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Interval, parts: &mut Parts) {
         let stretch = edge.spread * line.inverse;
         let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
         self.error += line.turns(ends, [part.low.error(), part.high.error()], stretch);
@@ -138,7 +140,7 @@ impl Sum {
         if parts.count > 0 {
             let stretch = edge.spread * line.inverse;
             let cut = (6.0 * stretch * stretch + 4.0 * f64::from(Parts::MOST)) * ROUNDING;
-            // Of a half turn rounding may leave a little more: the nearest angle there can be is nearer to the true one.
+            // Rounding may turn almost a half turn into a little more. Clamped it is nearer to the true angle.
             self.add_angle(line, parts.product.y.max(0.0).atan2(parts.product.x), cut);
         }
     }
@@ -154,12 +156,12 @@ impl Sum {
         self.count += 1.0;
     }
 
-    /// [`Self::form_factor`] of a whole target, if its value is known to many digits.
+    /// [`Self::form_factor`] of a target that nothing hides, if its value is known to 13 digits.
     pub(super) fn fine(&self, error: f64) -> Option<FormFactor> {
         self.form_factor(error).filter(|factor| factor.error_bound <= FINE * factor.value)
     }
 
-    /// The sum and its bound, `error` more having come about elsewhere; `None` when nothing is known.
+    /// The form factor, with an error of at most `error` from elsewhere; `None` when nothing is known.
     pub(super) fn form_factor(&self, error: f64) -> Option<FormFactor> {
         let value = (self.value / TAU).clamp(0.0, 1.0);
         let error_bound = (self.error + self.count * ROUNDING * self.terms) / TAU + error;

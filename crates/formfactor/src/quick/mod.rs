@@ -1,68 +1,73 @@
-//! Form factors in plain doubles, where these decide all that matters for certain: most of them.
+//! The quick route: form factors in plain doubles, where these decide everything that matters for certain. Most are found here.
 //!
-//! A convex polygon seen from dA is a cone, the meet of the half-spaces inside its edges' planes through dA. A piece of
-//! an edge belongs to the visible boundary where no other occluder's cone holds it, and an occluder's edge only inside the
-//! target's cone. So every edge is clipped against the cones that it may meet, and Lambert's sum is taken over what is
-//! left of it: nothing is projected and no arrangement is built [vertex tracing: Stark and Riesenfeld 2000].
+//! A convex polygon seen from dA is a cone, the intersection of the half-spaces inside its edges' planes through dA. A piece of
+//! an edge of the target is visible where no occluder's cone contains it. A piece of an occluder's edge is part of the visible
+//! boundary where it is inside the target's cone and no other occluder's cone contains it. So every edge is clipped against the
+//! cones that it may meet, and Lambert's sum is taken over what is left: nothing is projected and no arrangement is built
+//! [vertex tracing: Stark and Riesenfeld 2000].
 //!
-//! Every sign is taken with a bound on its error. Where an end of an edge may lie on either side of a plane, the parameter
-//! of the clip errs by little, and the bound counts it; where a whole edge may lie in a plane, the two edges must be one
-//! and the same, or everything goes to the careful route through `polycsg`. So does what is not convex and what would be
-//! known too roughly.
+//! Every sign comes with a bound on its error. Where one end of an edge may lie on either side of a plane, the parameter of the
+//! crossing errs by little, and the bound counts it. Where a whole edge may lie in a plane, the two edges must be one and the
+//! same; if not, the exact route takes over. It does so too where a polygon is not convex, and where the bound would be too
+//! large.
+mod classify;
 mod clip;
 mod cone;
 mod contour;
-mod held;
-mod near;
-mod sieve;
-mod span;
+mod corners;
+mod inside;
+mod interval;
+mod neighbours;
+pub(crate) mod target;
 mod trace;
 
 pub(crate) use contour::unoccluded;
-pub(crate) use sieve::Target;
 
+use crate::form_factor::FormFactor;
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
 use crate::stats::Stats;
-use crate::{DifferentialArea, FormFactor, PlanarPolygon};
+use classify::{Class, classify};
 use cone::{Cones, Corner, Edge};
-use sieve::{Side, Sieved};
+use target::{Side, Target};
 
-/// Buffers, to be used again.
+/// The quick route's buffers, to be used again.
 #[derive(Debug, Default)]
-pub(crate) struct Buffers {
+pub(crate) struct QuickBuffers {
     corners: [Vec<Corner>; 2],
     edges: Vec<Edge>,
     sides: Vec<Side>,
     cones: Cones,
-    trace: trace::Buffers,
+    trace: trace::TraceBuffers,
 }
 
-/// The form factor past what `occluders` finds for the target; `None` where doubles leave it open.
+/// The form factor past the occluders that `occluders` finds for the target; `None` where doubles do not decide it.
 pub(crate) fn form_factor<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
     occluders: impl FnOnce(&Target) -> I,
-    buffers: &mut Buffers,
+    buffers: &mut QuickBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor>
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
-    let Buffers { corners, edges, sides, cones, trace } = buffers;
+    let QuickBuffers { corners, edges, sides, cones, trace } = buffers;
     let target = Target::new(from, to, corners, edges, sides)?;
     let mut open = 0.0;
     cones.clear();
     for occluder in occluders(&target) {
         stats.looked_at += 1;
-        match sieve::sieve(&target, occluder, corners, cones)? {
-            Sieved::Misses(doubt) => {
+        match classify(&target, occluder, corners, cones)? {
+            Class::Misses { error } => {
                 stats.culled += 1;
-                open += doubt;
+                open += error;
             }
-            Sieved::Blocks { doubt, is_clipped } => {
+            Class::Blocks { error, is_clipped } => {
                 stats.clipped += u64::from(is_clipped);
-                open += doubt;
+                open += error;
             }
-            Sieved::Covers => {
+            Class::Covers => {
                 stats.total += 1;
                 return Some(FormFactor::default());
             }

@@ -1,34 +1,35 @@
-//! What is left of every edge: the visible boundary, piece by piece.
-use super::cone::{Cones, Edge, Extent, Frame};
+//! The visible boundary, edge by edge: what the occluders leave of the target's edges, and what they and the target leave of
+//! the occluders' edges.
+use super::cone::{Cones, Edge, Frame, Slopes};
 use super::contour::{Parts, Sum};
-use super::held::{Held, held};
-use super::near::Neighbours;
-use super::sieve::Target;
-use super::span::{Span, for_each_gap};
-use crate::FormFactor;
-use crate::exact::unhidden;
-use crate::polygon::ROUNDING;
+use super::inside::{Inside, inside};
+use super::interval::{Interval, for_each_gap};
+use super::neighbours::Neighbours;
+use super::target::Target;
+use crate::exact::whole::unhidden;
+use crate::form_factor::FormFactor;
+use crate::numeric::rounding::ROUNDING;
 use crate::stats::Stats;
 
-/// Buffers, to be used again.
+/// The buffers of [`sum`], to be used again.
 #[derive(Debug, Default)]
-pub(super) struct Buffers {
+pub(super) struct TraceBuffers {
     neighbours: Neighbours,
-    spans: Vec<Span>,
-    extents: Vec<Extent>,
+    hidden: Vec<Interval>,
+    extents: Vec<Slopes>,
 }
 
-/// A bound on the error that is taken as it is, by the angle that the target's boundary spans where that is less than 1:
+/// The error up to which the sum is good enough, by the angle that the target's boundary subtends where that is less than 1:
 /// 2^-40, below 1e-12.
 const FINE: f64 = 8192.0 * ROUNDING;
 
-/// Lambert's sum over the visible boundary of the target behind the cones, `open` being left open by what was culled and
-/// cut; `None` where doubles leave more open.
+/// The form factor of the target behind the cones: Lambert's sum over the visible boundary, with an error of at most `open`
+/// from what was culled and cut. `None` where doubles leave more open.
 pub(super) fn sum(
     target: &Target,
     cones: &mut Cones,
     open: f64,
-    Buffers { neighbours, spans, extents }: &mut Buffers,
+    TraceBuffers { neighbours, hidden, extents }: &mut TraceBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
     let mut sum = Sum::new(target.from.normal());
@@ -45,15 +46,16 @@ pub(super) fn sum(
     neighbours.find(cones);
     for (edge, extent) in target.edges.iter().zip(&*extents) {
         let near = (0..cones.len()).filter(|other| cones.extent(*other).meets(extent));
-        trace(edge, Span::WHOLE, Owner::Target, near, cones, spans, &mut sum)?;
+        trace(edge, Interval::WHOLE, Owner::Target, near, cones, hidden, &mut sum)?;
     }
-    let whole = extents.iter().copied().reduce(Extent::join)?;
+    let whole = extents.iter().copied().reduce(Slopes::join)?;
     for cone in 0..cones.len() {
         let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
         for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
-            let Some(Held::Part(inside)) = held(edge, target.edges)? else { continue };
+            // An occluder's edge counts only where the target is behind it. One along an edge of the target is that edge's.
+            let Inside::Part(before) = inside(edge, target.edges)? else { continue };
             let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
-            trace(edge, inside, Owner::Occluder(cone), near, cones, spans, &mut sum)?;
+            trace(edge, before, Owner::Occluder(cone), near, cones, hidden, &mut sum)?;
         }
     }
     stats.partial += 1;
@@ -62,7 +64,7 @@ pub(super) fn sum(
     sum.form_factor(error).filter(|factor| factor.error_bound <= FINE * perimeter.min(1.0))
 }
 
-/// Whose edge is traced.
+/// The polygon whose edge is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Owner {
     Target,
@@ -70,11 +72,12 @@ enum Owner {
 }
 
 impl Owner {
-    /// Whether an edge is no part of the visible boundary that it shares with cone `other`, which runs along it the
-    /// same way or the other way.
+    /// Whether an edge that cone `other` shares is no part of the visible boundary. The other polygon runs along it the same
+    /// way or the other way.
     ///
-    /// With both on one side it bounds their union: the first of the two occluders keeps it, and the target's is
-    /// hidden. With one on either side it is inside their union: both occluders lose it.
+    /// The same way, both polygons are on one side of the edge. Two occluders have it on the boundary of their union: the first of
+    /// the two keeps it. An edge of the target is hidden. The other way, the polygons are on either side: the edge is inside the
+    /// union of two occluders, and both lose it.
     fn loses(self, other: usize, is_same_way: bool) -> bool {
         match self {
             Owner::Target => is_same_way,
@@ -83,35 +86,35 @@ impl Owner {
     }
 }
 
-/// Adds what the cones leave of a part of an edge.
+/// Adds what the cones leave of a part of an edge to the sum.
 fn trace(
     edge: &Edge,
-    whole: Span,
+    whole: Interval,
     owner: Owner,
     near: impl Iterator<Item = usize>,
     cones: &Cones,
-    spans: &mut Vec<Span>,
+    hidden: &mut Vec<Interval>,
     sum: &mut Sum,
 ) -> Option<()> {
-    spans.clear();
+    hidden.clear();
     for other in near {
-        match held(edge, cones.edges(other))? {
-            Some(Held::Part(part)) if part.covers(&whole) => return Some(()),
-            Some(Held::Part(part)) => spans.push(part),
-            Some(Held::Twin { is_same_way }) if owner.loses(other, is_same_way) => return Some(()),
-            _ => (),
+        match inside(edge, cones.edges(other))? {
+            Inside::Part(part) if part.covers(&whole) => return Some(()),
+            Inside::Part(part) => hidden.push(part),
+            Inside::Twin { is_same_way } if owner.loses(other, is_same_way) => return Some(()),
+            Inside::Twin { .. } | Inside::Nothing => (),
         }
     }
     let mut line = sum.line(edge.inward, edge.error);
     if owner != Owner::Target {
-        // What is seen is on the other side.
+        // An occluder's edge has the visible part on its other side.
         line.cosine = -line.cosine;
     }
-    if spans.is_empty() && whole == Span::WHOLE {
+    if hidden.is_empty() && whole == Interval::WHOLE {
         sum.add_whole(edge, &line);
     } else {
         let mut parts = Parts::default();
-        for_each_gap(whole, spans, |gap| sum.add_part(edge, &line, gap, &mut parts));
+        for_each_gap(whole, hidden, |gap| sum.add_part(edge, &line, gap, &mut parts));
         sum.add_parts(edge, &line, parts);
     }
     Some(())

@@ -1,15 +1,13 @@
 //! How far two solutions of one scene are from each other.
 //!
 //! ```text
-//! match      the patches of one in the other, by name
 //! overlap    the area that each element of one shares with each of the other: the meshes may differ
-//! norms      the difference of the light on those areas, in three norms
 //! ```
-//! A solution is taken as what its elements carry: one value each. What is compared is reflected light, radiosity less
-//! own emission, so that a lamp's brightness does not hide what is wrong with its light.
+//! A solution counts as one value per element. Reflected light is compared, radiosity less own emission, so that bright emitters
+//! do not hide errors of the light that they cast.
 mod overlap;
 
-use crate::Record;
+use crate::record::Record;
 use glam::DVec3;
 use overlap::Piece;
 use serde::Serialize;
@@ -17,20 +15,21 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// Two solutions side by side.
+/// The difference of two solutions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Comparison {
     /// The difference in each band.
     pub bands: Vec<Difference>,
-    /// Where the two are furthest apart; none where they agree everywhere.
+    /// Where the two are furthest apart; `None` where they agree everywhere.
     pub worst: Option<Worst>,
-    /// Whether both have the same elements; else each element of one is held against all that it overlaps.
+    /// Whether both have the same elements. Otherwise each element was compared with all elements that it overlaps.
     pub same_mesh: bool,
 }
 
-/// The difference of two solutions in one band, relative to the second one. Infinite where that is dark and the first is
-/// not.
+/// The difference of two solutions, a and b, in one band, relative to b. Infinite where b is dark and a is not.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Difference {
     /// ∫|a − b| dA / ∫|b| dA.
     pub l1: f64,
@@ -40,8 +39,9 @@ pub struct Difference {
     pub max: f64,
 }
 
-/// The place where two solutions are furthest apart, in shares of the second one's largest value in that band.
+/// The place where two solutions are furthest apart, as a share of the second one's largest value in that band.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Worst {
     /// The patch's name.
     pub patch: String,
@@ -88,10 +88,10 @@ pub enum Unlike {
 /// What share of a patch rounding may leave uncovered when two meshes of it are laid over each other.
 const UNCOVERED: f64 = 1e-6;
 
-/// Holds `a` against `b`, the reference.
+/// Compares the solution `a` with the reference `b`.
 ///
-/// Meshes that differ are laid over each other, triangle on triangle, so that the norms are integrals over the scene.
-/// Takes O(n) for equal meshes, else about O(n √n) for n elements.
+/// The meshes may differ: the norms are integrals over the areas that triangles of both share. Takes O(n) for n elements of
+/// equal meshes, and about O(n √n) otherwise.
 ///
 /// # Errors
 /// [`Unlike`] when they are not solutions of one scene.

@@ -1,5 +1,5 @@
 //! Two meshes of one scene, laid over each other.
-use crate::Record;
+use crate::record::Record;
 use glam::{DVec2, DVec3};
 
 /// Where an element of one solution covers one of the other.
@@ -13,7 +13,7 @@ pub(super) struct Piece {
 
 /// A triangle in its patch's plane, seen along the axis that the plane faces most.
 #[derive(Clone, Copy, Debug)]
-struct Flat {
+struct FlatTriangle {
     element: usize,
     /// Counter-clockwise.
     corners: [DVec2; 3],
@@ -39,7 +39,7 @@ pub(super) fn overlaps(a: &Record, b: &Record, patches: &[usize]) -> Vec<Piece> 
     let mut pieces = Vec::new();
     for (patch, &other) in patches.iter().enumerate() {
         let Some(normal) = facing(a, &of_a[patch]) else { continue };
-        let flat = |record: &Record, elements: &[usize]| -> Vec<Flat> {
+        let flat = |record: &Record, elements: &[usize]| -> Vec<FlatTriangle> {
             elements.iter().map(|&element| flattened(record, element, normal)).collect()
         };
         let mut under = flat(b, &of_b[other]);
@@ -53,7 +53,7 @@ pub(super) fn overlaps(a: &Record, b: &Record, patches: &[usize]) -> Vec<Piece> 
         for over in over {
             let first = under.partition_point(|t| t.low.x < over.low.x - widest);
             let near = under[first..].iter().take_while(|t| t.low.x < over.high.x);
-            let level = |t: &&Flat| (t.height - over.height).abs() <= NEAR * reach;
+            let level = |t: &&FlatTriangle| (t.height - over.height).abs() <= NEAR * reach;
             for below in near.filter(|t| t.low.y < over.high.y && t.high.y > over.low.y).filter(level) {
                 let area = stretch * shared(over.corners, below.corners);
                 if area > 0.0 {
@@ -84,7 +84,7 @@ fn facing(record: &Record, elements: &[usize]) -> Option<DVec3> {
 }
 
 /// An element without the coordinate in which the normal is longest.
-fn flattened(record: &Record, element: usize, normal: DVec3) -> Flat {
+fn flattened(record: &Record, element: usize, normal: DVec3) -> FlatTriangle {
     let longest = normal.abs().max_position();
     let [u, v] = [(longest + 1) % 3, (longest + 2) % 3];
     let places = corners(record, element);
@@ -94,7 +94,7 @@ fn flattened(record: &Record, element: usize, normal: DVec3) -> Flat {
     }
     let low = corners.iter().copied().fold(corners[0], DVec2::min);
     let high = corners.iter().copied().fold(corners[0], DVec2::max);
-    Flat { element, corners, low, high, height: normal.dot(places[0]) }
+    FlatTriangle { element, corners, low, high, height: normal.dot(places[0]) }
 }
 
 /// The area that two counter-clockwise triangles share: one clipped by the other's sides (Sutherland and Hodgman 1974).

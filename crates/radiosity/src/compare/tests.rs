@@ -1,5 +1,7 @@
 use super::*;
-use crate::{Options, scenes, solve};
+use crate::scenes;
+use crate::solve::options::Options;
+use crate::solve::solve;
 use std::ops::ControlFlow;
 
 fn record(scene: &str, elements: usize) -> Record {

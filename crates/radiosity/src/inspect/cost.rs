@@ -1,17 +1,19 @@
 //! What the form factors will cost.
-use crate::{Options, Scene};
+use crate::scene::Scene;
+use crate::solve::options::Options;
 use serde::Serialize;
 use std::time::Duration;
 
-/// A prediction from some rows of form factors that were measured here.
+/// A prediction of the cost of form factors, from some rows that were measured.
 #[derive(Clone, Copy, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Cost {
     /// Elements that `solve` cuts the scene into by default.
     pub elements: usize,
-    /// Form factors from every element to every patch: once around. Patches that are split need more, up to a hundred times
-    /// as many where a few large ones light each other; patches that never shoot need fewer.
+    /// Form factors from every element to every patch. A solution needs more where patches are split, up to a hundred times as
+    /// many where a few large patches light each other, and fewer where patches never shoot.
     pub factors: usize,
-    /// Seconds that these will take on these threads.
+    /// Seconds that these will take, on as many threads as now.
     pub seconds: f64,
 }
 

@@ -2,9 +2,11 @@
 //!
 //! Form factors do not mind them; but elements on both sides do not share vertices there, so that interpolated light can
 //! show a seam.
-use super::{Finding, Kind};
-use crate::Scene;
 use crate::plane::slack;
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -31,7 +33,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         kind: Kind::TJunction,
         patches: [other, index].map(|patch| scene.patches[patch].name.clone()).into(),
         what: format!("{count} vertices of the first end within edges of the second, one at {point}"),
-        mend: "add the vertex to that edge, if a seam shows; form factors do not mind".into(),
+        repair: "add the vertex to that edge, if a seam shows; form factors do not mind".into(),
     };
     pairs.into_iter().map(finding).collect()
 }

@@ -1,37 +1,36 @@
-//! What a scene is, and what about it will trouble a solution.
+//! A description of a scene, and findings: what will trouble a solution.
 //!
 //! ```text
-//! surface      reflectances that cannot be, patches that are thinner than rounding
-//! orientation  neighbours that face opposite ways
-//! overlap      patches that cover each other in one plane, duplicates among them
-//! junction     vertices that end in the middle of another patch's edge
 //! openness     how much of the view from the patches leaves the scene
 //! cost         how long the form factors will take
+//! junction     vertices that end in the middle of another patch's edge
+//! overlap      patches that cover each other in one plane, duplicates among them
+//! orientation  neighbours that face opposite ways
+//! surface      impossible reflectances, patches that are thinner than rounding
 //! ```
-//! Nothing is decided here that a solution depends on, so that nearness is judged by rounding: 64 roundings of the largest
-//! coordinate, as in [`PlanarPolygon`](formfactor::PlanarPolygon).
+//! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
+//! [`PlanarPolygon`](formfactor::PlanarPolygon).
 mod cost;
 mod junction;
 mod openness;
 mod orientation;
-mod overlap;
+pub(crate) mod overlap;
 mod surface;
 
-pub use crate::finding::{Finding, Kind};
+pub use crate::scene::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
 
-pub(crate) use overlap::overlaps;
-
-use crate::{Asset, Scene};
+use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
 
-/// What a scene is.
+/// A description of a scene.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Inspection {
     /// Number of patches.
     pub patches: usize,
-    /// Number of vertices, those of each patch counted by themselves.
+    /// Number of vertices, counted patch by patch.
     pub vertices: usize,
     /// Number of bands.
     pub bands: usize,
@@ -46,28 +45,37 @@ pub struct Inspection {
     /// The smallest and the largest coordinates.
     pub extent: [[f64; 3]; 2],
     /// The patches that emit.
-    pub lamps: Vec<Lamp>,
-    /// Whether no light can leave: no opening is wider than rounding.
+    pub emitters: Vec<Emitter>,
+    /// Whether the scene is closed: no opening is wider than rounding.
     pub closed: bool,
     /// The widest opening.
     pub opening: Option<Opening>,
-    /// What will trouble a solution.
+    /// What will trouble a solution, and how to repair it.
     pub findings: Vec<Finding>,
-    /// What the form factors will cost.
+    /// The predicted cost of the form factors.
     pub cost: Cost,
 }
 
 /// A patch that emits.
 #[derive(Clone, Debug, Serialize)]
-pub struct Lamp {
+#[non_exhaustive]
+pub struct Emitter {
     /// The patch's name.
     pub name: String,
-    /// Emitted power per band, W in a file in metres: π L A.
+    /// Emitted power per band, πLA: in W where the unit is a metre.
     pub power: Vec<f64>,
 }
 
-/// Looks at a scene. O(n log n) where patches are spread out, plus one row of form factors from each of up to 256
-/// patches.
+/// Describes a scene and finds what will trouble a solution.
+///
+/// Takes O(n log n) for n patches that are spread out, and one row of form factors from each of up to 256 patches.
+///
+/// ```
+/// use radiosity::{inspect::inspect, scenes};
+///
+/// let inspection = inspect(&scenes::scene("furnace").expect("a built-in scene"));
+/// assert!(inspection.closed && inspection.findings.is_empty());
+/// ```
 #[must_use]
 pub fn inspect(scene: &Scene) -> Inspection {
     let findings = [
@@ -87,7 +95,7 @@ pub fn inspect(scene: &Scene) -> Inspection {
         unit,
         up: up.to_array(),
         extent: scene.extent().map(|corner| corner.to_array()),
-        lamps: lamps(scene),
+        emitters: emitters(scene),
         closed: opening.as_ref().is_some_and(Opening::is_none),
         opening,
         findings: findings.into_iter().flatten().collect(),
@@ -95,11 +103,11 @@ pub fn inspect(scene: &Scene) -> Inspection {
     }
 }
 
-fn lamps(scene: &Scene) -> Vec<Lamp> {
-    let power = |patch: &crate::Patch| {
+fn emitters(scene: &Scene) -> Vec<Emitter> {
+    let power = |patch: &Patch| {
         let area = patch.polygon.area();
         patch.emission.iter().map(|radiance| std::f64::consts::PI * radiance * area).collect()
     };
     let lit = scene.patches.iter().filter(|patch| patch.emits());
-    lit.map(|patch| Lamp { name: patch.name.clone(), power: power(patch) }).collect()
+    lit.map(|patch| Emitter { name: patch.name.clone(), power: power(patch) }).collect()
 }

@@ -1,7 +1,7 @@
 //! How much of the view from the patches leaves the scene, and what a row of form factors costs.
-use super::Cost;
-use crate::Scene;
-use crate::solve::Surfaces;
+use super::cost::Cost;
+use crate::scene::Scene;
+use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -14,17 +14,18 @@ const FACTORS: usize = 30_000;
 /// A view that misses less is closed: the form factors' rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The widest opening.
+/// The widest opening of a scene.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Opening {
-    /// The patch from whose middle most of the view leaves the scene.
+    /// The patch from whose middle the largest share of the view leaves the scene.
     pub patch: String,
-    /// What share: 1 minus the sum of the form factors.
+    /// That share: 1 minus the sum of the form factors.
     pub share: f64,
 }
 
 impl Opening {
-    /// Whether it is no more than rounding.
+    /// Whether the opening is no more than rounding.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.share.abs() < ROUNDING
@@ -33,7 +34,7 @@ impl Opening {
 
 /// The widest opening seen from the middle of up to 256 patches, and the cost measured on the way.
 pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
-    let Surfaces { polygons, of_patch } = Surfaces::join(scene);
+    let Occluders { polygons, of_patch } = Occluders::join(scene);
     let enclosure = Enclosure::new(polygons);
     let factor = |from: &DifferentialArea, to: usize| {
         enclosure.form_factor_to_part(from, of_patch[to], &scene.patches[to].polygon).value

@@ -3,14 +3,17 @@
 //! Two patches that share an edge and belong to one surface run along it in opposite directions. Where they run the same
 //! way, one of them is flipped: of a connected surface the side with the smaller area. Of patches with the same edges only
 //! the first counts: a duplicate runs along all of them the same way, and is not flipped.
-use super::{Finding, Kind};
-use crate::{Patch, Scene};
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+    patch::Patch,
+};
 use std::collections::{HashMap, HashSet};
 
-type Edge = [[u64; 3]; 2];
+type EdgeKey = [[u64; 3]; 2];
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
-    let mut sides: HashMap<Edge, Vec<(usize, bool)>> = HashMap::new();
+    let mut sides: HashMap<EdgeKey, Vec<(usize, bool)>> = HashMap::new();
     let mut known = HashSet::new();
     for (index, patch) in scene.patches.iter().enumerate() {
         let edges = edges(patch);
@@ -36,10 +39,10 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 }
 
 /// The directed edges of a patch, sorted.
-fn edges(patch: &Patch) -> Vec<Edge> {
+fn edges(patch: &Patch) -> Vec<EdgeKey> {
     let loops = patch.polygon.loops();
     let pairs = loops.flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)));
-    let mut edges: Vec<Edge> =
+    let mut edges: Vec<EdgeKey> =
         pairs.map(|(a, b)| [a, b].map(|p| p.to_array().map(|number| (number + 0.0).to_bits()))).collect();
     edges.sort_unstable();
     edges
@@ -88,6 +91,6 @@ fn finding(name: &str) -> Finding {
         kind: Kind::Flipped,
         patches: vec![name.into()],
         what: "it faces the other way than the patches around it".into(),
-        mend: "reverse the order of its vertices; its front gives and takes the light".into(),
+        repair: "reverse the order of its vertices; its front gives and takes the light".into(),
     }
 }

@@ -1,7 +1,10 @@
 //! Patches that face the same way and cover each other in one plane.
-use super::{Finding, Kind};
 use crate::plane::{Plane, slack};
-use crate::{Patch, Scene};
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+    patch::Patch,
+};
 use glam::DVec3;
 use polycsg::Region;
 
@@ -25,8 +28,8 @@ fn finding(scene: &Scene, overlap: &Overlap) -> Finding {
     let (kind, what) = match (same, lit) {
         (true, _) => (Kind::Duplicate, "they have the same outline".to_owned()),
         (false, 1) => (
-            Kind::LampInFace,
-            format!("a lamp lies in the plane of a face and covers {:.4e} of it", overlap.area),
+            Kind::EmitterInFace,
+            format!("an emitter lies in the plane of a face and covers {:.4e} of it", overlap.area),
         ),
         (false, _) => {
             let share = 100.0 * overlap.area / areas[0].min(areas[1]);
@@ -39,12 +42,12 @@ fn finding(scene: &Scene, overlap: &Overlap) -> Finding {
             )
         }
     };
-    let mend = match kind {
-        Kind::Duplicate => "remove one; or let inspect --mend do it",
-        _ => "cut one out of the other; or let inspect --mend do it",
+    let repair = match kind {
+        Kind::Duplicate => "remove one; or let inspect --repair do it",
+        _ => "cut one out of the other; or let inspect --repair do it",
     };
     let patches = vec![a.name.clone(), b.name.clone()];
-    Finding { kind, patches, what, mend: mend.into() }
+    Finding { kind, patches, what, repair: repair.into() }
 }
 
 /// Whether two patches have the same vertices.

@@ -1,7 +1,10 @@
 //! What a patch gets wrong by itself.
-use super::{Finding, Kind};
 use crate::plane::slack;
-use crate::{Patch, Scene};
+use crate::scene::{
+    Scene,
+    finding::{Finding, Kind},
+    patch::Patch,
+};
 use glam::DVec3;
 
 /// A patch whose width is less than so many times its coordinates' rounding is a sliver.
@@ -13,7 +16,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         kind: Kind::Dark,
         patches: Vec::new(),
         what: "no patch emits light".into(),
-        mend: "give the material of a lamp an emission above 0".into(),
+        repair: "give the material of an emitter an emission above 0".into(),
     });
     let own = scene.patches.iter().flat_map(|patch| reflectance(patch).into_iter().chain(sliver(patch)));
     told.chain(dark).chain(own).collect()
@@ -26,7 +29,7 @@ fn reflectance(patch: &Patch) -> Option<Finding> {
         kind: Kind::Reflectance,
         patches: vec![patch.name.clone()],
         what: format!("its reflectance in band {band} is {value}; a surface reflects from 0 to below 1"),
-        mend: "lower the diffuse colour; white paint is about 0.85".into(),
+        repair: "lower the diffuse colour; white paint is about 0.85".into(),
     })
 }
 
@@ -39,6 +42,6 @@ fn sliver(patch: &Patch) -> Option<Finding> {
         kind: Kind::Sliver,
         patches: vec![patch.name.clone()],
         what: format!("it is {length:.3e} long and only {width:.3e} wide"),
-        mend: "remove it, or give it a width that its coordinates can hold".into(),
+        repair: "remove it, or give it a width that its coordinates can hold".into(),
     })
 }

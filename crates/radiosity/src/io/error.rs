@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Why a file was not read or written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum Error {
+pub enum FileError {
     /// The file could not be read.
     #[error("{}: cannot be read: {source}; check its name and permissions", path.display())]
     Read {
@@ -14,7 +14,7 @@ pub enum Error {
         /// What the system says.
         source: std::io::Error,
     },
-    /// The file could not be written; what stood there before still stands.
+    /// The file could not be written; an older file in its place is unchanged.
     #[error("{}: cannot be written: {source}; check the folder and its permissions", path.display())]
     Write {
         /// The file.
@@ -52,7 +52,7 @@ pub enum Error {
         /// What the parser says.
         source: Box<gltf::Error>,
     },
-    /// A part of a glTF file cannot be taken.
+    /// A part of a glTF file has a fault.
     #[error("{file}: {part}: {fault}")]
     Part {
         /// The file.
@@ -62,7 +62,7 @@ pub enum Error {
         /// What is wrong with it.
         fault: Fault,
     },
-    /// A line of a text file cannot be taken.
+    /// A line of a text file has a fault.
     #[error("{file}:{line}: {fault}")]
     Line {
         /// The file.
@@ -72,13 +72,13 @@ pub enum Error {
         /// What is wrong with it.
         fault: Fault,
     },
-    /// The file is of no kind that is read.
+    /// The file's extension names no format that is read.
     #[error("{file}: unknown kind of scene; give a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file")]
     Unknown {
         /// The file.
         file: String,
     },
-    /// An element of the file cannot be taken.
+    /// An element of a COLLADA file has a fault.
     #[error("{file}:{line}:{column}: <{element}>: {fault}")]
     Scene {
         /// The file.
@@ -94,7 +94,7 @@ pub enum Error {
     },
 }
 
-/// What is wrong with an element of a scene file, and how to mend it.
+/// What is wrong with an element of a scene file, and how to repair it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {

@@ -1,15 +1,22 @@
-//! Scene files in, results out: COLLADA, glTF, View3D's format; whole files only.
+//! Reading scene files and writing results: COLLADA, glTF and View3D's format. Files are written completely or not at all.
+//!
+//! ```text
+//! source     a scene file of any kind
+//! gltf       glTF 2.0, read and written
+//! collada    COLLADA 1.4 and 1.5, read and written
+//! vs3        View3D's input, read
+//! surface    what all readers do with polygons
+//! save       whole files or none
+//! error      what can go wrong
+//! ```
 pub mod collada;
-mod error;
+pub(crate) mod error;
 pub mod gltf;
-mod image;
 mod save;
 mod source;
 mod surface;
 pub mod vs3;
 
-pub(crate) use image::fetch;
-
-pub use error::{Error, Fault};
+pub use error::{Fault, FileError};
 pub use save::save;
 pub use source::Source;

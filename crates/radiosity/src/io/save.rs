@@ -1,23 +1,23 @@
-//! Whole files or none.
-use super::Error;
+//! Files are written completely or not at all.
+use super::error::FileError;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Writes a file whole or not at all: into a temporary file of the same folder, renamed when complete.
+/// Writes a file completely or not at all: into a temporary file of the same folder, which is renamed at the end.
 ///
-/// A link is followed, so that its target is replaced and not the link. What is not a regular file (`/dev/stdout`, a
-/// pipe) is written to directly.
+/// Of a link, the target is replaced and not the link. What is not a regular file (`/dev/stdout`, a pipe) is written to
+/// directly.
 ///
 /// # Errors
-/// [`Error::Write`]; what stood at `path` before still stands.
-pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
+/// [`FileError::Write`]; an older file at `path` is then unchanged.
+pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
     let path = path.as_ref();
     let written = match path.metadata() {
         Ok(found) if !found.is_file() => std::fs::write(path, bytes),
         Ok(_) => path.canonicalize().and_then(|place| replace(&place, bytes)),
         Err(_) => replace(path, bytes),
     };
-    written.map_err(|source| Error::Write { path: path.into(), source })
+    written.map_err(|source| FileError::Write { path: path.into(), source })
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
@@ -69,8 +69,8 @@ mod tests {
     fn a_missing_folder_and_a_folder_as_target_are_typed_errors() {
         let folder = tempfile::tempdir().unwrap();
         let missing = save(folder.path().join("none/out.bin"), b"x").unwrap_err();
-        assert!(matches!(missing, Error::Write { .. }), "{missing}");
-        assert!(matches!(save(folder.path(), b"x"), Err(Error::Write { .. })));
+        assert!(matches!(missing, FileError::Write { .. }), "{missing}");
+        assert!(matches!(save(folder.path(), b"x"), Err(FileError::Write { .. })));
     }
 
     #[cfg(unix)]

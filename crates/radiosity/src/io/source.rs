@@ -1,15 +1,19 @@
 //! A scene file of any kind.
-use super::{Error, collada::Collada, gltf::Gltf, vs3::Vs3};
-use crate::{Mesh, Scene};
+use super::collada::Collada;
+use super::error::FileError;
+use super::gltf::Gltf;
+use super::vs3::Vs3;
+use crate::mesh::element::Mesh;
+use crate::scene::Scene;
 use std::path::Path;
 
-/// A scene file, as its extension says: COLLADA (`.dae`), glTF (`.gltf`, `.glb`) or View3D (`.vs3`).
+/// A scene file in the format of its extension: COLLADA (`.dae`), glTF (`.gltf`, `.glb`) or View3D (`.vs3`).
 ///
 /// ```no_run
 /// use radiosity::io::Source;
 /// let scene = Source::open("room.glb")?.scene()?;
 /// println!("{} patches", scene.patches.len());
-/// # Ok::<(), radiosity::io::Error>(())
+/// # Ok::<(), radiosity::io::FileError>(())
 /// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -26,23 +30,23 @@ impl Source {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for another extension, and those of the format's own `open`.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Unknown`] for another extension, and those of the format's own `open`.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("dae") => Collada::open(path).map(Self::Collada),
             Some("gltf" | "glb") => Gltf::open(path).map(Self::Gltf),
             Some("vs3") => Vs3::open(path).map(Self::Vs3),
-            _ => Err(Error::Unknown { file: path.display().to_string() }),
+            _ => Err(FileError::Unknown { file: path.display().to_string() }),
         }
     }
 
     /// The scene: patches, cameras and warnings.
     ///
     /// # Errors
-    /// What the file gets wrong: see [`Error`].
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError`] for a fault of the file.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         match self {
             Self::Collada(file) => file.scene(),
             Self::Gltf(file) => file.scene(),
@@ -50,14 +54,14 @@ impl Source {
         }
     }
 
-    /// A COLLADA text with the mesh's triangles in place of the scene's polygons and `colours`, three per vertex of the
-    /// mesh, at their vertices: [`Collada::with_light`] for COLLADA, a new file for the other formats.
+    /// A COLLADA text in which the mesh's triangles replace the scene's polygons, with `colours` (red, green and blue for each
+    /// vertex of the mesh) at their vertices: [`Collada::with_light`] for COLLADA, a new text for the other formats.
     ///
     /// `scene` must be this file's scene and `mesh` a mesh of its patches.
     ///
     /// # Errors
     /// As [`Source::scene`].
-    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, Error> {
+    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
         match self {
             Self::Collada(file) => file.with_light(scene, mesh, colours),
             Self::Gltf(_) | Self::Vs3(_) => {

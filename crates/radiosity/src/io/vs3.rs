@@ -1,11 +1,14 @@
-//! View3D's input files (`.vs3`, geometry `3`): vertices and surfaces of three or four of them.
+//! View3D's input files (`.vs3`, geometry `3`): vertices, and surfaces of three or four vertices.
 //!
-//! A surface is a one-sided patch that reflects 1 − its emittance and gives no light of its own. A surface with a base
-//! surface is cut out of it, and so is a null surface, which is nothing but a hole; an obstruction only blocks.
-use super::{Error, Fault};
-use crate::inspect::Finding;
+//! A surface becomes a one-sided patch with reflectance 1 − emittance and without emission. A surface that has a base surface
+//! is cut out of it; a null surface is a hole in its base; an obstruction only blocks.
+use super::error::{Fault, FileError};
 use crate::plane::Plane;
-use crate::{Origin, Patch, Scene};
+use crate::scene::{
+    Scene,
+    finding::Finding,
+    patch::{Origin, Patch},
+};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use polycsg::{Csg, FillRule, Region};
@@ -23,30 +26,31 @@ impl Vs3 {
     /// Reads a file's text; bytes that are not UTF-8, as in old comments, are replaced.
     ///
     /// # Errors
-    /// [`Error::Read`] when the system does not give it.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Read`] when the file cannot be read.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         Ok(Self::from_text(path.display().to_string(), String::from_utf8_lossy(&bytes)))
     }
 
-    /// Takes a text as the file `name`, which messages will show.
+    /// A text as the contents of a file; messages show its `name`.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
 
-    /// The scene: one band; z up, since the format says nothing.
+    /// The scene: one band, z up (the format has no up axis).
     ///
     /// # Errors
-    /// [`Error::Line`], with the line.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError::Line`], with the line.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         let lines = lines(&self.text);
         let (vertices, surfaces, warnings) =
             lines.and_then(parse).map_err(|(line, fault)| self.fault(line, fault))?;
         let mut scene = Scene { bands: 1, warnings, ..Scene::default() };
         scene.asset.up = DVec3::Z;
         let mut taken = HashSet::new();
-        for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.kind != Kind::Hole)
+        for (index, surface) in
+            surfaces.iter().enumerate().filter(|(_, surface)| surface.kind != RowKind::Hole)
         {
             let holes: Vec<&Row> = surfaces.iter().filter(|part| part.base == index + 1).collect();
             let polygons = shape(surface, &holes, &vertices)
@@ -57,7 +61,7 @@ impl Vs3 {
                     name.push('\'');
                 }
                 let mut patch = Patch::new(name, polygon, vec![1.0 - surface.emittance], vec![0.0]);
-                patch.only_blocks = surface.kind == Kind::Obstruction;
+                patch.only_blocks = surface.kind == RowKind::Obstruction;
                 patch.origin = Origin { polygon: index, ..Origin::default() };
                 scene.patches.push(patch);
             }
@@ -65,15 +69,15 @@ impl Vs3 {
         Ok(scene)
     }
 
-    fn fault(&self, line: usize, fault: Fault) -> Error {
-        Error::Line { file: self.name.clone(), line, fault }
+    fn fault(&self, line: usize, fault: Fault) -> FileError {
+        FileError::Line { file: self.name.clone(), line, fault }
     }
 }
 
 /// A surface's line.
 struct Row {
     line: usize,
-    kind: Kind,
+    kind: RowKind,
     corners: Vec<usize>,
     /// Number of the surface that it is cut out of; 0 for none.
     base: usize,
@@ -82,7 +86,7 @@ struct Row {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum RowKind {
     Surface,
     Obstruction,
     Hole,
@@ -115,10 +119,12 @@ fn parse(lines: Vec<(usize, Vec<&str>)>) -> Result<Parsed, Wrong> {
                 fields.numbered(vertices.len() + 1)?;
                 vertices.push(DVec3::new(fields.number(2)?, fields.number(3)?, fields.number(4)?));
             }
-            Some('S') => surfaces.push(fields.surface(surfaces.len() + 1, Kind::Surface, &mut warnings)?),
-            Some('N') => surfaces.push(fields.surface(surfaces.len() + 1, Kind::Hole, &mut warnings)?),
+            Some('S') => {
+                surfaces.push(fields.surface(surfaces.len() + 1, RowKind::Surface, &mut warnings)?)
+            }
+            Some('N') => surfaces.push(fields.surface(surfaces.len() + 1, RowKind::Hole, &mut warnings)?),
             Some('O') => {
-                surfaces.push(fields.surface(surfaces.len() + 1, Kind::Obstruction, &mut warnings)?)
+                surfaces.push(fields.surface(surfaces.len() + 1, RowKind::Obstruction, &mut warnings)?)
             }
             Some('F') if words.get(1) != Some(&"3") => {
                 let found = words.get(1).copied().unwrap_or_default().into();
@@ -185,14 +191,14 @@ impl Fields<'_> {
     }
 
     /// `n v1 v2 v3 v4 base cmb emit name`; an obstruction ends behind its vertices.
-    fn surface(&self, number: usize, kind: Kind, warnings: &mut Vec<Finding>) -> Result<Row, Wrong> {
+    fn surface(&self, number: usize, kind: RowKind, warnings: &mut Vec<Finding>) -> Result<Row, Wrong> {
         self.numbered(number)?;
         let corners = [self.whole(2)?, self.whole(3)?, self.whole(4)?, self.whole(5)?];
         let mut corners = corners.to_vec();
         if corners[3] == 0 {
             corners.pop();
         }
-        if kind == Kind::Obstruction {
+        if kind == RowKind::Obstruction {
             let name =
                 self.words.get(6).map_or_else(|| format!("obstruction-{number}"), |name| (*name).into());
             return Ok(Row { line: self.line, kind, corners, base: 0, emittance: 1.0, name });

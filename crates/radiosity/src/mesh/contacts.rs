@@ -1,5 +1,6 @@
 //! Where other patches touch a patch: lines across which its light jumps.
-use crate::{Scene, extent::Extent};
+use crate::extent::Extent;
+use crate::scene::Scene;
 use glam::DVec3;
 
 /// Pieces of other patches' edges that lie on the plane of patch `patch`, each once, sorted.

@@ -1,6 +1,8 @@
 //! Points over a patch: its boundary and the contact lines at a spacing, and a lattice inside.
+use super::frame::Frame;
 use super::lattice::{Lattice, parts};
-use super::{Refusal, frame::Frame};
+use super::refusal::MeshRefusal;
+use crate::predicates::ray_crosses;
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};
@@ -33,7 +35,7 @@ pub(super) struct Points {
 }
 
 /// A point in the frame and in space.
-type Spot = (DVec2, DVec3);
+type PlacedPoint = (DVec2, DVec3);
 
 /// What is divided, and how.
 struct Ground<'g> {
@@ -68,7 +70,7 @@ pub(super) fn divide(
     polygon: &PlanarPolygon,
     division: &Division<'_>,
     frame: &Frame,
-) -> Result<Points, Refusal> {
+) -> Result<Points, MeshRefusal> {
     let ground = Ground::new(polygon, division, frame)?;
     let mut points = Points { lattice: ground.lattice, ..Points::default() };
     points.divide_boundary(&ground);
@@ -164,12 +166,12 @@ impl<'g> Ground<'g> {
         polygon: &PlanarPolygon,
         division: &Division<'g>,
         frame: &'g Frame,
-    ) -> Result<Ground<'g>, Refusal> {
+    ) -> Result<Ground<'g>, MeshRefusal> {
         let flatten = |points: &[DVec3]| points.iter().map(|&p| frame.flatten(p)).collect::<Vec<_>>();
         let region = Region::from_rings(polygon.loops().map(flatten), FillRule::EvenOdd)
-            .map_err(|error| Refusal(error.to_string()))?;
+            .map_err(|error| MeshRefusal(error.to_string()))?;
         if region.is_empty() {
-            return Err(Refusal("its area is zero".to_owned()));
+            return Err(MeshRefusal("its area is zero".to_owned()));
         }
         let corners = polygon.loops().flatten().map(|&place| (key(frame.flatten(place)), place)).collect();
         let contacts = division.contacts.iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
@@ -185,7 +187,7 @@ impl<'g> Ground<'g> {
     }
 
     /// The ends of an edge and the places between them where contact lines end.
-    fn stops(&self, start: DVec2, end: DVec2) -> Vec<Spot> {
+    fn stops(&self, start: DVec2, end: DVec2) -> Vec<PlacedPoint> {
         let along = |point: DVec2| (point - start).dot(end - start) / (end - start).length_squared();
         let on_edge = |point: &DVec2| point.distance(start.lerp(end, along(*point))) < self.near();
         let margin = self.near() / start.distance(end);
@@ -216,9 +218,10 @@ impl<'g> Ground<'g> {
 
     /// The points of a line cut in equal parts near the spacing, both ends included, each part cut again as often as
     /// the cell to its left is.
-    fn pieces(&self, [start, end]: [Spot; 2]) -> Vec<Spot> {
+    fn pieces(&self, [start, end]: [PlacedPoint; 2]) -> Vec<PlacedPoint> {
         let left = (end.0 - start.0).perp().normalize_or_zero() * self.near();
-        let whole: Vec<Spot> = pieces([start, end], parts(start.0.distance(end.0), self.spacing)).collect();
+        let whole: Vec<PlacedPoint> =
+            pieces([start, end], parts(start.0.distance(end.0), self.spacing)).collect();
         let halved = whole.windows(2).flat_map(|ends| {
             let level = self.level(ends[0].0.midpoint(ends[1].0) + left);
             pieces([ends[0], ends[1]], 1 << level).take(1 << level)
@@ -252,9 +255,7 @@ impl<'g> Ground<'g> {
     /// Whether a point lies inside the region and keeps a distance from all lines. Those of the boundary are among
     /// them, so the crossing parity needs no care near the boundary.
     fn inside_and_clear(&self, point: DVec2, lines: &[[DVec2; 2]], distance: f64) -> bool {
-        let crossed = |[a, b]: &[DVec2; 2]| {
-            (a.y > point.y) != (b.y > point.y) && (b - a).perp_dot(point - a) * (b.y - a.y) > 0.0
-        };
+        let crossed = |edge: &[DVec2; 2]| ray_crosses(point, *edge);
         let near = |&[a, b]: &[DVec2; 2]| {
             let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
             point.distance_squared(a.lerp(b, along)) < distance * distance
@@ -270,7 +271,7 @@ fn key(flat: DVec2) -> [u64; 2] {
 
 /// The points of an edge cut in equal parts, both ends included. In space they depend on the edge alone, not on its
 /// direction, so that patches that share an edge share its points.
-fn pieces([(start, from), (end, to)]: [Spot; 2], parts: usize) -> impl Iterator<Item = Spot> {
+fn pieces([(start, from), (end, to)]: [PlacedPoint; 2], parts: usize) -> impl Iterator<Item = PlacedPoint> {
     let forward = from.to_array() <= to.to_array();
     (0..=parts).map(move |k| match k {
         0 => (start, from),

@@ -1,5 +1,6 @@
 //! The polygon around a set of elements.
-use super::{Element, Mesh, divide::Points};
+use super::divide::Points;
+use super::element::{Element, Mesh};
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;

@@ -1,12 +1,13 @@
-//! Where shadows begin and end: the lines on a patch along which the light of the strongest lamps starts or ceases to be
+//! Where shadows begin and end: the lines on a patch along which the light of the strongest emitters starts or ceases to be
 //! hidden.
 //!
-//! The border of a penumbra or an umbra lies in a plane through a vertex of the lamp and an edge of what hides it, or the
+//! The border of a penumbra or an umbra lies in a plane through a vertex of the emitter and an edge of what hides it, or the
 //! other way round, that touches both bodies and crosses neither (Nishita and Nakamae 1985; Lischinski 1992). A body is a
 //! set of patches that share vertices, or a single loop of a patch that shares none. Lines that are missing cost some
 //! sharpness, lines too many some elements: so plain arithmetic will do.
 use super::spacing::strongest;
-use crate::{Patch, Scene, groups::Groups};
+use crate::scene::{Scene, patch::Patch};
+use crate::union_find::UnionFind;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,36 +22,37 @@ struct Body {
     patches: BTreeSet<usize>,
 }
 
-/// The lines on every patch, in the light of its `lamps` strongest lamps.
-pub(crate) fn shadows(scene: &Scene, lamps: usize) -> Vec<Vec<[DVec3; 2]>> {
+/// The lines on every patch, in the light of its `emitters` strongest emitters.
+pub(crate) fn shadows(scene: &Scene, emitters: usize) -> Vec<Vec<[DVec3; 2]>> {
     let bodies = bodies(scene);
-    let lamps = strongest(scene, lamps);
+    let emitters = strongest(scene, emitters);
     let on_patch = |patch: usize| {
-        let seen = lamps.iter().filter(|&&lamp| lamp != patch && faces(scene, patch, lamp));
-        let lit = |&lamp: &usize| {
+        let seen = emitters.iter().filter(|&&emitter| emitter != patch && faces(scene, patch, emitter));
+        let lit = |&emitter: &usize| {
             let hiding = bodies
                 .iter()
-                .filter(move |body| !body.patches.contains(&patch) && !body.patches.contains(&lamp));
-            hiding.flat_map(move |body| lines(&scene.patches[patch], &Body::of(&scene.patches[lamp]), body))
+                .filter(move |body| !body.patches.contains(&patch) && !body.patches.contains(&emitter));
+            hiding
+                .flat_map(move |body| lines(&scene.patches[patch], &Body::of(&scene.patches[emitter]), body))
         };
         seen.flat_map(lit).collect()
     };
     (0..scene.patches.len()).map(on_patch).collect()
 }
 
-/// Whether some of the lamp is before the patch, and some of the patch before the lamp.
-fn faces(scene: &Scene, patch: usize, lamp: usize) -> bool {
+/// Whether some of the emitter is before the patch, and some of the patch before the emitter.
+fn faces(scene: &Scene, patch: usize, emitter: usize) -> bool {
     let before = |one: &Patch, other: &Patch| {
         let origin = one.polygon.loops().flatten().next().copied().unwrap_or_default();
         other.polygon.loops().flatten().any(|&point| (point - origin).dot(one.polygon.normal()) > 0.0)
     };
-    let (patch, lamp) = (&scene.patches[patch], &scene.patches[lamp]);
-    before(patch, lamp) && before(lamp, patch)
+    let (patch, emitter) = (&scene.patches[patch], &scene.patches[emitter]);
+    before(patch, emitter) && before(emitter, patch)
 }
 
 /// What may hide light.
 fn bodies(scene: &Scene) -> Vec<Body> {
-    let mut groups = Groups::new(scene.patches.len());
+    let mut groups = UnionFind::new(scene.patches.len());
     let mut first = BTreeMap::new();
     for (index, patch) in scene.patches.iter().enumerate() {
         for point in patch.polygon.loops().flatten() {
@@ -119,23 +121,24 @@ impl Body {
     }
 }
 
-/// The borders of the shadow that a body casts on a patch in a lamp's light.
-fn lines(patch: &Patch, lamp: &Body, body: &Body) -> Vec<[DVec3; 2]> {
+/// The borders of the shadow that a body casts on a patch in an emitter's light.
+fn lines(patch: &Patch, emitter: &Body, body: &Body) -> Vec<[DVec3; 2]> {
     let normal = patch.polygon.normal();
     let origin = patch.polygon.loops().flatten().next().copied().unwrap_or_default();
     let height = |point: DVec3| (point - origin).dot(normal);
     let touches =
-        |apex: DVec3, edge: [DVec3; 2]| lamp.is_on_one_side(apex, edge) && body.is_on_one_side(apex, edge);
+        |apex: DVec3, edge: [DVec3; 2]| emitter.is_on_one_side(apex, edge) && body.is_on_one_side(apex, edge);
     let cast = |from: DVec3, past: DVec3| {
         let (above, below) = (height(from), height(past).max(0.0));
         (above > 0.0 && below < above * (1.0 - NEAR))
             .then(|| from + (past - from) * (above / (above - below)))
     };
-    let past_edges = lamp.points.iter().flat_map(|&apex| body.edges.iter().map(move |&edge| (apex, edge)));
+    let past_edges = emitter.points.iter().flat_map(|&apex| body.edges.iter().map(move |&edge| (apex, edge)));
     let past_edges = past_edges
         .filter(|&(apex, edge)| touches(apex, edge))
         .filter_map(|(apex, [a, b])| Some([cast(apex, a)?, cast(apex, b)?]));
-    let past_points = body.points.iter().flat_map(|&apex| lamp.edges.iter().map(move |&edge| (apex, edge)));
+    let past_points =
+        body.points.iter().flat_map(|&apex| emitter.edges.iter().map(move |&edge| (apex, edge)));
     let past_points = past_points
         .filter(|&(apex, edge)| touches(apex, edge))
         .filter_map(|(apex, [a, b])| Some([cast(a, apex)?, cast(b, apex)?]));

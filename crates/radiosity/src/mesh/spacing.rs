@@ -1,15 +1,15 @@
 //! How long the sides of cells are: the same everywhere, so that elements are shared out by area, unless one patch is most
 //! of the scene but little of what is lit, as the ground around a house is.
-use crate::{Patch, Scene};
+use crate::scene::{Scene, patch::Patch};
 use formfactor::Enclosure;
 
-/// The light of so many of the strongest lamps tells what is lit.
-const LAMPS: usize = 16;
+/// The light of so many of the strongest emitters tells what is lit.
+const EMITTERS: usize = 16;
 
 /// The side of a cell of each patch, for about so many triangles.
 ///
 /// A patch of more than half of all area gets no larger a share of the elements than half, and half of what it receives of the
-/// light straight from the lamps; the others share the rest by area.
+/// light straight from the emitters; the others share the rest by area.
 pub(super) fn spacings(scene: &Scene, elements: usize) -> Vec<f64> {
     let areas: Vec<f64> = scene.patches.iter().map(|patch| patch.polygon.area()).collect();
     let total: f64 = areas.iter().sum();
@@ -26,15 +26,15 @@ pub(super) fn spacings(scene: &Scene, elements: usize) -> Vec<f64> {
     spacings
 }
 
-/// Which share of the light that patches receive straight from the middles of the strongest lamps a patch receives; all
+/// Which share of the light that patches receive straight from the middles of the strongest emitters a patch receives; all
 /// where none receives any.
 fn lit_share(scene: &Scene, patch: usize) -> f64 {
     let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
     let (mut own, mut all) = (0.0, 0.0);
-    for lamp in strongest(scene, LAMPS) {
-        let Some(from) = scene.patches[lamp].middle() else { continue };
-        for (to, factor) in enclosure.row(&from.owned_by(lamp)).into_iter().enumerate() {
-            let received = power(&scene.patches[lamp]) * factor.value;
+    for emitter in strongest(scene, EMITTERS) {
+        let Some(from) = scene.patches[emitter].middle() else { continue };
+        for (to, factor) in enclosure.row(&from.owned_by(emitter)).into_iter().enumerate() {
+            let received = power(&scene.patches[emitter]) * factor.value;
             own += if to == patch { received } else { 0.0 };
             all += received;
         }
@@ -44,11 +44,11 @@ fn lit_share(scene: &Scene, patch: usize) -> f64 {
 
 /// The patches that emit most power, all bands together.
 pub(super) fn strongest(scene: &Scene, count: usize) -> Vec<usize> {
-    let mut lamps: Vec<usize> =
+    let mut emitters: Vec<usize> =
         (0..scene.patches.len()).filter(|&patch| scene.patches[patch].emits()).collect();
-    lamps.sort_by(|&a, &b| power(&scene.patches[b]).total_cmp(&power(&scene.patches[a])));
-    lamps.truncate(count);
-    lamps
+    emitters.sort_by(|&a, &b| power(&scene.patches[b]).total_cmp(&power(&scene.patches[a])));
+    emitters.truncate(count);
+    emitters
 }
 
 fn power(patch: &Patch) -> f64 {

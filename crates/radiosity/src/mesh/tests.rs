@@ -1,6 +1,7 @@
 //! Laws of the mesh.
-use super::{Plan, Subdivision};
-use crate::{Patch, Scene};
+use super::plan::Plan;
+use super::subdivide::Subdivision;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 

@@ -1,5 +1,7 @@
 //! Pieces of a patch: a binary tree of its zones, and of rectangles of lattice cells within them.
-use super::{divide::Points, lattice::Lattice, sever::Severed};
+use super::divide::Points;
+use super::lattice::Lattice;
+use super::split::Split;
 use std::ops::Range;
 
 /// A piece of a patch.
@@ -27,18 +29,19 @@ struct Placed {
 /// `patch`, the rest at the end. `first` is the index that the first triangle will have as an element.
 pub(super) fn grow(
     patch: usize,
-    severed: &Severed,
+    split: &Split,
     points: &Points,
     first: usize,
     nodes: &mut Vec<Node>,
 ) -> Vec<[usize; 3]> {
     let centroid = |corners: [usize; 3]| {
-        corners.iter().map(|&corner| points.flat[severed.points[corner]]).sum::<glam::DVec2>() / 3.0
+        corners.iter().map(|&corner| points.flat[split.points[corner]]).sum::<glam::DVec2>() / 3.0
     };
     let place = |(&corners, &zone)| Placed { corners, zone, cell: points.lattice.cell(centroid(corners)) };
-    let mut placed: Vec<Placed> = severed.triangles.iter().zip(&severed.zones).map(place).collect();
+    let mut placed: Vec<Placed> = split.triangles.iter().zip(&split.zones).map(place).collect();
     let node = |elements| Node { patch, elements, ..Node::default() };
     nodes[patch] = node(first..first + placed.len());
+    // Every node is a range of triangles; its halves are the two parts of that range, sorted in place.
     let mut open = vec![patch];
     while let Some(parent) = open.pop() {
         let Range { start, end } = nodes[parent].elements;

@@ -1,5 +1,6 @@
 //! Constrained Delaunay triangles of a patch.
-use super::{Refusal, divide::Points};
+use super::divide::Points;
+use super::refusal::MeshRefusal;
 use spade::handles::{DirectedEdgeHandle, FixedFaceHandle, PossiblyOuterTag};
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::BTreeSet;
@@ -8,16 +9,16 @@ type Edge<'t> = DirectedEdgeHandle<'t, Point2<f64>, (), CdtEdge<()>, ()>;
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// The triangles inside the boundary, each counter-clockwise, in the triangulation's order.
-pub(super) fn triangulate(points: &Points) -> Result<Vec<[usize; 3]>, Refusal> {
+pub(super) fn triangulate(points: &Points) -> Result<Vec<[usize; 3]>, MeshRefusal> {
     let vertices = points.flat.iter().map(|p| Point2::new(normal(p.x), normal(p.y))).collect();
     let boundary: BTreeSet<_> = points.boundary.iter().flat_map(|piece| both_ways(piece.ends)).collect();
     let inner = points.contacts.iter().chain(&points.shadows).copied();
     let edges = points.boundary.iter().map(|piece| piece.ends).chain(inner).collect();
     let mut broken = false;
     let cdt = Cdt::try_bulk_load_cdt(vertices, edges, |edge| broken |= boundary.contains(&edge))
-        .map_err(|error| Refusal(format!("its vertices cannot be triangulated ({error})")))?;
+        .map_err(|error| MeshRefusal(format!("its vertices cannot be triangulated ({error})")))?;
     if broken || cdt.num_vertices() != points.flat.len() {
-        return Err(Refusal("it is thinner than its coordinates can tell".to_owned()));
+        return Err(MeshRefusal("it is thinner than its coordinates can tell".to_owned()));
     }
     let inside = inside(&cdt, &boundary);
     let corners =

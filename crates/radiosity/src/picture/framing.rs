@@ -1,11 +1,10 @@
 //! A camera for scenes that have none.
-use crate::Camera;
+use crate::scene::camera::Camera;
 use glam::DVec3;
 
-/// A camera that sees the whole box between two corners, from the front, somewhat from the right and from above.
+/// A camera that sees all of the box between two corners, from the front and somewhat from the right and from above.
 ///
-/// The front is −y where z is up, else +z. The field of view is 40 degrees, the picture
-/// 4:3.
+/// The front is −y where z is up, else +z. The vertical field of view is 40 degrees, the aspect 4:3.
 #[must_use]
 pub fn framing([low, high]: [DVec3; 2], up: DVec3) -> Camera {
     let (centre, radius) = (low.midpoint(high), (high - low).length() / 2.0);

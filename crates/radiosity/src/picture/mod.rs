@@ -1,12 +1,22 @@
-//! A picture of the light: the mesh's triangles seen by a camera, as PNG.
-mod framing;
+//! Pictures: a mesh with its light, as a camera sees it, in PNG.
+//!
+//! ```text
+//! raster     triangles to samples
+//! painting   what is drawn
+//! png        pixels to the bytes of a file
+//! framing    a camera for scenes that have none
+//! ```
+pub(crate) mod framing;
+pub(crate) mod painting;
+pub(crate) mod png;
 mod raster;
 
 pub use framing::framing;
 
 use crate::expose::{Exposure, srgb};
-use crate::{Camera, Image, Mesh};
-use glam::DVec2;
+use crate::mesh::element::Mesh;
+use crate::scene::camera::Camera;
+use painting::Painting;
 use raster::{Eye, SAMPLES, raster};
 use rayon::prelude::*;
 
@@ -15,36 +25,25 @@ const BAND: usize = 8;
 /// The longest side, in pixels.
 const MAX_SIDE: u32 = 16_384;
 
-/// Draws the mesh as the camera sees it; returns the bytes of a PNG, 8 bits per channel, sRGB.
+/// Draws a mesh as a camera sees it. Returns the bytes of a PNG with 8 bits per channel, sRGB.
 ///
-/// `radiosity` is red, green and blue at every vertex of the mesh; it is interpolated over the triangles, then exposed.
-/// Patches are one-sided: seen from behind they are not drawn, so that a closed room can be looked into from outside.
-/// Where nothing is seen the picture is black. `width` and the height that the camera's aspect gives are kept between
-/// 1 and 16384. Each pixel is the mean of 16 samples. The bytes do not depend on the number of threads.
+/// `radiosity` holds red, green and blue at every vertex of the mesh; it is interpolated over the triangles, then exposed.
+/// `width` is in pixels; the height follows from the camera's aspect, and both are kept between 1 and 16384. Patches are not
+/// drawn from behind, so that a camera outside sees into a closed room. The background is black. Each pixel is the mean of 16
+/// samples. The bytes do not depend on the number of threads.
 ///
 /// # Panics
 /// When `radiosity` is shorter than the mesh's vertices.
 #[must_use]
 pub fn draw(mesh: &Mesh, radiosity: &[[f64; 3]], camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
-    paint(&Paint { mesh, light: radiosity, places: &[], images: &[] }, camera, exposure, width)
-}
-
-/// What is drawn.
-pub(crate) struct Paint<'p> {
-    pub(crate) mesh: &'p Mesh,
-    /// At every vertex: radiosity, or what falls on a patch that shows a picture.
-    pub(crate) light: &'p [[f64; 3]],
-    /// Where in its picture each vertex of such a patch lies.
-    pub(crate) places: &'p [DVec2],
-    /// The picture of each patch that shows one.
-    pub(crate) images: &'p [Option<&'p Image>],
+    paint(&Painting { mesh, light: radiosity, places: &[], images: &[] }, camera, exposure, width)
 }
 
 /// Draws as [`draw`] does; pictures are multiplied with the light that falls on them.
-pub(crate) fn paint(paint: &Paint<'_>, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
+pub(crate) fn paint(painting: &Painting<'_>, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
     let (width, height) = size(camera, width);
     let eye = Eye::new(camera, width, height);
-    let triangles = eye.triangles(paint);
+    let triangles = eye.triangles(painting);
     let mut bytes = vec![0; 3 * width * height];
     let bands = bytes.par_chunks_mut(3 * width * BAND).enumerate();
     bands.for_each(|(band, bytes)| {
@@ -55,7 +54,7 @@ pub(crate) fn paint(paint: &Paint<'_>, camera: &Camera, exposure: Exposure, widt
             pixel.copy_from_slice(&pixel_of(samples, exposure));
         }
     });
-    png(&bytes, [width, height], png::ColorType::Rgb, png::BitDepth::Eight)
+    png::rgb(&bytes, [width, height])
 }
 
 /// Width as asked, height by the aspect.
@@ -80,30 +79,4 @@ fn pixel_of(samples: &[[f64; 3]], exposure: Exposure) -> [u8; 3] {
         let byte = (255.0 * srgb(band / samples)).round() as u8;
         byte
     })
-}
-
-/// A grey PNG of 16 bits per texel, sRGB, of linear intensities from 0 to 1.
-pub(crate) fn grey(texels: &[f64], width: usize) -> Vec<u8> {
-    let word = |texel: &f64| {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 65535")]
-        let word = (65_535.0 * srgb(texel.clamp(0.0, 1.0))).round() as u16;
-        word.to_be_bytes()
-    };
-    let bytes: Vec<u8> = texels.iter().flat_map(word).collect();
-    png(&bytes, [width, texels.len() / width], png::ColorType::Grayscale, png::BitDepth::Sixteen)
-}
-
-fn png(bytes: &[u8], size: [usize; 2], colour: png::ColorType, depth: png::BitDepth) -> Vec<u8> {
-    let [width, height] = size.map(|side| u32::try_from(side).expect("sides are at most MAX_SIDE"));
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(colour);
-    encoder.set_depth(depth);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(bytes)?;
-        writer.finish()
-    });
-    written.expect("a picture of the stated size is written to memory");
-    file
 }

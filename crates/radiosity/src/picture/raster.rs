@@ -4,8 +4,8 @@
 //! d·(v1×v0) are all at least 0; these are also its perspective-correct barycentric weights, and their sum, over the
 //! volume −v0·(v1×v2), is 1 / depth (Olano and Greer 1997). Corners behind the eye need no care. Neighbours share the
 //! plane through their edge to the last bit, so that no ray passes between them.
-use super::Paint;
-use crate::{Camera, Image};
+use super::painting::Painting;
+use crate::scene::{camera::Camera, texture::Image};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
@@ -51,12 +51,12 @@ impl Eye {
     }
 
     /// The triangles that face the eye and may be in the picture.
-    pub(super) fn triangles<'p>(&self, paint: &Paint<'p>) -> Vec<Triangle<'p>> {
-        let seen = paint.mesh.elements.iter().filter_map(|element| {
-            let corners = element.corners.map(|corner| paint.mesh.vertices[corner] - self.position);
-            let colours = element.corners.map(|corner| paint.light[corner]);
-            let image = paint.images.get(element.patch).copied().flatten();
-            let cloth = image.map(|image| (image, element.corners.map(|corner| paint.places[corner])));
+    pub(super) fn triangles<'p>(&self, painting: &Painting<'p>) -> Vec<Triangle<'p>> {
+        let seen = painting.mesh.elements.iter().filter_map(|element| {
+            let corners = element.corners.map(|corner| painting.mesh.vertices[corner] - self.position);
+            let colours = element.corners.map(|corner| painting.light[corner]);
+            let image = painting.images.get(element.patch).copied().flatten();
+            let cloth = image.map(|image| (image, element.corners.map(|corner| painting.places[corner])));
             self.triangle(corners, colours, cloth)
         });
         seen.collect()

@@ -1,12 +1,14 @@
 //! A point inside a patch.
-use crate::Patch;
+use super::patch::Patch;
 use crate::plane::Plane;
 use formfactor::DifferentialArea;
 use glam::{DVec2, DVec3};
 
 impl Patch {
-    /// A point well inside the patch with its normal: half-way across the widest stretch of a line between two of its
-    /// vertices' heights. None where rounding leaves no inside.
+    /// A point well inside the patch, with the patch's normal. `None` where rounding leaves no inside.
+    ///
+    /// In the patch's plane, a line is laid half-way between the two neighbouring vertex heights that are farthest apart; the
+    /// point is the middle of the widest stretch of that line inside the patch.
     #[must_use]
     pub fn middle(&self) -> Option<DifferentialArea> {
         let plane = Plane::of(&self.polygon);

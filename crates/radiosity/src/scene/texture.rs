@@ -5,12 +5,12 @@ use std::sync::Arc;
 /// The finest lattice of samples along a side of a triangle.
 const MAX_SAMPLES: usize = 64;
 
-/// A picture: where it came from, so that it can be written again, and its colours as reflectances.
+/// A picture: its file, so that it can be written again, and its colours as reflectances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
-    /// The name that the scene's file gives it.
+    /// The name in the scene's file.
     pub name: String,
-    /// The file's bytes, as they are.
+    /// The bytes of the picture's file.
     pub bytes: Vec<u8>,
     /// `image/png` or `image/jpeg`.
     pub mime: &'static str,
@@ -27,8 +27,8 @@ pub struct Texture {
     pub image: Arc<Image>,
     /// What its colours are multiplied by.
     pub factor: [f64; 3],
-    /// Triangles in space with the picture's coordinates at their corners: u to the right, v down, both 0 to 1 over the
-    /// picture, which repeats beyond. A point belongs to the triangle that it lies in, or else lies least outside of.
+    /// Triangles in space with texture coordinates at their corners: u to the right, v down, both 0 to 1 over the picture,
+    /// which repeats beyond. A point outside of all triangles belongs to the nearest one.
     pub map: Vec<[(DVec3, DVec2); 3]>,
 }
 
@@ -49,7 +49,7 @@ fn index(place: f64, count: usize) -> usize {
 }
 
 impl Texture {
-    /// The picture's coordinates at a point of the patch.
+    /// The texture coordinates at a point of the patch.
     #[must_use]
     pub fn place(&self, point: DVec3) -> DVec2 {
         let weights = self.map.iter().map(|corners| (weights(corners, point), corners));

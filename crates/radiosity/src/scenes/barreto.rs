@@ -3,7 +3,7 @@
 //! The thesis prints patch counts but no coordinates; the sizes are this project's. Occluders block on both sides; what
 //! light they reflect they reflect on their front, which faces the lamp.
 use super::shapes::{Quad, Z_UP, camera, face, grid, lamp, level, quad, solid, square, surface, turned};
-use crate::io::collada::{Face, Model};
+use crate::io::collada::model::{Face, Model};
 use glam::DVec3;
 
 const BASE: usize = 0;

@@ -1,6 +1,6 @@
 //! The Cornell box in 76 bands: the published spectra, 400 to 700 nm in steps of 4 nm.
 use super::cornell_box::{GREEN, LAMP, RED, WHITE, cornell_box};
-use crate::io::collada::{Material, Model};
+use crate::io::collada::model::{Material, Model};
 
 /// How many bands.
 const BANDS: usize = 76;

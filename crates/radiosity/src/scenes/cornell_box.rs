@@ -4,8 +4,8 @@
 //! others), so that it is two triangles; the lamp lies in the ceiling's plane, so that the ceiling is the ceiling minus
 //! the lamp.
 use super::shapes::{Quad, face, halves, quad, surface};
-use crate::io::collada::{Face, Material, Model};
-use crate::{Asset, Camera};
+use crate::io::collada::model::{Face, Material, Model};
+use crate::scene::{asset::Asset, camera::Camera};
 use glam::DVec3;
 use polycsg::{FillRule, Region};
 

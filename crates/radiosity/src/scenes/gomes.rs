@@ -1,8 +1,9 @@
 //! The scenes of Gomes, *Modelo de Iluminação Global por Radiação* (2010), section 5.
 use super::cornell_box;
 use super::shapes::{Quad, Z_UP, camera, face, grid, halves, lamp, quad, sphere, square, surface, turned};
-use crate::io::collada::{Face, Material, Model};
-use crate::{Image, Texture};
+use crate::io::collada::model::{Face, Material, Model};
+use crate::picture::png::grey;
+use crate::scene::texture::{Image, Texture};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -55,7 +56,7 @@ pub(super) fn chessboard() -> Model {
 fn fields(floor: Quad) -> Texture {
     let dark = |row: usize, column: usize| (row + column) % 2 == 1;
     let texels: Vec<f64> = (0..64).map(|field| if dark(field / 8, field % 8) { 0.05 } else { 0.8 }).collect();
-    let bytes = crate::picture::grey(&texels, 8);
+    let bytes = grey(&texels, 8);
     let texels = texels.into_iter().map(|grey| [grey; 3]).collect();
     let image = Image { name: "chessboard.png".into(), bytes, mime: "image/png", width: 8, texels };
     let [a, b, c, d] = floor.map(DVec3::from);

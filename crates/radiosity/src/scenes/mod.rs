@@ -1,10 +1,11 @@
-//! The sources' scenes, as code: each is built as a list of named faces, which becomes a COLLADA text.
+//! Built-in scenes from the literature. Each is built in code as a list of named faces, which becomes a COLLADA text.
 //!
-//! Of Barreto (2008, chapter 4), whose pages print no coordinates: `emission`, `obstruction`, `beams`,
-//! `small-occluders`, `perforated` and, with its panel cut as he had to, `perforated-cut`. Of Gomes (2010): `wall`,
-//! `chessboard`, `cornell-3842`. The published
-//! `cornell-box`, and `cornell-76` in all bands of its spectra. Rooms with a known answer: `furnace` (reflectance 0.5;
-//! `furnace-0.99` for another one), `cube`, `separating-wall`, `colour-bleeding`, `sphere-lamp`.
+//! - The Cornell box as published: `cornell-box`, and `cornell-76` in the 76 bands of its spectra.
+//! - Barreto (2008, chapter 4; coordinates are this project's, as the thesis prints none): `emission`, `obstruction`, `beams`,
+//!   `small-occluders`, `perforated`, and `perforated-cut` with its panel cut into rectangles.
+//! - Gomes (2010): `wall`, `chessboard`, `cornell-3842`.
+//! - Scenes with a known answer: `furnace` (reflectance 0.5; `furnace-0.99` has another one), `cube`, `separating-wall`,
+//!   `colour-bleeding`, `sphere-lamp`.
 mod barreto;
 mod cornell_76;
 mod cornell_box;
@@ -12,8 +13,10 @@ mod gomes;
 mod rooms;
 mod shapes;
 
-use crate::Scene;
-use crate::io::collada::{Collada, Model, text};
+use crate::io::collada::Collada;
+use crate::io::collada::compose::text;
+use crate::io::collada::model::Model;
+use crate::scene::Scene;
 
 type Builder = fn() -> Model;
 
@@ -37,21 +40,21 @@ const SCENES: [(&str, Builder); 16] = [
     ("sphere-lamp", rooms::sphere_lamp),
 ];
 
-/// The names that [`write_scene`] knows.
+/// The names of all built-in scenes.
 pub fn names() -> impl Iterator<Item = &'static str> {
     SCENES.iter().map(|(name, _)| *name)
 }
 
-/// The scene of that name as COLLADA 1.4 text, always the same bytes; `None` for a name that is not one of [`names`].
+/// A built-in scene as COLLADA 1.4 text, always the same bytes; `None` for a name that is not one of [`names`].
 ///
-/// `furnace-R` is the furnace with the reflectance R, 0 to below 1.
+/// `furnace-R` is the furnace with reflectance R, from 0 to below 1.
 #[must_use]
 pub fn write_scene(name: &str) -> Option<String> {
     let known = SCENES.iter().find(|(known, _)| *known == name).map(|(_, build)| build());
     known.or_else(|| furnace(name)).map(|model| text(&model))
 }
 
-/// The scene of that name, as [`write_scene`] writes it.
+/// A built-in scene; `None` for a name that is not one of [`names`].
 ///
 /// ```
 /// let scene = radiosity::scenes::scene("small-occluders").expect("a built-in scene");

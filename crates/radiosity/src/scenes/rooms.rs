@@ -1,7 +1,7 @@
 //! Rooms whose light is known, or must show something.
 use super::shapes::{Z_UP, camera, face, grid, lamp, quad, room, sphere, square, surface, turned};
-use crate::Camera;
-use crate::io::collada::{Face, Material, Model};
+use crate::io::collada::model::{Face, Material, Model};
+use crate::scene::camera::Camera;
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! Faces that several scenes are made of. Corners run counter-clockwise seen from the front.
-use crate::io::collada::{Face, Material};
-use crate::{Asset, Camera};
+use crate::io::collada::model::{Face, Material};
+use crate::scene::{asset::Asset, camera::Camera};
 use glam::DVec3;
 
 /// Four corners.

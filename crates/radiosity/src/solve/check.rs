@@ -1,5 +1,6 @@
 //! Refuses scenes that have no solution.
-use crate::{Error, Patch, Scene};
+use crate::error::Error;
+use crate::scene::{Scene, patch::Patch};
 use std::f64::consts::PI;
 
 /// Checks that every patch has the scene's bands, a reflectance of 0 or more, and emits no negative light and none beyond

@@ -1,7 +1,10 @@
-//! The final gather: light straight from the lamps, exact at every vertex.
-use super::{factors::Factors, run::Run};
-use crate::interpolate::Direct;
-use crate::{Error, Mesh, Scene};
+//! The final gather: light straight from the emitters, exact at every vertex.
+use super::factors::Factors;
+use super::run::Run;
+use super::solution::DirectLight;
+use crate::error::Error;
+use crate::mesh::element::Mesh;
+use crate::scene::Scene;
 use formfactor::DifferentialArea;
 use glam::DVec3;
 use std::{collections::BTreeSet, f64::consts::PI};
@@ -10,24 +13,24 @@ use std::{collections::BTreeSet, f64::consts::PI};
 /// limit from the vertex's own side is wanted.
 const INWARD: f64 = 1e-3;
 
-/// The lamps' light on every element and at every vertex.
-pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Direct, Error> {
+/// The emitters' light on every element and at every vertex.
+pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<DirectLight, Error> {
     let (mesh, bands) = (&run.factors.subdivision.mesh, run.light.bands);
     let receivers = receivers(scene, &run.factors)?;
     let mut elements = vec![0.0; mesh.elements.len() * bands];
     let mut vertices = vec![0.0; mesh.vertices.len() * bands];
-    for (lamp, patch) in scene.patches.iter().enumerate().filter(|(_, patch)| patch.emits()) {
+    for (emitter, patch) in scene.patches.iter().enumerate().filter(|(_, patch)| patch.emits()) {
         let shine = |values: &mut [f64], place: usize, factor: f64| {
             let irradiance = values[place * bands..].iter_mut().zip(&patch.emission);
             irradiance.for_each(|(h, radiance)| *h += PI * radiance * factor);
         };
-        for (element, factor) in run.factors.column(lamp)?.iter() {
+        for (element, factor) in run.factors.column(emitter)?.iter() {
             shine(&mut elements, element, factor);
         }
-        let factors = run.factors.seen_from(&receivers, lamp)?;
+        let factors = run.factors.seen_from(&receivers, emitter)?;
         factors.into_iter().enumerate().for_each(|(vertex, factor)| shine(&mut vertices, vertex, factor));
     }
-    Ok(Direct { elements, vertices })
+    Ok(DirectLight { elements, vertices })
 }
 
 /// A receiver for every vertex; on the rim of a patch, and at the foot of what stands on it, a little inside the elements

@@ -1,10 +1,13 @@
 //! Exact form factors from the elements to the pieces.
 use super::fingerprint;
 use super::hemicube::Hemicubes;
+use super::occluders::Occluders;
 use super::state::{Column, State};
-use super::surfaces::Surfaces;
 use super::workers;
-use crate::{Error, Scene, mesh::Subdivision};
+use crate::error::Error;
+use crate::mesh::element::Element;
+use crate::mesh::subdivide::Subdivision;
+use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use std::sync::Arc;
 
@@ -32,8 +35,8 @@ impl<'s> Factors<'s> {
         state: &'s mut State,
     ) -> Result<Factors<'s>, Error> {
         let mesh = &subdivision.mesh;
-        let Surfaces { polygons, of_patch: surface_of } = Surfaces::join(scene);
-        let receiver = |(index, element): (usize, &crate::Element)| {
+        let Occluders { polygons, of_patch: surface_of } = Occluders::join(scene);
+        let receiver = |(index, element): (usize, &Element)| {
             let patch = &scene.patches[element.patch];
             DifferentialArea::new(mesh.centroid(index), patch.polygon.normal())
                 .map(|area| area.owned_by(surface_of[element.patch]))

@@ -1,5 +1,6 @@
 //! Short numbers that tell scenes, meshes and files apart.
-use crate::{Scene, mesh::Subdivision};
+use crate::mesh::subdivide::Subdivision;
+use crate::scene::Scene;
 use fnv::FnvHasher;
 use glam::DVec3;
 use std::hash::Hasher;

@@ -1,5 +1,7 @@
 //! Form factors by hemicubes, to compare with.
-use crate::{Error, Scene, mesh::Subdivision};
+use crate::error::Error;
+use crate::mesh::subdivide::Subdivision;
+use crate::scene::Scene;
 use formfactor::approx::{Hemicube, Method};
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use rayon::prelude::*;

@@ -1,18 +1,20 @@
 //! Where the power went, and how far the light is from the solution.
-use super::{light::Light, shooters::Shooters};
+use super::light::Light;
+use super::shooters::Shooters;
 
 /// Power per band, in W for lengths in m: emitted = absorbed + escaped + unshot + defect.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Ledger {
-    /// ΣAE.
+    /// Emitted power, ΣAE.
     pub emitted: Vec<f64>,
-    /// ΣA(1 − ρ)H.
+    /// Absorbed power, ΣA(1 − ρ)H.
     pub absorbed: Vec<f64>,
     /// Shot power that no element received: with the reciprocal form factors A_i F_ij / A_j, Σ(A_j − ΣA_i F_ij)ΔB_j.
     pub escaped: Vec<f64>,
-    /// ΣAΔB, still to be shot.
+    /// Power still to be shot, ΣAΔB.
     pub unshot: Vec<f64>,
-    /// What the bookkeeping lost: rounding.
+    /// The remainder: rounding errors.
     pub defect: Vec<f64>,
 }
 

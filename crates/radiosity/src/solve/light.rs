@@ -1,6 +1,8 @@
 //! What every element receives and sends.
+use super::magnitude::mean_by_itself;
 use super::state::Column;
-use crate::{Mesh, Scene};
+use crate::mesh::element::{Element, Mesh};
+use crate::scene::Scene;
 use std::{f64::consts::PI, ops::Range};
 
 /// Radiosity and irradiance, elements × bands, and what they are made of.
@@ -20,7 +22,7 @@ pub(super) struct Light {
 impl Light {
     /// Only what the patches emit: B = E.
     pub(super) fn new(scene: &Scene, mesh: &Mesh) -> Light {
-        let patch = |element: &crate::Element| &scene.patches[element.patch];
+        let patch = |element: &Element| &scene.patches[element.patch];
         let emission = mesh.elements.iter().flat_map(|element| &patch(element).emission);
         let emittance: Vec<_> = emission.map(|radiance| PI * radiance).collect();
         let reflectance = |(index, element)| patch(element).reflectance_over(mesh.triangle(index));
@@ -89,23 +91,4 @@ impl Light {
             self.radiosity.iter().zip(&self.emittance).map(|(b, e)| (b - e).abs()).collect();
         mean_by_itself(&reflected, &self.areas, self.bands)
     }
-}
-
-/// ΣAR² / ΣAR for each band, 0 where R is 0; scaled by the largest R, so that no square leaves the doubles' range.
-pub(super) fn mean_by_itself(values: &[f64], areas: &[f64], bands: usize) -> Vec<f64> {
-    let mut largest = vec![0.0f64; bands];
-    for value in values.chunks_exact(bands) {
-        largest.iter_mut().zip(value).for_each(|(largest, v)| *largest = largest.max(*v));
-    }
-    let (mut sums, mut squares) = (vec![0.0; bands], vec![0.0; bands]);
-    for (value, area) in values.chunks_exact(bands).zip(areas) {
-        for band in (0..bands).filter(|&band| largest[band] > 0.0) {
-            let share = value[band] / largest[band];
-            sums[band] += area * share;
-            squares[band] += area * share * share;
-        }
-    }
-    let mean =
-        |band: usize| if sums[band] > 0.0 { largest[band] * (squares[band] / sums[band]) } else { 0.0 };
-    (0..bands).map(mean).collect()
 }

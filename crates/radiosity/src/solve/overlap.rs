@@ -1,5 +1,7 @@
 //! Refuses patches that lie on each other: form factors to both would count the same view twice.
-use crate::{Error, Patch, Scene, extent::Extent};
+use crate::error::Error;
+use crate::extent::Extent;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};
@@ -12,11 +14,11 @@ const SHARE: f64 = 1e-9;
 /// Checks that no two patches of one plane that face the same way overlap. O(n log n) for n patches, and O(k) for the k
 /// pairs whose extents meet.
 pub(super) fn check(scene: &Scene) -> Result<(), Error> {
-    let placed = scene.patches.iter().map(|patch| Placed { patch, extent: Extent::of(patch) });
-    let mut placed: Vec<Placed<'_>> = placed.collect();
+    let placed = scene.patches.iter().map(|patch| BoxedPatch { patch, extent: Extent::of(patch) });
+    let mut placed: Vec<BoxedPatch<'_>> = placed.collect();
     placed.sort_by(|a, b| a.extent.low.x.total_cmp(&b.extent.low.x));
     for (index, one) in placed.iter().enumerate() {
-        let beside = |other: &&Placed<'_>| other.extent.low.x <= one.extent.high.x;
+        let beside = |other: &&BoxedPatch<'_>| other.extent.low.x <= one.extent.high.x;
         for other in placed[index + 1..].iter().take_while(beside) {
             if let Some(share) = one.overlap(other) {
                 return Err(named(scene, one.patch, other.patch, share));
@@ -35,14 +37,14 @@ fn named(scene: &Scene, one: &Patch, other: &Patch, share: f64) -> Error {
 
 /// A patch in its box.
 #[derive(Debug)]
-struct Placed<'s> {
+struct BoxedPatch<'s> {
     patch: &'s Patch,
     extent: Extent,
 }
 
-impl Placed<'_> {
+impl BoxedPatch<'_> {
     /// Which share of the smaller of two patches lies on the other one; nothing when they do not overlap.
-    fn overlap(&self, other: &Placed<'_>) -> Option<f64> {
+    fn overlap(&self, other: &BoxedPatch<'_>) -> Option<f64> {
         let (one, two) = (&self.patch.polygon, &other.patch.polygon);
         if !self.extent.is_near(&other.extent, 0.0)
             || one.normal().dot(two.normal()) < 1.0 - NEAR
@@ -57,7 +59,7 @@ impl Placed<'_> {
     }
 
     /// Whether all vertices of the other patch lie in this one's plane, but for rounding.
-    fn in_one_plane(&self, other: &Placed<'_>) -> bool {
+    fn in_one_plane(&self, other: &BoxedPatch<'_>) -> bool {
         let size = self.extent.reach().max(other.extent.reach());
         let Some(&origin) = self.patch.polygon.loops().flatten().next() else { return false };
         let height = |place: &DVec3| (*place - origin).dot(self.patch.polygon.normal()).abs();

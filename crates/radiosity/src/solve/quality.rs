@@ -1,7 +1,8 @@
-//! How good is good enough.
-use super::{Norm, Options};
+//! Options by one word.
+use super::norm::Norm;
+use super::options::Options;
 
-/// How much work the light is worth.
+/// A choice of [`Options`] by one word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
     /// A first look: 1500 equal elements, a bound of 1 %.
@@ -9,13 +10,13 @@ pub enum Quality {
     /// For pictures: 6000 elements, half of them where the light changes most, a bound of 0.1 %.
     #[default]
     Normal,
-    /// For figures and close views: 20 000 elements after two looks at where the light changes, edges of the shadows of
-    /// the four strongest lamps along edges of elements, exact direct light at every vertex, a bound of 0.1 %.
+    /// For figures and close views: 20 000 elements after two refinements, element edges along the shadow edges of the four
+    /// strongest emitters, exact direct light at every vertex, a bound of 0.1 %.
     High,
 }
 
 impl Quality {
-    /// The options that it stands for.
+    /// The options.
     #[must_use]
     pub fn options(self) -> Options {
         let normal = Options { passes: 1, norm: Norm::L2, ..Options::default() };

@@ -1,6 +1,8 @@
 //! Which patches light can reach, and which of them close rooms.
-use super::{light::Light, run::Run};
-use crate::{Error, Scene, groups::Groups};
+use super::light::Light;
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::union_find::UnionFind;
 
 /// At what deviation of ΣF from 1 a room counts as closed: a gap of a billionth of the view loses less than a room with
 /// a reflectance of 0.999999 absorbs a thousand times over.
@@ -25,45 +27,18 @@ pub(super) struct Rooms {
     /// ΣF over all patches, for every element.
     pub(super) sums: Vec<f64>,
     /// How many patches the scene has.
-    patches: usize,
+    pub(super) patches: usize,
 }
 
 impl Rooms {
-    /// Follows the light from the lamps. What no light reaches is left out, and no factor to it is found; what only
-    /// receives is lit but sends the light no further. Nothing when the watcher wants to stop.
-    pub(super) fn follow(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Rooms>, Error> {
-        let patches = scene.patches.len();
-        let elements = &run.factors.subdivision.mesh.elements;
-        let patch_of: Vec<usize> = elements.iter().map(|element| element.patch).collect();
-        let sends = senders(scene, &run.light, &patch_of);
-        let mut lit: Vec<bool> = scene.patches.iter().map(crate::Patch::emits).collect();
-        let mut open: Vec<usize> = (0..patches).filter(|&patch| lit[patch]).collect();
-        let mut sums = vec![0.0; patch_of.len()];
-        let mut groups = Groups::new(patches);
-        while let Some(sender) = open.pop() {
-            if run.report().is_break() {
-                return Ok(None);
-            }
-            for (element, factor) in run.factors.column(sender)?.iter() {
-                let receiver = patch_of[element];
-                sums[element] += factor;
-                if !sends[sender] {
-                    continue;
-                }
-                groups.join(sender, receiver);
-                if !lit[receiver] {
-                    lit[receiver] = true;
-                    open.push(receiver);
-                }
-            }
-        }
-        let mut rooms = Rooms { rooms: Vec::new(), sums, patches };
-        rooms.collect(&lit, &mut groups, &patch_of, &run.light);
-        Ok(Some(rooms))
-    }
-
     /// Collects the lit patches of each group.
-    fn collect(&mut self, lit: &[bool], groups: &mut Groups, patch_of: &[usize], light: &Light) {
+    pub(super) fn collect(
+        &mut self,
+        lit: &[bool],
+        groups: &mut UnionFind,
+        patch_of: &[usize],
+        light: &Light,
+    ) {
         let mut room_of = vec![usize::MAX; lit.len()];
         for patch in (0..lit.len()).filter(|&patch| lit[patch]) {
             let first = groups.first(patch);
@@ -119,13 +94,4 @@ impl Rooms {
         let closed = self.rooms.iter().filter(|room| room.closed);
         closed.map(|room| room.reflectance).fold(0.0, f64::max)
     }
-}
-
-/// Which patches emit or reflect some light.
-fn senders(scene: &Scene, light: &Light, patch_of: &[usize]) -> Vec<bool> {
-    let mut sends: Vec<bool> = scene.patches.iter().map(crate::Patch::emits).collect();
-    for (element, &patch) in patch_of.iter().enumerate() {
-        sends[patch] |= light.largest_reflectance(element) > 0.0;
-    }
-    sends
 }

@@ -1,6 +1,7 @@
 //! Who shoots: pieces of patches, and what each has sent so far.
 use super::light::Light;
-use crate::mesh::{Node, Subdivision};
+use crate::mesh::subdivide::Subdivision;
+use crate::mesh::tree::Node;
 
 /// A piece, and what it has sent per band.
 #[derive(Clone, Debug)]
@@ -37,10 +38,10 @@ impl<'s> Shooters<'s> {
         Shooters { nodes, front, sent: none, shots: 0 }
     }
 
-    /// Weighs what every piece has yet to shoot; gives its share of the emitted power per band.
-    pub(super) fn weigh(&mut self, light: &Light) -> Vec<f64> {
+    /// Measures what every piece has yet to shoot; gives its share of the emitted power per band.
+    pub(super) fn measure(&mut self, light: &Light) -> Vec<f64> {
         for shooter in &mut self.front {
-            shooter.weigh(&self.nodes[shooter.node], light);
+            shooter.measure(&self.nodes[shooter.node], light);
         }
         let share = |(band, &emitted): (usize, &f64)| {
             let unshot: f64 = self.front.iter().map(|shooter| shooter.unshot[band].abs()).sum();
@@ -162,13 +163,13 @@ impl<'s> Shooters<'s> {
         self.front.iter().map(|shooter| shooter.node)
     }
 
-    /// Power still to be shot, per band, as weighed last.
+    /// Power still to be shot, per band, as measured last.
     pub(super) fn unshot(&self) -> Vec<f64> {
         let band = |band| self.front.iter().map(|shooter| shooter.unshot[band]).sum();
         (0..self.sent.len()).map(band).collect()
     }
 
-    /// The largest radiosity still to be shot, per band, as weighed last.
+    /// The largest radiosity still to be shot, per band, as measured last.
     pub(super) fn peak(&self) -> Vec<f64> {
         let radiosity =
             |band: usize| self.front.iter().map(move |shooter| shooter.unshot[band] / shooter.area);
@@ -187,12 +188,12 @@ impl Shooter {
     fn new(node: usize, nodes: &[Node], shot: &[f64], light: &Light) -> Shooter {
         let area = light.areas[nodes[node].elements.clone()].iter().sum();
         let mut shooter = Shooter { node, area, shot: shot.to_vec(), unshot: Vec::new() };
-        shooter.weigh(&nodes[node], light);
+        shooter.measure(&nodes[node], light);
         shooter
     }
 
     /// Brings `unshot` up to date.
-    fn weigh(&mut self, node: &Node, light: &Light) {
+    fn measure(&mut self, node: &Node, light: &Light) {
         self.unshot.clear();
         self.unshot.resize(self.shot.len(), 0.0);
         for element in node.elements.clone() {

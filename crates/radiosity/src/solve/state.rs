@@ -1,4 +1,4 @@
-//! Work that lasts: the form factors found so far, so that a run that was stopped can be gone on with.
+//! The form factors found so far: a run that was stopped resumes from them.
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
 use thiserror::Error;
@@ -8,11 +8,10 @@ const KEPT: usize = 1 << 27;
 /// What a file starts with; the digit counts the formats.
 const MAGIC: &[u8] = b"radiosity state 1\n";
 
-/// The form factors that a run has found, by far the most of its work.
+/// The form factors that a run has computed, which are most of its work, so that another run can resume from them.
 ///
-/// A run that starts from the state of another one of the same scene finds all of these where it needs them. Form
-/// factors are pure functions of the scene and the mesh, so it ends with the bits of a run that was never stopped, and
-/// may ask for another tolerance or another method.
+/// Form factors are pure functions of the scene and the mesh. A run that resumes from a state of the same scene therefore ends
+/// with the bits of a run that was never stopped, and may use another tolerance or another method.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct State {
     /// By the fingerprint of the mesh: the columns by piece.
@@ -75,7 +74,7 @@ impl Column {
 }
 
 impl State {
-    /// The state as bytes, for a file: about 12 for each factor that is not 0.
+    /// The state as bytes, for a file: about 12 bytes for each factor that is not 0.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let body = postcard::to_stdvec(self).expect("maps of plain numbers can be written");

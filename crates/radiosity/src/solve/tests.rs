@@ -1,6 +1,10 @@
 //! Laws of the solver.
-use super::{Method, Options, Solution, State, solve, solve_from};
-use crate::{Error, Patch, Scene};
+use super::options::{Method, Options};
+use super::solution::Solution;
+use super::state::State;
+use super::{solve, solve_from};
+use crate::error::Error;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use std::ops::ControlFlow;

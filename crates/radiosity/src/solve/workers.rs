@@ -1,5 +1,5 @@
 //! Form factors from many points at once, by all threads.
-use crate::Error;
+use crate::error::Error;
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::any::Any;

@@ -1,6 +1,6 @@
 //! Bad files: a typed error that names the line, or a stated result; never a panic, never endless.
 use crate::samples::{file, geometry, node, polylist, primitive, refusal};
-use radiosity::io::Error;
+use radiosity::io::FileError;
 use radiosity::io::collada::Collada;
 use radiosity::scenes;
 
@@ -104,11 +104,11 @@ fn empty_and_foreign_files_are_refused() {
 
 #[test]
 fn a_missing_file_and_bytes_that_are_no_text_are_typed_errors() {
-    assert!(matches!(Collada::open("/nowhere/scene.dae"), Err(Error::Read { .. })));
+    assert!(matches!(Collada::open("/nowhere/scene.dae"), Err(FileError::Read { .. })));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("latin.dae");
     std::fs::write(&path, b"<COLLADA>\xe9</COLLADA>").unwrap();
-    assert!(matches!(Collada::open(&path), Err(Error::Encoding { position: 9, .. })));
+    assert!(matches!(Collada::open(&path), Err(FileError::Encoding { position: 9, .. })));
 }
 
 #[test]

@@ -200,7 +200,7 @@ fn the_cornell_box_lit_keeps_its_names_and_areas() {
     let before = scene(&text);
     let options = radiosity::Options { elements: 300, max_shots: 1, ..Default::default() };
     let solution = radiosity::solve(&before, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
-    let radiosity = radiosity::expose::rgb(&solution.vertex_radiosity(), solution.bands);
+    let radiosity = radiosity::expose::rgb(&solution.vertex_radiosity(), solution.bands, &[]);
     let lit = Collada::from_text("test.dae", text).with_light(&before, &solution.mesh, &radiosity).unwrap();
     let after = scene(&lit);
     assert!(after.warnings.is_empty(), "{:?}", after.warnings);

@@ -3,6 +3,6 @@ mod bands;
 mod build;
 mod extreme;
 mod interpolation;
-mod lasting;
+mod resume;
 mod sources;
 mod stiff;

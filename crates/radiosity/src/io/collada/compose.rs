@@ -1,8 +1,8 @@
 //! A model as COLLADA 1.4 text: one node, geometry and polygon list per face.
-use super::mesh_text::{decimal, escape, list};
 use super::model::{Face, Material, Model};
 use super::spectra::PROFILE;
-use crate::{Asset, Camera, Texture};
+use super::xml::{TOOL, decimal, escape, list};
+use crate::scene::{asset::Asset, camera::Camera, texture::Texture};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -63,7 +63,7 @@ fn asset(title: &str, asset: &Asset) -> String {
     <up_axis>{up}</up_axis>
   </asset>
 "#,
-        tool = super::TOOL,
+        tool = TOOL,
         title = escape(title),
         metres = decimal(&asset.unit),
     )

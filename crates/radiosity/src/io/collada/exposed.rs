@@ -1,21 +1,25 @@
 //! Radiosity at the vertices turned to colours that a screen can show.
-use super::super::{Error, Fault};
-use super::file::{File, Node, children, descend};
-use super::mesh_text::{decimal, list};
+use super::file::{File, XmlNode, children, descend};
 use super::primitive::surfaces;
+use super::xml::{decimal, list};
 use crate::expose::Exposure;
+use crate::io::error::{Fault, FileError};
 use std::collections::BTreeMap;
 
 /// A colour source's numbers: their element, how many a row has, and themselves.
-struct Light<'a> {
-    array: Node<'a>,
+struct ColourSource<'a> {
+    array: XmlNode<'a>,
     stride: usize,
     numbers: Vec<f64>,
 }
 
 /// The text with the first three numbers of every row of every vertex colour exposed; all else byte for byte. Without an
 /// exposure one is chosen: the geometric mean over the lit rows becomes mid grey.
-pub(super) fn exposed<'a>(text: &str, file: &File<'a>, exposure: Option<Exposure>) -> Result<String, Error> {
+pub(super) fn exposed<'a>(
+    text: &str,
+    file: &File<'a>,
+    exposure: Option<Exposure>,
+) -> Result<String, FileError> {
     let sources = sources(file)?;
     if sources.is_empty() {
         return Err(file.fault(file.root, Fault::Child("input semantic=\"COLOR\"")));
@@ -42,7 +46,7 @@ pub(super) fn exposed<'a>(text: &str, file: &File<'a>, exposure: Option<Exposure
 }
 
 /// The colour sources that surfaces use, by where they stand in the text.
-fn sources<'a>(file: &File<'a>) -> Result<BTreeMap<usize, Light<'a>>, Error> {
+fn sources<'a>(file: &File<'a>) -> Result<BTreeMap<usize, ColourSource<'a>>, FileError> {
     let mut all = BTreeMap::new();
     let libraries = children(file.root, "library_geometries");
     let geometries = libraries.flat_map(|library| children(library, "geometry"));
@@ -62,7 +66,7 @@ fn sources<'a>(file: &File<'a>) -> Result<BTreeMap<usize, Light<'a>>, Error> {
             let wanted = numbers.len().next_multiple_of(stride);
             return Err(file.fault(array, Fault::Count { found: numbers.len(), wanted }));
         }
-        all.insert(array.range().start, Light { array, stride, numbers });
+        all.insert(array.range().start, ColourSource { array, stride, numbers });
     }
     Ok(all)
 }

@@ -1,8 +1,7 @@
 //! The pictures that textures name: in the file itself, in a `data:` address, or beside the file.
-use super::super::image;
-use super::file::{File, Node, child, children, descend};
-use crate::Image;
-use crate::inspect::Finding;
+use super::file::{File, XmlNode, child, children, descend};
+use crate::image_file;
+use crate::scene::{finding::Finding, texture::Image};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,8 +22,8 @@ impl Images {
     pub(super) fn of_texture<'a>(
         &mut self,
         file: &File<'a>,
-        effect: Node<'a>,
-        texture: Node<'a>,
+        effect: XmlNode<'a>,
+        texture: XmlNode<'a>,
         warnings: &mut Vec<Finding>,
     ) -> Option<Arc<Image>> {
         let element = element(file, effect, texture);
@@ -45,27 +44,27 @@ impl Images {
         image.ok()
     }
 
-    fn read(&self, element: Node<'_>) -> Result<Image, String> {
+    fn read(&self, element: XmlNode<'_>) -> Result<Image, String> {
         let name = element.attribute("name").or_else(|| element.attribute("id")).unwrap_or("image");
         let hex = child(element, "data").or_else(|| descend(element, &["init_from", "hex"]));
         if let Some(digits) = hex.and_then(|data| data.text()) {
-            return image::decode(name, unhex(digits).ok_or("its <data> is not hexadecimal")?);
+            return image_file::decode(name, unhex(digits).ok_or("its <data> is not hexadecimal")?);
         }
         let from = child(element, "init_from").ok_or("the <image> has no <init_from>")?;
         let address = child(from, "ref").unwrap_or(from).text().unwrap_or_default().trim();
-        image::fetch(address, self.folder.as_deref())
+        image_file::fetch(address, self.folder.as_deref())
     }
 }
 
 /// The `<image>`: through the effect's sampler and surface parameters, or named at once.
-fn element<'a>(file: &File<'a>, effect: Node<'a>, texture: Node<'a>) -> Option<Node<'a>> {
+fn element<'a>(file: &File<'a>, effect: XmlNode<'a>, texture: XmlNode<'a>) -> Option<XmlNode<'a>> {
     let name = texture.attribute("texture")?;
     let parameter = |sid: &str, kind: &'static str| {
         let places = [Some(effect), child(effect, "profile_COMMON")];
         let mut all = places.into_iter().flatten().flat_map(|place| children(place, "newparam"));
         child(all.find(|parameter| parameter.attribute("sid") == Some(sid))?, kind)
     };
-    let text = |node: Node<'a>| node.text().map(str::trim);
+    let text = |node: XmlNode<'a>| node.text().map(str::trim);
     let Some(sampler) = parameter(name, "sampler2D") else { return file.by_id(name, "image") };
     if let Some(image) = child(sampler, "instance_image") {
         let url = image.attribute("url")?;

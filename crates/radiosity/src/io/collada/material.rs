@@ -1,10 +1,10 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
-use super::super::surface::Finish;
-use super::super::{Error, Fault};
-use super::file::{File, Node, child, children, descend};
+use super::file::{File, XmlNode, child, children, descend};
 use super::images::Images;
 use super::spectra::spectra;
-use crate::inspect::Finding;
+use crate::io::error::{Fault, FileError};
+use crate::io::surface::finish::Finish;
+use crate::scene::finding::Finding;
 
 /// The reflectance of a surface that says nothing, or shows a texture.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
@@ -12,11 +12,11 @@ const DEFAULT_REFLECTANCE: f64 = 0.5;
 /// The finish that `instance`, an `<instance_geometry>`, binds to `symbol`.
 pub(super) fn finish<'a>(
     file: &File<'a>,
-    instance: Node<'a>,
+    instance: XmlNode<'a>,
     symbol: Option<&str>,
     images: &mut Images,
     warnings: &mut Vec<Finding>,
-) -> Result<Finish, Error> {
+) -> Result<Finish, FileError> {
     let mut plain = |why: &str| {
         let place = file.place(instance);
         let what = format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken");
@@ -53,7 +53,7 @@ pub(super) fn finish<'a>(
 }
 
 /// The `<instance_material>` of that symbol, or, since some exporters bind nothing, the material of that id.
-fn bound<'a>(file: &File<'a>, instance: Node<'a>, symbol: &str) -> Result<Option<Node<'a>>, Error> {
+fn bound<'a>(file: &File<'a>, instance: XmlNode<'a>, symbol: &str) -> Result<Option<XmlNode<'a>>, FileError> {
     let common = descend(instance, &["bind_material", "technique_common"]);
     let mut bindings = common.into_iter().flat_map(|common| children(common, "instance_material"));
     match bindings.find(|binding| binding.attribute("symbol") == Some(symbol)) {
@@ -62,7 +62,7 @@ fn bound<'a>(file: &File<'a>, instance: Node<'a>, symbol: &str) -> Result<Option
     }
 }
 
-fn shader(effect: Node<'_>) -> Option<Node<'_>> {
+fn shader(effect: XmlNode<'_>) -> Option<XmlNode<'_>> {
     let technique = descend(effect, &["profile_COMMON", "technique"])?;
     ["lambert", "phong", "blinn", "constant"].iter().find_map(|name| child(technique, name))
 }
@@ -70,11 +70,11 @@ fn shader(effect: Node<'_>) -> Option<Node<'_>> {
 /// What a shader says of one of its colours.
 enum Slot<'a> {
     Nothing,
-    Colour(Node<'a>),
-    Texture(Node<'a>),
+    Colour(XmlNode<'a>),
+    Texture(XmlNode<'a>),
 }
 
-fn slot<'a>(effect: Node<'a>, shader: Node<'a>, name: &'static str) -> Slot<'a> {
+fn slot<'a>(effect: XmlNode<'a>, shader: XmlNode<'a>, name: &'static str) -> Slot<'a> {
     let Some(slot) = child(shader, name) else { return Slot::Nothing };
     match child(slot, "color").or_else(|| parameter(effect, slot)) {
         Some(element) => Slot::Colour(element),
@@ -84,7 +84,7 @@ fn slot<'a>(effect: Node<'a>, shader: Node<'a>, name: &'static str) -> Slot<'a> 
 
 impl<'a> Slot<'a> {
     /// The colour; 0 where there is none.
-    fn colour(&self, file: &File<'a>) -> Result<[f64; 3], Error> {
+    fn colour(&self, file: &File<'a>) -> Result<[f64; 3], FileError> {
         match self {
             Slot::Colour(element) => rgb(file, *element),
             _ => Ok([0.0; 3]),
@@ -93,7 +93,7 @@ impl<'a> Slot<'a> {
 }
 
 /// The `<float3>` or `<float4>` of the `<newparam>` that a `<param ref="…">` names.
-fn parameter<'a>(effect: Node<'a>, slot: Node<'a>) -> Option<Node<'a>> {
+fn parameter<'a>(effect: XmlNode<'a>, slot: XmlNode<'a>) -> Option<XmlNode<'a>> {
     let name = child(slot, "param")?.attribute("ref")?;
     let places = [Some(effect), child(effect, "profile_COMMON")];
     let mut parameters = places.into_iter().flatten().flat_map(|place| children(place, "newparam"));
@@ -102,7 +102,7 @@ fn parameter<'a>(effect: Node<'a>, slot: Node<'a>) -> Option<Node<'a>> {
 }
 
 /// Three numbers, or four, of which the last is opacity and left out.
-fn rgb<'a>(file: &File<'a>, element: Node<'a>) -> Result<[f64; 3], Error> {
+fn rgb<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<[f64; 3], FileError> {
     let numbers = file.numbers(element)?;
     let &[red, green, blue, ref rest @ ..] = numbers.as_slice() else {
         return Err(file.fault(element, Fault::Count { found: numbers.len(), wanted: 4 }));

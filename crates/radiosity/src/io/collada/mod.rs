@@ -1,40 +1,40 @@
-//! COLLADA 1.4 and 1.5: scenes read, and written back with light on their surfaces.
+//! COLLADA 1.4 and 1.5: reading scenes, and writing them with light on their surfaces.
 //!
 //! Read: the visual scene that `<scene>` instances, nodes with their transforms (all but `<skew>`), `<instance_node>`,
 //! `<polylist>`, `<polygons>` with holes, `<triangles>`, `<tristrips>`, `<trifans>`, materials by the diffuse colour
 //! (reflectance) and the emission colour (radiance) of their common profile, or spectra of any number of bands from an
-//! `<extra>` of this program's, perspective cameras. What is left out draws a warning. Every polygon becomes a one-sided patch; its front is the side from which it is counter-clockwise.
+//! `<extra>` of this program, perspective cameras. A warning tells what is not read. Every polygon becomes a one-sided patch;
+//! its front is the side from which it is counter-clockwise.
 //!
-//! A polygon that is not planar is split into triangles, one without area is left out, both with a warning. A node whose
-//! transform mirrors keeps its outside outside; one that flattens is left out, with a warning.
+//! A polygon that is not planar is split into triangles, and one without area is left out, both with a warning. A solid keeps
+//! its outside where a node's transform mirrors it; a node whose transform flattens it is left out, with a warning.
 mod camera;
-mod compose;
+pub(crate) mod compose;
 mod exposed;
 mod file;
 mod images;
+mod lit_mesh;
 mod material;
-mod mesh_text;
-mod model;
+pub(crate) mod model;
 mod patches;
 mod primitive;
 mod spectra;
 mod transform;
 mod walk;
 mod write;
+mod xml;
 
-use super::Error;
+use super::error::FileError;
 use crate::expose::Exposure;
-use crate::{Asset, Mesh, Scene};
-pub(crate) use compose::text;
+use crate::mesh::element::Mesh;
+use crate::scene::{Scene, asset::Asset};
+use compose::text;
 use file::{File, child};
 use glam::DVec3;
-pub(crate) use model::{Face, Material, Model};
+use model::Model;
 use std::path::Path;
 
-/// What files say they were made with.
-const TOOL: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
-
-/// The text of a COLLADA file, which a result can be written back into.
+/// The text of a COLLADA file, into which a result can be written.
 #[derive(Clone, Debug)]
 pub struct Collada {
     name: String,
@@ -45,19 +45,19 @@ impl Collada {
     /// Reads a file's text.
     ///
     /// # Errors
-    /// [`Error::Read`] when the system does not give it, [`Error::Encoding`] when it is not UTF-8.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Read`] when the file cannot be read, [`FileError::Encoding`] when it is not UTF-8.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         let name = path.display().to_string();
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self { name, text }),
-            Err(wrong) => Err(Error::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
+            Err(wrong) => Err(FileError::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
         }
     }
 
-    /// A new file of a scene, a node for each patch; its scene has the same patches. Spectra are
-    /// written as such, beside what they look like.
+    /// A new file of a scene, with a node for each patch. Read again, it has the same patches. Spectra are written as such,
+    /// beside their colours.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         Self::from_text("scene.dae", text(&Model::of(scene)))
@@ -69,7 +69,7 @@ impl Collada {
         &self.text
     }
 
-    /// Takes a text as the file `name`, which messages will show.
+    /// A text as the contents of a file; messages show its `name`.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
@@ -77,48 +77,48 @@ impl Collada {
     /// The scene: patches, cameras and warnings, in the file's units and axes.
     ///
     /// # Errors
-    /// [`Error::Xml`] and [`Error::Scene`], with the line.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError::Xml`] and [`FileError::Scene`], with the line.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
-            let walk::Walk { instances, sights, mut warnings } = walk::walk(file)?;
+            let walk::Walk { instances, camera_instances, mut warnings } = walk::walk(file)?;
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
             let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
-            let cameras = camera::cameras(file, &sights, &mut warnings)?;
+            let cameras = camera::cameras(file, &camera_instances, &mut warnings)?;
             let (bands, wavelengths) = spectra::bands(file, &patches)?;
             Ok(Scene { patches, cameras, bands, wavelengths, warnings, asset: asset(file)? })
         })
     }
 
-    /// The file's text with each lit geometry replaced by the mesh's triangles, `colours` (three per vertex of the
-    /// mesh) at their vertices, in the node's coordinates. Everything else stays byte for byte; a geometry that several
-    /// nodes instance gets a copy for each.
+    /// The file's text in which the mesh's triangles replace each lit geometry, in the node's coordinates, with `colours` (red,
+    /// green and blue for each vertex of the mesh) at their vertices. Everything else stays byte for byte. A geometry that
+    /// several nodes instance gets a copy for each.
     ///
     /// `scene` must be this file's scene and `mesh` a mesh of its patches.
     ///
     /// # Errors
     /// As [`Collada::scene`].
-    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, Error> {
-        self.with_file(|file| write::with_light(&self.text, file, &write::Light { scene, mesh, colours }))
+    pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
+        self.with_file(|file| write::with_light(&self.text, file, &write::LitScene { scene, mesh, colours }))
     }
 
-    /// The file's text with its vertex colours, taken as radiosity, exposed to intensities from 0 to 1; everything else
-    /// byte for byte. Without an exposure one is chosen: the geometric mean over the lit vertices becomes mid grey.
+    /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte
+    /// for byte. Without an exposure, the geometric mean over the lit vertices becomes mid grey.
     ///
     /// # Errors
-    /// [`Error::Xml`] and [`Error::Scene`], with the line; the latter also when no surface has vertex colours.
-    pub fn exposed(&self, exposure: Option<Exposure>) -> Result<String, Error> {
+    /// [`FileError::Xml`] and [`FileError::Scene`], with the line; the latter also when no surface has vertex colours.
+    pub fn exposed(&self, exposure: Option<Exposure>) -> Result<String, FileError> {
         self.with_file(|file| exposed::exposed(&self.text, file, exposure))
     }
 
-    fn with_file<T>(&self, read: impl FnOnce(&File) -> Result<T, Error>) -> Result<T, Error> {
+    fn with_file<T>(&self, read: impl FnOnce(&File) -> Result<T, FileError>) -> Result<T, FileError> {
         let document = roxmltree::Document::parse(&self.text)
-            .map_err(|source| Error::Xml { file: self.name.clone(), source })?;
+            .map_err(|source| FileError::Xml { file: self.name.clone(), source })?;
         read(&File::new(&self.name, &document)?)
     }
 }
 
-fn asset(file: &File) -> Result<Asset, Error> {
+fn asset(file: &File) -> Result<Asset, FileError> {
     let asset = child(file.root, "asset");
     let axis = asset.and_then(|asset| child(asset, "up_axis")).and_then(|axis| axis.text());
     let up = match axis.map(str::trim) {

@@ -1,6 +1,6 @@
 //! A scene on its way to becoming a file: named faces and their materials.
+use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Texture};
 use crate::spectrum::Colours;
-use crate::{Asset, Camera, Patch, Scene, Texture};
 use glam::DVec3;
 use std::collections::BTreeMap;
 

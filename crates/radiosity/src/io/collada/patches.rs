@@ -1,13 +1,17 @@
 //! From instances to patches: each primitive with its material, where the node puts it.
-use super::super::surface::{MAX_PATCHES, Refusal, Surface, Surfaces, facets};
-use super::super::{Error, Fault};
 use super::file::File;
 use super::images::Images;
 use super::material::finish;
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
-use crate::inspect::Finding;
-use crate::{Origin, Patch};
+use crate::io::error::{Fault, FileError};
+use crate::io::surface::facets;
+use crate::io::surface::finish::Surface;
+use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
+use crate::scene::{
+    finding::Finding,
+    patch::{Origin, Patch},
+};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -17,7 +21,7 @@ pub(super) fn patches<'a>(
     instances: &[Instance<'a>],
     images: &mut Images,
     warnings: &mut Vec<Finding>,
-) -> Result<Vec<Patch>, Error> {
+) -> Result<Vec<Patch>, FileError> {
     let mut geometries = HashMap::new();
     let mut surfaces = Surfaces::default();
     for (index, instance) in instances.iter().enumerate() {
@@ -43,7 +47,7 @@ pub(super) fn patches<'a>(
     Ok(surfaces.named())
 }
 
-fn fault<'a>(file: &File<'a>, primitive: &Primitive<'a>, refusal: Refusal) -> Error {
+fn fault<'a>(file: &File<'a>, primitive: &Primitive<'a>, refusal: Refusal) -> FileError {
     let fault = match refusal {
         Refusal::TooMany => Fault::TooMany { what: "polygons", limit: MAX_PATCHES },
         Refusal::Shape { polygon, source } => Fault::Shape { polygon, source },

@@ -1,15 +1,15 @@
 //! A geometry's polygons: positions through sources and accessors, loops through the primitives' indices.
-use super::super::surface::{Corner, Polygon};
-use super::super::{Error, Fault};
-use super::file::{File, Node, child, children, descend};
-use crate::inspect::Finding;
+use super::file::{File, XmlNode, child, children, descend};
+use crate::io::error::{Fault, FileError};
+use crate::io::surface::polygon::{Corner, Polygon};
+use crate::scene::finding::Finding;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 /// A `<polylist>`, `<triangles>`, …: polygons of one material.
 pub(super) struct Primitive<'a> {
-    pub(super) element: Node<'a>,
+    pub(super) element: XmlNode<'a>,
     /// The symbol that the instance binds to a material.
     pub(super) material: Option<&'a str>,
     /// In the geometry's coordinates.
@@ -21,9 +21,9 @@ pub(super) struct Primitive<'a> {
 /// The primitives of a geometry that have area, and warnings about what has none.
 pub(super) fn primitives<'a>(
     file: &File<'a>,
-    geometry: Node<'a>,
+    geometry: XmlNode<'a>,
     warnings: &mut Vec<Finding>,
-) -> Result<Vec<Primitive<'a>>, Error> {
+) -> Result<Vec<Primitive<'a>>, FileError> {
     let Some(mesh) = child(geometry, "mesh") else {
         let what = format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry));
         warnings.push(Finding::of_file(what, "turn it into a mesh"));
@@ -45,7 +45,7 @@ pub(super) fn primitives<'a>(
 }
 
 /// The primitive elements of a geometry that have area, in the order of the file.
-pub(super) fn surfaces<'a>(geometry: Node<'a>) -> impl Iterator<Item = Node<'a>> {
+pub(super) fn surfaces<'a>(geometry: XmlNode<'a>) -> impl Iterator<Item = XmlNode<'a>> {
     let elements = child(geometry, "mesh").into_iter().flat_map(|mesh| mesh.children());
     elements.filter(|node| {
         matches!(node.tag_name().name(), "polylist" | "polygons" | "triangles" | "tristrips" | "trifans")
@@ -54,9 +54,9 @@ pub(super) fn surfaces<'a>(geometry: Node<'a>) -> impl Iterator<Item = Node<'a>>
 
 fn polygons<'a>(
     file: &File<'a>,
-    element: Node<'a>,
-    sources: &mut HashMap<Node<'a>, Vec<DVec3>>,
-) -> Result<Vec<Polygon>, Error> {
+    element: XmlNode<'a>,
+    sources: &mut HashMap<XmlNode<'a>, Vec<DVec3>>,
+) -> Result<Vec<Polygon>, FileError> {
     let Some(layout) = layout(file, element)? else { return Ok(Vec::new()) };
     let positions = match sources.entry(layout.source) {
         Entry::Occupied(known) => known.into_mut(),
@@ -64,7 +64,7 @@ fn polygons<'a>(
     };
     let places = layout.places.map(|(source, offset)| Ok((rows(file, source, 2)?, offset))).transpose()?;
     let normals = layout.normals.map(|(source, offset)| Ok((rows(file, source, 3)?, offset))).transpose()?;
-    let points = Points { file, layout: &layout, positions, places, normals };
+    let points = Vertices { file, layout: &layout, positions, places, normals };
     let outlines = |rings: Vec<Vec<Corner>>| rings.into_iter().map(|ring| vec![ring]);
     let mut all = Vec::new();
     match element.tag_name().name() {
@@ -85,13 +85,13 @@ fn polygons<'a>(
 struct Layout<'a> {
     stride: usize,
     offset: usize,
-    source: Node<'a>,
-    places: Option<(Node<'a>, usize)>,
-    normals: Option<(Node<'a>, usize)>,
+    source: XmlNode<'a>,
+    places: Option<(XmlNode<'a>, usize)>,
+    normals: Option<(XmlNode<'a>, usize)>,
 }
 
 /// `None` for a primitive without any input: it has no polygons either.
-fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, Error> {
+fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>>, FileError> {
     let (mut stride, mut vertex, mut places, mut normals) = (0, None, None, None);
     for input in children(element, "input") {
         let offset = file.whole_attribute(input, "offset", 0)?;
@@ -128,7 +128,7 @@ fn layout<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<Layout<'a>>, 
 }
 
 /// The rows of a source, of two or three numbers each, through its accessor where it has one; the third of two is 0.
-fn rows<'a>(file: &File<'a>, source: Node<'a>, width: usize) -> Result<Vec<DVec3>, Error> {
+fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Result<Vec<DVec3>, FileError> {
     let array = file.child(source, "float_array")?;
     let Some(accessor) = descend(source, &["technique_common", "accessor"]) else {
         return points(file, array, [width, width], 0, None);
@@ -150,11 +150,11 @@ fn rows<'a>(file: &File<'a>, source: Node<'a>, width: usize) -> Result<Vec<DVec3
 /// As many points as `count` says, or as the array holds.
 fn points<'a>(
     file: &File<'a>,
-    array: Node<'a>,
+    array: XmlNode<'a>,
     [width, stride]: [usize; 2],
     offset: usize,
     count: Option<usize>,
-) -> Result<Vec<DVec3>, Error> {
+) -> Result<Vec<DVec3>, FileError> {
     let numbers = file.numbers(array)?;
     let short = |wanted| file.fault(array, Fault::Count { found: numbers.len(), wanted });
     let values = numbers.get(offset..).ok_or_else(|| short(offset))?;
@@ -170,7 +170,7 @@ fn points<'a>(
 }
 
 /// Turns index lists into points.
-struct Points<'f, 'a> {
+struct Vertices<'f, 'a> {
     file: &'f File<'a>,
     layout: &'f Layout<'a>,
     positions: &'f [DVec3],
@@ -178,9 +178,9 @@ struct Points<'f, 'a> {
     normals: Option<(Vec<DVec3>, usize)>,
 }
 
-impl<'a> Points<'_, 'a> {
+impl<'a> Vertices<'_, 'a> {
     /// The points of a `<p>` or `<h>`.
-    fn ring(&self, p: Node<'a>) -> Result<Vec<Corner>, Error> {
+    fn ring(&self, p: XmlNode<'a>) -> Result<Vec<Corner>, FileError> {
         let indices = self.file.wholes(p)?;
         let stride = self.layout.stride;
         if indices.len() % stride != 0 {
@@ -190,7 +190,7 @@ impl<'a> Points<'_, 'a> {
         indices.chunks(stride).map(|vertex| self.corner(p, vertex)).collect()
     }
 
-    fn corner(&self, p: Node<'a>, vertex: &[usize]) -> Result<Corner, Error> {
+    fn corner(&self, p: XmlNode<'a>, vertex: &[usize]) -> Result<Corner, FileError> {
         let row = |rows: &[DVec3], index: usize| {
             let found = rows.get(index).copied();
             found.ok_or_else(|| self.file.fault(p, Fault::Index { index, len: rows.len() }))
@@ -208,9 +208,9 @@ impl<'a> Points<'_, 'a> {
 
 fn polylist<'a>(
     file: &File<'a>,
-    element: Node<'a>,
-    points: &Points<'_, 'a>,
-) -> Result<Vec<Vec<Corner>>, Error> {
+    element: XmlNode<'a>,
+    points: &Vertices<'_, 'a>,
+) -> Result<Vec<Vec<Corner>>, FileError> {
     let Some(p) = child(element, "p") else { return Ok(Vec::new()) };
     let counts = file.wholes(file.child(element, "vcount")?)?;
     let ring = points.ring(p)?;
@@ -229,9 +229,9 @@ fn polylist<'a>(
 
 fn with_holes<'a>(
     file: &File<'a>,
-    element: Node<'a>,
-    points: &Points<'_, 'a>,
-) -> Result<Vec<Polygon>, Error> {
+    element: XmlNode<'a>,
+    points: &Vertices<'_, 'a>,
+) -> Result<Vec<Polygon>, FileError> {
     let mut all = Vec::new();
     for polygon in element.children() {
         match polygon.tag_name().name() {
@@ -250,10 +250,10 @@ fn with_holes<'a>(
 /// The triangles of a list, a strip (every second one turned) or a fan.
 fn triangles<'a>(
     file: &File<'a>,
-    p: Node<'a>,
+    p: XmlNode<'a>,
     tag: &str,
     ring: &[Corner],
-) -> Result<Vec<Vec<Corner>>, Error> {
+) -> Result<Vec<Vec<Corner>>, FileError> {
     if tag == "triangles" {
         if ring.len() % 3 != 0 {
             let wanted = ring.len().next_multiple_of(3);

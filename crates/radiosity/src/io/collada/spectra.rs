@@ -12,16 +12,16 @@
 //!   <extra><technique profile="radiosity"><wavelengths>400 404 …</wavelengths></technique></extra>   <!-- in nm -->
 //! </COLLADA>
 //! ```
-use super::super::surface::Spectra;
-use super::super::{Error, Fault};
-use super::file::{File, Node, child, children};
-use crate::Patch;
+use super::file::{File, XmlNode, child, children};
+use crate::io::error::{Fault, FileError};
+use crate::io::surface::finish::Spectra;
+use crate::scene::patch::Patch;
 
 /// What technique is this program's.
 pub(super) const PROFILE: &str = "radiosity";
 
 /// What an effect says of its bands; nothing where it has but colours.
-pub(super) fn spectra<'a>(file: &File<'a>, effect: Node<'a>) -> Result<Option<Spectra>, Error> {
+pub(super) fn spectra<'a>(file: &File<'a>, effect: XmlNode<'a>) -> Result<Option<Spectra>, FileError> {
     let Some(own) = own(effect) else { return Ok(None) };
     let reflectance = values(file, file.child(own, "reflectance")?)?;
     let Some(element) = child(own, "emission") else {
@@ -38,7 +38,7 @@ pub(super) fn spectra<'a>(file: &File<'a>, effect: Node<'a>) -> Result<Option<Sp
 
 /// How many bands the patches have, and their wavelengths. A patch of fewer bands than the others is refused by the
 /// solver, by its name.
-pub(super) fn bands<'a>(file: &File<'a>, patches: &[Patch]) -> Result<(usize, Vec<f64>), Error> {
+pub(super) fn bands<'a>(file: &File<'a>, patches: &[Patch]) -> Result<(usize, Vec<f64>), FileError> {
     let bands = patches.iter().map(|patch| patch.reflectance.len()).max().unwrap_or(3);
     let Some(element) = own(file.root).and_then(|own| child(own, "wavelengths")) else {
         return Ok((bands, Vec::new()));
@@ -51,13 +51,13 @@ pub(super) fn bands<'a>(file: &File<'a>, patches: &[Patch]) -> Result<(usize, Ve
 }
 
 /// This program's technique among an element's extras.
-fn own<'a>(element: Node<'a>) -> Option<Node<'a>> {
+fn own<'a>(element: XmlNode<'a>) -> Option<XmlNode<'a>> {
     let techniques = children(element, "extra").flat_map(|extra| children(extra, "technique"));
     techniques.into_iter().find(|technique| technique.attribute("profile") == Some(PROFILE))
 }
 
 /// One number or more, none below 0.
-fn values<'a>(file: &File<'a>, element: Node<'a>) -> Result<Vec<f64>, Error> {
+fn values<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Vec<f64>, FileError> {
     let numbers = file.numbers(element)?;
     if numbers.is_empty() {
         return Err(file.fault(element, Fault::Count { found: 0, wanted: 1 }));

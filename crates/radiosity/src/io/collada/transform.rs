@@ -1,12 +1,12 @@
 //! A node's own transform: the product of its transformation elements, in their order.
-use super::super::{Error, Fault};
-use super::file::{File, Node};
+use super::file::{File, XmlNode};
+use crate::io::error::{Fault, FileError};
 use glam::{DMat3, DMat4, DVec3};
 
 /// From the node's coordinates to those of its parent.
-pub(super) fn local<'a>(file: &File<'a>, node: Node<'a>) -> Result<DMat4, Error> {
+pub(super) fn local<'a>(file: &File<'a>, node: XmlNode<'a>) -> Result<DMat4, FileError> {
     let mut product = DMat4::IDENTITY;
-    for element in node.children().filter(Node::is_element) {
+    for element in node.children().filter(XmlNode::is_element) {
         if let Some(factor) = factor(file, element)? {
             product *= factor;
         }
@@ -14,7 +14,7 @@ pub(super) fn local<'a>(file: &File<'a>, node: Node<'a>) -> Result<DMat4, Error>
     Ok(product)
 }
 
-fn factor<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<DMat4>, Error> {
+fn factor<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<DMat4>, FileError> {
     Ok(Some(match element.tag_name().name() {
         "matrix" => matrix(file, element)?,
         "translate" => DMat4::from_translation(file.array(element)?.into()),
@@ -27,7 +27,7 @@ fn factor<'a>(file: &File<'a>, element: Node<'a>) -> Result<Option<DMat4>, Error
 }
 
 /// Sixteen numbers, row by row.
-fn matrix<'a>(file: &File<'a>, element: Node<'a>) -> Result<DMat4, Error> {
+fn matrix<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<DMat4, FileError> {
     let rows = file.array::<16>(element)?;
     if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(file.fault(element, Fault::Projective));
@@ -36,7 +36,7 @@ fn matrix<'a>(file: &File<'a>, element: Node<'a>) -> Result<DMat4, Error> {
 }
 
 /// An axis and an angle in degrees.
-fn rotate<'a>(file: &File<'a>, element: Node<'a>) -> Result<DMat4, Error> {
+fn rotate<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<DMat4, FileError> {
     let [x, y, z, degrees] = file.array(element)?;
     let axis = direction(file, element, DVec3::new(x, y, z))?;
     let (sine, cosine) = sine_cosine(degrees);
@@ -59,7 +59,7 @@ fn sine_cosine(degrees: f64) -> (f64, f64) {
 }
 
 /// Eye, point of interest and up: the node stands at the eye and looks along its −z.
-fn look_at<'a>(file: &File<'a>, element: Node<'a>) -> Result<DMat4, Error> {
+fn look_at<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<DMat4, FileError> {
     let [ex, ey, ez, ix, iy, iz, ux, uy, uz] = file.array(element)?;
     let eye = DVec3::new(ex, ey, ez);
     let back = direction(file, element, eye - DVec3::new(ix, iy, iz))?;
@@ -69,6 +69,6 @@ fn look_at<'a>(file: &File<'a>, element: Node<'a>) -> Result<DMat4, Error> {
     Ok(DMat4::from_translation(eye) * DMat4::from_mat3(turn))
 }
 
-fn direction<'a>(file: &File<'a>, element: Node<'a>, vector: DVec3) -> Result<DVec3, Error> {
+fn direction<'a>(file: &File<'a>, element: XmlNode<'a>, vector: DVec3) -> Result<DVec3, FileError> {
     vector.try_normalize().ok_or_else(|| file.fault(element, Fault::Axis))
 }

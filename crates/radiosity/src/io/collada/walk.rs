@@ -1,8 +1,8 @@
 //! The visual scene, walked: every geometry and camera with its transform.
-use super::super::{Error, Fault};
-use super::file::{File, Node, child, children};
+use super::file::{File, XmlNode, child, children};
 use super::transform;
-use crate::inspect::Finding;
+use crate::io::error::{Fault, FileError};
+use crate::scene::finding::Finding;
 use glam::DMat4;
 
 /// Nodes entered while walking; instances of instances can multiply without bound.
@@ -13,34 +13,34 @@ const MAX_NESTING: usize = 64;
 /// A node entered: itself, its transform to the world, and the `<instance_node>`s that led here, outermost first.
 #[derive(Clone)]
 pub(super) struct Visit<'a> {
-    pub(super) node: Node<'a>,
+    pub(super) node: XmlNode<'a>,
     pub(super) world: DMat4,
-    pub(super) via: Vec<Node<'a>>,
+    pub(super) via: Vec<XmlNode<'a>>,
 }
 
 /// An `<instance_geometry>` met on the way.
 pub(super) struct Instance<'a> {
     pub(super) visit: Visit<'a>,
-    pub(super) element: Node<'a>,
-    pub(super) geometry: Node<'a>,
+    pub(super) element: XmlNode<'a>,
+    pub(super) geometry: XmlNode<'a>,
 }
 
 /// An `<instance_camera>` met on the way.
-pub(super) struct Sight<'a> {
+pub(super) struct CameraInstance<'a> {
     pub(super) visit: Visit<'a>,
-    pub(super) camera: Node<'a>,
+    pub(super) camera: XmlNode<'a>,
 }
 
 /// What the walk met, in the order of the file, and what it had to say.
 #[derive(Default)]
 pub(super) struct Walk<'a> {
     pub(super) instances: Vec<Instance<'a>>,
-    pub(super) sights: Vec<Sight<'a>>,
+    pub(super) camera_instances: Vec<CameraInstance<'a>>,
     pub(super) warnings: Vec<Finding>,
 }
 
 /// Walks the scene's nodes in document order.
-pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, Error> {
+pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, FileError> {
     let mut walk = Walk::default();
     let scene = visual_scene(file, &mut walk.warnings)?;
     let mut stack: Vec<Visit> = Vec::new();
@@ -66,9 +66,9 @@ pub(super) fn walk<'a>(file: &File<'a>) -> Result<Walk<'a>, Error> {
 }
 
 /// The visual scene that `<scene>` instances; where it instances none, the first. One of several draws a warning.
-fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<Node<'a>, Error> {
+fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<XmlNode<'a>, FileError> {
     let libraries = children(file.root, "library_visual_scenes");
-    let all: Vec<Node> = libraries.flat_map(|library| children(library, "visual_scene")).collect();
+    let all: Vec<XmlNode> = libraries.flat_map(|library| children(library, "visual_scene")).collect();
     let instance = child(file.root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
     let scene = match instance {
         Some(instance) => file.target(instance, "url", "visual_scene")?,
@@ -84,8 +84,8 @@ fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<Node
     Ok(scene)
 }
 
-fn push_nodes<'a>(parent: Node<'a>, world: &DMat4, via: &[Node<'a>], stack: &mut Vec<Visit<'a>>) {
-    let below = |child: &Node| matches!(child.tag_name().name(), "node" | "instance_node");
+fn push_nodes<'a>(parent: XmlNode<'a>, world: &DMat4, via: &[XmlNode<'a>], stack: &mut Vec<Visit<'a>>) {
+    let below = |child: &XmlNode| matches!(child.tag_name().name(), "node" | "instance_node");
     let inner = parent.children().rev().filter(below);
     stack.extend(inner.map(|node| Visit { node, world: *world, via: via.to_vec() }));
 }
@@ -93,10 +93,10 @@ fn push_nodes<'a>(parent: Node<'a>, world: &DMat4, via: &[Node<'a>], stack: &mut
 /// Steps through an `<instance_node>`: endless nesting must pass one of them twice.
 fn enter<'a>(
     file: &File<'a>,
-    door: Node<'a>,
+    door: XmlNode<'a>,
     world: DMat4,
-    mut via: Vec<Node<'a>>,
-) -> Result<Visit<'a>, Error> {
+    mut via: Vec<XmlNode<'a>>,
+) -> Result<Visit<'a>, FileError> {
     if via.contains(&door) {
         return Err(file.fault(door, Fault::Cycle));
     }
@@ -107,8 +107,8 @@ fn enter<'a>(
     Ok(Visit { node: file.target(door, "url", "node")?, world, via })
 }
 
-fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(), Error> {
-    for element in visit.node.children().filter(Node::is_element) {
+fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(), FileError> {
+    for element in visit.node.children().filter(XmlNode::is_element) {
         match element.tag_name().name() {
             "instance_geometry" => {
                 let geometry = file.target(element, "url", "geometry")?;
@@ -116,7 +116,7 @@ fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(
             }
             "instance_camera" => {
                 let camera = file.target(element, "url", "camera")?;
-                walk.sights.push(Sight { visit: visit.clone(), camera });
+                walk.camera_instances.push(CameraInstance { visit: visit.clone(), camera });
             }
             "instance_controller" => {
                 let place = file.place(element);
@@ -135,7 +135,7 @@ fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(
 }
 
 /// The name of a node: its name, else its id, else `otherwise`.
-pub(super) fn name_of<'a>(node: Node<'a>, otherwise: &'a str) -> &'a str {
+pub(super) fn name_of<'a>(node: XmlNode<'a>, otherwise: &'a str) -> &'a str {
     let named = |attribute| node.attribute(attribute).map(str::trim).filter(|name| !name.is_empty());
     named("name").or_else(|| named("id")).unwrap_or(otherwise)
 }

@@ -3,25 +3,26 @@
 //! Each lit `<instance_geometry>` needs a mesh of its own. The first instance of a geometry takes the place of its
 //! `<mesh>`; each further one gets a new `<geometry>` behind it. Where an `<instance_node>` makes one
 //! `<instance_geometry>` stand for several surfaces, it is replaced by a copy of the node that it names.
-use super::super::{Error, Fault};
-use super::TOOL;
-use super::file::{File, Node, child};
-use super::mesh_text::{Group, Ids, LitMesh, escape};
+use super::file::{File, XmlNode, child};
+use super::lit_mesh::{Group, Ids, LitMesh};
 use super::primitive::surfaces;
 use super::walk::{Instance, walk};
-use crate::{Mesh, Scene, Texture};
+use super::xml::{TOOL, escape};
+use crate::io::error::{Fault, FileError};
+use crate::mesh::element::Mesh;
+use crate::scene::{Scene, texture::Texture};
 use glam::DVec2;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 
 /// What is drawn onto the file.
-pub(super) struct Light<'s> {
+pub(super) struct LitScene<'s> {
     pub(super) scene: &'s Scene,
     pub(super) mesh: &'s Mesh,
     pub(super) colours: &'s [[f64; 3]],
 }
 
-impl Light<'_> {
+impl LitScene<'_> {
     /// The picture on the patch of an element.
     fn texture(&self, element: usize) -> Option<&Texture> {
         self.scene.patches[self.mesh.elements[element].patch].texture.as_ref()
@@ -29,12 +30,12 @@ impl Light<'_> {
 }
 
 /// The doors (`<instance_node>`s) that were opened into copies to come to a place; none for the file's own text.
-type Path<'a> = Vec<Node<'a>>;
+type Path<'a> = Vec<XmlNode<'a>>;
 
 /// New text for a range of the old.
 type Edit = (Range<usize>, String);
 
-pub(super) fn with_light<'a>(text: &str, file: &File<'a>, light: &Light) -> Result<String, Error> {
+pub(super) fn with_light<'a>(text: &str, file: &File<'a>, light: &LitScene) -> Result<String, FileError> {
     let instances = walk(file)?.instances;
     let elements = elements_of(&instances, light);
     let lit: Vec<usize> = (0..instances.len()).filter(|index| !elements[*index].is_empty()).collect();
@@ -63,7 +64,7 @@ pub(super) fn with_light<'a>(text: &str, file: &File<'a>, light: &Light) -> Resu
 }
 
 /// The mesh's elements of each instance, by primitive.
-fn elements_of(instances: &[Instance], light: &Light) -> Vec<BTreeMap<usize, Vec<usize>>> {
+fn elements_of(instances: &[Instance], light: &LitScene) -> Vec<BTreeMap<usize, Vec<usize>>> {
     let mut all = vec![BTreeMap::<usize, Vec<usize>>::new(); instances.len()];
     for (index, element) in light.mesh.elements.iter().enumerate() {
         let origin = light.scene.patches[element.patch].origin;
@@ -74,8 +75,8 @@ fn elements_of(instances: &[Instance], light: &Light) -> Vec<BTreeMap<usize, Vec
 
 /// The `<instance_node>`s on the way to an `<instance_geometry>` that is met more than once. Such a door's outer doors are
 /// copied too, since they lead to the same element.
-fn copied_doors<'a>(instances: &[Instance<'a>], lit: &[usize]) -> HashSet<Node<'a>> {
-    let mut met: HashMap<Node, usize> = HashMap::new();
+fn copied_doors<'a>(instances: &[Instance<'a>], lit: &[usize]) -> HashSet<XmlNode<'a>> {
+    let mut met: HashMap<XmlNode, usize> = HashMap::new();
     for index in lit {
         *met.entry(instances[*index].element).or_default() += 1;
     }
@@ -84,10 +85,10 @@ fn copied_doors<'a>(instances: &[Instance<'a>], lit: &[usize]) -> HashSet<Node<'
 }
 
 /// The instance's triangles in its node's coordinates.
-fn lit_mesh(instance: &Instance, elements: &BTreeMap<usize, Vec<usize>>, light: &Light) -> LitMesh {
+fn lit_mesh(instance: &Instance, elements: &BTreeMap<usize, Vec<usize>>, light: &LitScene) -> LitMesh {
     let world = instance.visit.world;
     let (inverse, mirrored) = (world.inverse(), world.determinant() < 0.0);
-    let surfaces: Vec<Node> = surfaces(instance.geometry).collect();
+    let surfaces: Vec<XmlNode> = surfaces(instance.geometry).collect();
     let (mut mesh, mut places) = (LitMesh::default(), HashMap::new());
     let textured = elements.values().flatten().any(|element| light.texture(*element).is_some());
     for (primitive, elements) in elements {
@@ -121,7 +122,7 @@ struct Splice<'t, 'f, 'a> {
     /// By the copy that they are made in.
     edits: HashMap<Path<'a>, Vec<Edit>>,
     /// The doors that are replaced by copies, by the copy (or the file's own text) that they stand in.
-    doors: HashMap<Path<'a>, Vec<Node<'a>>>,
+    doors: HashMap<Path<'a>, Vec<XmlNode<'a>>>,
     /// New ids.
     used: HashSet<String>,
     /// The next number to try behind a stem.
@@ -130,7 +131,7 @@ struct Splice<'t, 'f, 'a> {
 
 impl<'a> Splice<'_, '_, 'a> {
     /// Opens the doors that are to be copied; returns the copy in which the instance behind them stands.
-    fn open(&mut self, via: &[Node<'a>], copied: &HashSet<Node<'a>>) -> Path<'a> {
+    fn open(&mut self, via: &[XmlNode<'a>], copied: &HashSet<XmlNode<'a>>) -> Path<'a> {
         // What stands behind a door that is not copied is met once, and edited in the file's own text.
         if !via.last().is_some_and(|door| copied.contains(door)) {
             return Vec::new();
@@ -161,7 +162,7 @@ impl<'a> Splice<'_, '_, 'a> {
         self.edits.entry(path).or_default().push((range, text));
     }
 
-    fn replace_mesh(&mut self, instance: &Instance<'a>, mesh: &LitMesh) -> Result<(), Error> {
+    fn replace_mesh(&mut self, instance: &Instance<'a>, mesh: &LitMesh) -> Result<(), FileError> {
         let old = self.file.child(instance.geometry, "mesh")?;
         let ids = self.ids(self.file.attribute(instance.geometry, "id")?);
         self.edit(Vec::new(), old.range(), mesh.text(&ids));
@@ -169,7 +170,12 @@ impl<'a> Splice<'_, '_, 'a> {
     }
 
     /// A new geometry behind the old one, and the instance pointed at it.
-    fn add_geometry(&mut self, instance: &Instance<'a>, mesh: &LitMesh, path: Path<'a>) -> Result<(), Error> {
+    fn add_geometry(
+        &mut self,
+        instance: &Instance<'a>,
+        mesh: &LitMesh,
+        path: Path<'a>,
+    ) -> Result<(), FileError> {
         let id = self.fresh(self.file.attribute(instance.geometry, "id")?);
         let ids = self.ids(&id);
         let end = instance.geometry.range().end;
@@ -204,7 +210,7 @@ impl<'a> Splice<'_, '_, 'a> {
     }
 
     /// The old text of a range with the edits made in the copy `path`. Nesting ends where the walk ended it.
-    fn render(&mut self, range: Range<usize>, path: &Path<'a>) -> Result<String, Error> {
+    fn render(&mut self, range: Range<usize>, path: &Path<'a>) -> Result<String, FileError> {
         let mut edits = self.edits.remove(path).unwrap_or_default();
         for door in self.doors.remove(path).unwrap_or_default() {
             let mut inner = path.clone();
@@ -218,7 +224,7 @@ impl<'a> Splice<'_, '_, 'a> {
     }
 
     /// Ids are unique in a file: those of the copied node get new ones.
-    fn rename(&mut self, node: Node<'a>, path: &Path<'a>) {
+    fn rename(&mut self, node: XmlNode<'a>, path: &Path<'a>) {
         for id in node.descendants().filter_map(|inner| inner.attribute_node("id")) {
             let fresh = self.fresh(id.value());
             self.edit(path.clone(), id.range_value(), escape(&fresh));

@@ -1,6 +1,7 @@
 //! Numbers out of buffers: every range is checked, since a file may claim anything.
-use super::super::{Error, Fault, image};
-use super::document::File;
+use super::document::GltfFile;
+use crate::image_file;
+use crate::io::error::{Fault, FileError};
 use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
 use std::path::Path;
@@ -13,13 +14,13 @@ pub(super) struct Buffers<'f> {
 
 impl<'f> Buffers<'f> {
     /// The binary chunk, `data:` addresses, and files beside the scene's.
-    pub(super) fn load(file: &'f str, gltf: &File, folder: Option<&Path>) -> Result<Self, Error> {
+    pub(super) fn load(file: &'f str, gltf: &GltfFile, folder: Option<&Path>) -> Result<Self, FileError> {
         let load = |buffer: gltf::Buffer<'_>| {
             let part = format!("buffer {}", buffer.index());
-            let fault = |fault| Error::Part { file: file.into(), part: part.clone(), fault };
+            let fault = |fault| FileError::Part { file: file.into(), part: part.clone(), fault };
             let bytes = match buffer.source() {
                 gltf::buffer::Source::Bin => gltf.blob.clone().ok_or("the file has no binary chunk".into()),
-                gltf::buffer::Source::Uri(address) => image::bytes(address, folder),
+                gltf::buffer::Source::Uri(address) => image_file::bytes(address, folder),
             };
             let bytes = bytes.map_err(|reason| fault(Fault::Missing(reason)))?;
             if bytes.len() < buffer.length() {
@@ -36,7 +37,7 @@ impl<'f> Buffers<'f> {
     }
 
     /// The bytes of a view.
-    pub(super) fn view(&self, view: &gltf::buffer::View<'_>) -> Result<&[u8], Error> {
+    pub(super) fn view(&self, view: &gltf::buffer::View<'_>) -> Result<&[u8], FileError> {
         let bytes = self.all.get(view.buffer().index()).map_or(&[][..], Vec::as_slice);
         let end = view.offset().checked_add(view.length());
         let range = end.and_then(|end| bytes.get(view.offset()..end));
@@ -52,7 +53,7 @@ impl<'f> Buffers<'f> {
         &self,
         accessor: &gltf::Accessor<'_>,
         wanted: Dimensions,
-    ) -> Result<Vec<[f64; N]>, Error> {
+    ) -> Result<Vec<[f64; N]>, FileError> {
         let fault = |fault| self.fault(format!("accessor {}", accessor.index()), fault);
         if accessor.dimensions() != wanted {
             return Err(fault(Fault::Kind("components")));
@@ -88,7 +89,7 @@ impl<'f> Buffers<'f> {
     }
 
     /// The whole numbers of an accessor.
-    pub(super) fn wholes(&self, accessor: &gltf::Accessor<'_>) -> Result<Vec<usize>, Error> {
+    pub(super) fn wholes(&self, accessor: &gltf::Accessor<'_>) -> Result<Vec<usize>, FileError> {
         Ok(self.rows::<1>(accessor, Dimensions::Scalar)?.into_iter().map(whole).collect())
     }
 
@@ -98,7 +99,7 @@ impl<'f> Buffers<'f> {
         offset: usize,
         kind: DataType,
         count: usize,
-    ) -> Result<Vec<[f64; N]>, Error> {
+    ) -> Result<Vec<[f64; N]>, FileError> {
         let bytes = self.view(view)?;
         let width = N * kind.size();
         let stride = view.stride().unwrap_or(width).max(1);
@@ -118,8 +119,8 @@ impl<'f> Buffers<'f> {
         Ok((0..count).map(row).collect())
     }
 
-    fn fault(&self, part: String, fault: Fault) -> Error {
-        Error::Part { file: self.file.into(), part, fault }
+    fn fault(&self, part: String, fault: Fault) -> FileError {
+        FileError::Part { file: self.file.into(), part, fault }
     }
 }
 

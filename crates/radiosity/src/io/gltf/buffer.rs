@@ -1,5 +1,5 @@
 //! The binary chunk, and the container around it and the document.
-use super::super::Error;
+use crate::io::error::FileError;
 use serde_json::{Value, json};
 
 const FLOAT: u32 = 5126;
@@ -70,7 +70,7 @@ pub(super) fn single(number: f64) -> f32 {
 }
 
 /// Header, JSON chunk, binary chunk, each padded to four bytes.
-pub(super) fn container(document: &Value, mut binary: Vec<u8>) -> Result<Vec<u8>, Error> {
+pub(super) fn container(document: &Value, mut binary: Vec<u8>) -> Result<Vec<u8>, FileError> {
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     binary.resize(binary.len().next_multiple_of(4), 0);
@@ -88,6 +88,6 @@ pub(super) fn container(document: &Value, mut binary: Vec<u8>) -> Result<Vec<u8>
     Ok(file)
 }
 
-fn length(bytes: usize) -> Result<[u8; 4], Error> {
-    u32::try_from(bytes).map(u32::to_le_bytes).map_err(|_| Error::Size { bytes })
+fn length(bytes: usize) -> Result<[u8; 4], FileError> {
+    u32::try_from(bytes).map(u32::to_le_bytes).map_err(|_| FileError::Size { bytes })
 }

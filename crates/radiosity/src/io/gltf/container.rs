@@ -1,13 +1,13 @@
 //! The binary container: a header, the document, one binary chunk. Every length is checked; the `gltf` crate's own reader
 //! trusts the header's.
-use super::super::{Error, Fault};
+use crate::io::error::{Fault, FileError};
 
 /// The document's text and the binary chunk of a `.glb` file; of anything else, the whole as the document.
-pub(super) fn chunks<'b>(name: &str, bytes: &'b [u8]) -> Result<(&'b [u8], Option<&'b [u8]>), Error> {
+pub(super) fn chunks<'b>(name: &str, bytes: &'b [u8]) -> Result<(&'b [u8], Option<&'b [u8]>), FileError> {
     if !bytes.starts_with(b"glTF") {
         return Ok((bytes, None));
     }
-    let fault = |part: &str, fault| Error::Part { file: name.into(), part: part.into(), fault };
+    let fault = |part: &str, fault| FileError::Part { file: name.into(), part: part.into(), fault };
     match word(bytes, 4) {
         Some(2) => {}
         version => {
@@ -27,8 +27,8 @@ pub(super) fn chunks<'b>(name: &str, bytes: &'b [u8]) -> Result<(&'b [u8], Optio
     Ok((document, Some(binary)))
 }
 
-fn short(name: &str, part: &str, found: usize) -> Error {
-    Error::Part { file: name.into(), part: part.into(), fault: Fault::Short { found } }
+fn short(name: &str, part: &str, found: usize) -> FileError {
+    FileError::Part { file: name.into(), part: part.into(), fault: Fault::Short { found } }
 }
 
 /// A chunk's kind, its bytes, and what follows it; `skipped` bytes stand before it.

@@ -1,20 +1,23 @@
 //! The document: parsed, checked by the `gltf` crate, and before that by us where the crate would panic.
-use super::super::{Error, Fault};
 use super::container::chunks;
+use crate::io::error::{Fault, FileError};
 use gltf::json::Root;
 
 /// A document and the bytes of its binary chunk.
-pub(super) struct File {
+pub(super) struct GltfFile {
     pub(super) document: gltf::Document,
     pub(super) blob: Option<Vec<u8>>,
 }
 
-pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<File, Error> {
-    let refused = |source| Error::Gltf { file: name.into(), source: Box::new(source) };
+pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<GltfFile, FileError> {
+    let refused = |source| FileError::Gltf { file: name.into(), source: Box::new(source) };
     let (text, binary) = chunks(name, bytes)?;
     let root = Root::from_slice(text).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
-    check(&root).map_err(|(part, fault)| Error::Part { file: name.into(), part, fault })?;
-    Ok(File { document: gltf::Document::from_json(root).map_err(refused)?, blob: binary.map(<[u8]>::to_vec) })
+    check(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
+    Ok(GltfFile {
+        document: gltf::Document::from_json(root).map_err(refused)?,
+        blob: binary.map(<[u8]>::to_vec),
+    })
 }
 
 /// What the crate takes for granted: the version, that attributes name accessors, and that images have a source.

@@ -1,26 +1,26 @@
-//! A lit GLB with other colours: `COLOR_0` anew from `_RADIOSITY`.
-use super::super::{Error, Fault};
+//! A lit GLB with other colours: a new `COLOR_0` from `_RADIOSITY`.
 use super::buffer::{container, single};
 use super::container::chunks;
 use crate::expose::Exposure;
+use crate::io::error::{Fault, FileError};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The bytes of a GLB file, written by this program, with its colours exposed anew; without an exposure one is chosen from
-/// the light: the geometric mean over the lit vertices becomes mid grey.
+/// The bytes of a GLB file that [`glb`](super::glb) wrote, with colours of another exposure. Without an exposure, the geometric
+/// mean over the lit vertices becomes mid grey.
 ///
 /// # Errors
-/// [`Error::Read`] and [`Error::Gltf`]; [`Error::Part`] where no primitive has `_RADIOSITY` and `COLOR_0` of three floats.
-pub fn exposed(path: impl AsRef<Path>, exposure: Option<Exposure>) -> Result<Vec<u8>, Error> {
+/// [`FileError::Read`] and [`FileError::Gltf`]; [`FileError::Part`] where no primitive has `_RADIOSITY` and `COLOR_0` of three floats.
+pub fn exposed(path: impl AsRef<Path>, exposure: Option<Exposure>) -> Result<Vec<u8>, FileError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
-    let refused = |source: gltf::Error| Error::Gltf { file: name.clone(), source: Box::new(source) };
+    let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
+    let refused = |source: gltf::Error| FileError::Gltf { file: name.clone(), source: Box::new(source) };
     let (text, binary) = chunks(&name, &bytes)?;
     let mut document: Value =
         serde_json::from_slice(text).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
     let mut binary = binary.map(<[u8]>::to_vec).unwrap_or_default();
-    let lit = lit(&document, &binary).ok_or_else(|| Error::Part {
+    let lit = lit(&document, &binary).ok_or_else(|| FileError::Part {
         file: name.clone(),
         part: "meshes".into(),
         fault: Fault::Missing("no primitive has _RADIOSITY and COLOR_0 of three floats each".into()),

@@ -1,8 +1,8 @@
 //! The lit mesh's primitives: one of all plain patches, one for each picture.
-use super::super::image::bytes;
 use super::buffer::Buffer;
-use crate::Record;
 use crate::expose::Exposure;
+use crate::image_file::bytes;
+use crate::record::Record;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -1,9 +1,8 @@
 //! What a primitive reflects and emits.
-use super::super::image;
-use super::super::surface::Finish;
 use super::accessor::Buffers;
-use crate::Image;
-use crate::inspect::Finding;
+use crate::image_file;
+use crate::io::surface::finish::Finish;
+use crate::scene::{finding::Finding, texture::Image};
 use gltf::material::AlphaMode;
 use std::collections::HashMap;
 use std::path::Path;
@@ -11,7 +10,7 @@ use std::sync::Arc;
 
 /// A material as patches need it.
 #[derive(Clone)]
-pub(super) struct Kind {
+pub(super) struct ReadMaterial {
     pub(super) finish: Finish,
     /// Which set of a picture's coordinates it uses.
     pub(super) places: u32,
@@ -22,7 +21,7 @@ pub(super) struct Kind {
 pub(super) struct Materials<'f> {
     pub(super) buffers: &'f Buffers<'f>,
     pub(super) folder: Option<&'f Path>,
-    known: HashMap<Option<usize>, Kind>,
+    known: HashMap<Option<usize>, ReadMaterial>,
     images: HashMap<usize, Option<Arc<Image>>>,
 }
 
@@ -32,7 +31,11 @@ impl<'f> Materials<'f> {
     }
 
     /// A material; its warnings are told when it is met first.
-    pub(super) fn kind(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
+    pub(super) fn kind(
+        &mut self,
+        material: &gltf::Material<'_>,
+        warnings: &mut Vec<Finding>,
+    ) -> ReadMaterial {
         if let Some(kind) = self.known.get(&material.index()) {
             return kind.clone();
         }
@@ -41,10 +44,10 @@ impl<'f> Materials<'f> {
         kind
     }
 
-    fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> Kind {
+    fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> ReadMaterial {
         let name = material.name().map_or_else(|| format!("material {:?}", material.index()), Into::into);
         let mut warn =
-            |what: &str, mend: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), mend));
+            |what: &str, repair: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), repair));
         if material.emissive_texture().is_some() {
             warn(
                 "emissive textures are not read; the emissive factor alone is taken",
@@ -64,7 +67,7 @@ impl<'f> Materials<'f> {
         let texture = surface.base_color_texture();
         let image = texture.as_ref().and_then(|info| self.image(&info.texture().source(), warnings));
         let finish = Finish { reflectance: [red, green, blue], emission, image, spectra: None };
-        Kind {
+        ReadMaterial {
             finish,
             places: texture.map_or(0, |info| info.tex_coord()),
             two_sided: material.double_sided(),
@@ -79,9 +82,9 @@ impl<'f> Materials<'f> {
         let read = match image.source() {
             gltf::image::Source::View { view, .. } => {
                 let bytes = self.buffers.view(&view).map_err(|error| error.to_string());
-                bytes.and_then(|bytes| image::decode(&name, bytes.to_vec()))
+                bytes.and_then(|bytes| image_file::decode(&name, bytes.to_vec()))
             }
-            gltf::image::Source::Uri { uri, .. } => image::fetch(uri, self.folder),
+            gltf::image::Source::Uri { uri, .. } => image_file::fetch(uri, self.folder),
         };
         let read = read.map(Arc::new).map_err(|reason| {
             let what = format!("{name}: the texture cannot be read: {reason}; its factor alone is taken");

@@ -1,9 +1,9 @@
-//! glTF 2.0, text and binary: scenes read; lit meshes written.
+//! glTF 2.0, text and binary: reading scenes and writing lit meshes.
 //!
 //! Read: the default scene's nodes with their transforms, triangles, strips and fans (those of a plane joined back to
 //! polygons), the base colour as reflectance, its texture, the emissive factor times `KHR_materials_emissive_strength` as
 //! radiance, perspective cameras. A double-sided material makes two patches of each polygon, the second one named
-//! `.back`. What is left out draws a warning. Lengths are metres, y is up.
+//! `.back`. A warning tells what is not read. Lengths are metres, y is up.
 mod accessor;
 mod buffer;
 mod container;
@@ -17,8 +17,8 @@ mod write;
 pub use exposed::exposed;
 pub use write::glb;
 
-use super::Error;
-use crate::Scene;
+use super::error::FileError;
+use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// The bytes of a `.glb` or `.gltf` file.
@@ -30,18 +30,18 @@ pub struct Gltf {
 }
 
 impl Gltf {
-    /// Reads a file; other files that it names are looked for beside it.
+    /// Reads a file. Other files that it names are read from its folder, by [`Gltf::scene`].
     ///
     /// # Errors
-    /// [`Error::Read`] when the system does not give it.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// [`FileError::Read`] when the file cannot be read.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
         let folder = path.parent().map(Into::into);
         Ok(Self { name: path.display().to_string(), bytes, folder })
     }
 
-    /// Takes bytes as the file `name`, which messages will show; it is in no folder.
+    /// Bytes as the contents of a file that is in no folder; messages show its `name`.
     pub fn from_bytes(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         Self { name: name.into(), bytes: bytes.into(), folder: None }
     }
@@ -49,8 +49,8 @@ impl Gltf {
     /// The scene: patches, cameras and warnings, in metres, y up.
     ///
     /// # Errors
-    /// [`Error::Gltf`] for what is no glTF 2.0, [`Error::Part`] for a part that cannot be taken.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    /// [`FileError::Gltf`] for bytes that are not glTF 2.0, [`FileError::Part`] for a part with a fault.
+    pub fn scene(&self) -> Result<Scene, FileError> {
         let file = document::parse(&self.name, &self.bytes)?;
         read::scene(&self.name, &file, self.folder.as_deref())
     }

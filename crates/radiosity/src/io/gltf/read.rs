@@ -1,11 +1,13 @@
 //! The default scene, walked: meshes become patches, cameras cameras.
-use super::super::surface::{Corner, MAX_PATCHES, Polygon, Refusal, Surface, Surfaces, facets};
-use super::super::{Error, Fault};
 use super::accessor::Buffers;
-use super::document::File;
+use super::document::GltfFile;
 use super::material::Materials;
-use crate::inspect::Finding;
-use crate::{Camera, Origin, Scene};
+use crate::io::error::{Fault, FileError};
+use crate::io::surface::facets;
+use crate::io::surface::finish::Surface;
+use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
+use crate::io::surface::polygon::{Corner, Polygon};
+use crate::scene::{Scene, camera::Camera, finding::Finding, patch::Origin};
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
@@ -16,7 +18,7 @@ const MAX_NESTING: usize = 64;
 /// Nodes entered while walking.
 const MAX_NODES: usize = 1_000_000;
 
-pub(super) fn scene(file: &str, gltf: &File, folder: Option<&Path>) -> Result<Scene, Error> {
+pub(super) fn scene(file: &str, gltf: &GltfFile, folder: Option<&Path>) -> Result<Scene, FileError> {
     let buffers = Buffers::load(file, gltf, folder)?;
     let mut reader = Reader {
         file,
@@ -42,7 +44,7 @@ struct Reader<'f> {
 
 impl Reader<'_> {
     /// Depth first, in the order of the file.
-    fn walk(&mut self, gltf: &gltf::Document) -> Result<(), Error> {
+    fn walk(&mut self, gltf: &gltf::Document) -> Result<(), FileError> {
         let Some(scene) = gltf.default_scene().or_else(|| gltf.scenes().next()) else { return Ok(()) };
         if gltf.scenes().count() > 1 {
             let index = scene.index();
@@ -77,7 +79,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn meet(&mut self, node: &gltf::Node<'_>, world: DMat4) -> Result<(), Error> {
+    fn meet(&mut self, node: &gltf::Node<'_>, world: DMat4) -> Result<(), FileError> {
         let name = node.name().map(str::trim).filter(|name| !name.is_empty());
         let name = name.map_or_else(|| format!("node-{}", node.index()), Into::into);
         if let Some(camera) = node.camera() {
@@ -103,7 +105,7 @@ impl Reader<'_> {
         primitive: &gltf::Primitive<'_>,
         world: DMat4,
         instance: usize,
-    ) -> Result<(), Error> {
+    ) -> Result<(), FileError> {
         let part = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
         let place = format!("{}: {part}", self.file);
         let kind = self.materials.kind(&primitive.material(), &mut self.warnings);
@@ -134,7 +136,7 @@ impl Reader<'_> {
         primitive: &gltf::Primitive<'_>,
         set: u32,
         part: &str,
-    ) -> Result<Vec<Polygon>, Error> {
+    ) -> Result<Vec<Polygon>, FileError> {
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             let what = format!("{}: {part}: points and lines have no area; they are left out", self.file);
@@ -152,13 +154,13 @@ impl Reader<'_> {
         };
         let picks = picks(mode, indices.len());
         let triangle = |pick: [usize; 3]| {
-            Ok(vec![pick.iter().map(|&at| corner(indices[at])).collect::<Result<Vec<_>, Error>>()?])
+            Ok(vec![pick.iter().map(|&at| corner(indices[at])).collect::<Result<Vec<_>, FileError>>()?])
         };
         picks.map(triangle).collect()
     }
 
     /// Positions with the picture's coordinates and normals, where there are any.
-    fn corners(&self, primitive: &gltf::Primitive<'_>, set: u32) -> Result<Vec<Corner>, Error> {
+    fn corners(&self, primitive: &gltf::Primitive<'_>, set: u32) -> Result<Vec<Corner>, FileError> {
         let buffers = self.materials.buffers;
         let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(Vec::new()) };
         let points = buffers.rows::<3>(&positions, Dimensions::Vec3)?;
@@ -206,12 +208,12 @@ impl Reader<'_> {
         }
     }
 
-    fn warn(&mut self, what: String, mend: &str) {
-        self.warnings.push(Finding::of_file(what, mend));
+    fn warn(&mut self, what: String, repair: &str) {
+        self.warnings.push(Finding::of_file(what, repair));
     }
 
-    fn fault(&self, part: String, fault: Fault) -> Error {
-        Error::Part { file: self.file.into(), part, fault }
+    fn fault(&self, part: String, fault: Fault) -> FileError {
+        FileError::Part { file: self.file.into(), part, fault }
     }
 }
 

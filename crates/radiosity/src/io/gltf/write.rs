@@ -1,9 +1,10 @@
 //! glTF 2.0 binary: the lit mesh for any viewer.
-use super::super::Error;
 use super::buffer::{Buffer, container, single};
 use super::lit::{materials, primitives};
 use crate::expose::Exposure;
-use crate::{Asset, Camera, Record};
+use crate::io::error::FileError;
+use crate::record::Record;
+use crate::scene::{asset::Asset, camera::Camera};
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
 
@@ -14,13 +15,13 @@ const LARGEST: f64 = f32::MAX as f64;
 /// The bytes of a GLB file: one mesh with `POSITION`, `COLOR_0` (exposed, linear) and `_RADIOSITY` (red, green and blue,
 /// W/m², as it is), unlit materials, and the scene's cameras.
 ///
-/// Patches that show a picture have primitives of their own: `_IRRADIANCE` is what falls on them, times the factor of the
-/// picture's colours, and `COLOR_0` is that exposed; viewers multiply it with the picture. The root node turns the scene's
-/// up axis to y and its unit to metres. Positions are single precision, relative to the middle of the mesh.
+/// Patches with a picture have primitives of their own: `_IRRADIANCE` is the irradiance times the factor of the picture's
+/// colours, and `COLOR_0` is its exposed form, which viewers multiply with the picture. The root node turns the scene's up axis
+/// to y and its unit to metres. Positions are in single precision, relative to the middle of the mesh.
 ///
 /// # Errors
-/// [`Error::Size`] when the data do not fit into the format's 4 GiB.
-pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, Error> {
+/// [`FileError::Size`] when the data exceed the format's 4 GiB.
+pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
     let (middle, radius) = ball(&record.vertices);
     let mut buffer = Buffer::default();
     let mut document = json!({

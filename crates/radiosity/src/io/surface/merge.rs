@@ -3,19 +3,18 @@
 //! Two triangles are joined when they share an edge, run along it in opposite directions, lie in one plane exactly and
 //! on different sides of the edge. What is joined becomes a polygon, possibly with holes, only if its triangles overlap
 //! nowhere; otherwise they stay triangles. All decisions are exact, so that no gap and no overlap can arise.
-use super::{Corner, Facet, bits};
+use super::polygon::{Corner, Facet, bits};
+use crate::predicates::{is_coplanar, turn};
+use crate::union_find::UnionFind;
 use glam::{DVec2, DVec3};
 use polycsg::{FillRule, Region};
-use robust::{Coord, Coord3D};
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
-/// Beyond these magnitudes the products of the predicates leave the range of doubles: such triangles stay as they are.
-const RANGE: std::ops::Range<f64> = 1e-60..1e60;
-
-type Triangle = [Corner; 3];
+type Corners = [Corner; 3];
 
 /// The triangles, those of a plane joined, in the order of each polygon's first triangle.
-pub(super) fn merge(triangles: &[Triangle]) -> Vec<Facet> {
+pub(super) fn merge(triangles: &[Corners]) -> Vec<Facet> {
     let roots = joined(triangles);
     let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (index, root) in roots.into_iter().enumerate() {
@@ -30,30 +29,30 @@ pub(super) fn merge(triangles: &[Triangle]) -> Vec<Facet> {
     facets
 }
 
-fn single(number: usize, triangle: Triangle) -> Facet {
+fn single(number: usize, triangle: Corners) -> Facet {
     Facet { number, loops: vec![triangle.to_vec()], parts: Vec::new() }
 }
 
 /// For each triangle the first one of those that it is joined with.
-fn joined(triangles: &[Triangle]) -> Vec<usize> {
+fn joined(triangles: &[Corners]) -> Vec<usize> {
     let mut edges: HashMap<[[u64; 5]; 2], Vec<usize>> = HashMap::new();
     for (index, triangle) in triangles.iter().enumerate() {
         for side in 0..3 {
             edges.entry([key(&triangle[side]), key(&triangle[(side + 1) % 3])]).or_default().push(index);
         }
     }
-    let mut roots: Vec<usize> = (0..triangles.len()).collect();
+    let mut planes = UnionFind::new(triangles.len());
     for (index, triangle) in triangles.iter().enumerate() {
         for side in 0..3 {
             let [from, to] = [&triangle[side], &triangle[(side + 1) % 3]].map(key);
             let lone = |edge| edges.get(&edge).filter(|found| found.len() == 1).map(|found| found[0]);
             let (Some(_), Some(other)) = (lone([from, to]), lone([to, from])) else { continue };
             if is_continued(triangle, side, &triangles[other]) {
-                unite(&mut roots, index, other);
+                planes.join(index, other);
             }
         }
     }
-    (0..triangles.len()).map(|index| root(&roots, index)).collect()
+    (0..triangles.len()).map(|index| planes.first(index)).collect()
 }
 
 /// A corner as a key: its point and its place in the picture.
@@ -62,42 +61,21 @@ fn key(corner: &Corner) -> [u64; 5] {
     [x, y, z, (corner.place.x + 0.0).to_bits(), (corner.place.y + 0.0).to_bits()]
 }
 
-fn root(roots: &[usize], mut index: usize) -> usize {
-    while roots[index] != index {
-        index = roots[index];
-    }
-    index
-}
-
-/// The smaller index leads; paths are halved on the way.
-fn unite(roots: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(roots, a), root(roots, b));
-    roots[a.max(b)] = a.min(b);
-}
-
 /// Whether the other triangle, which shares this side, goes on in the same plane beyond it.
-fn is_continued(triangle: &Triangle, side: usize, other: &Triangle) -> bool {
+fn is_continued(triangle: &Corners, side: usize, other: &Corners) -> bool {
     let [a, b, c] = [0, 1, 2].map(|turn| triangle[(side + turn) % 3].point);
     let shared = [a, b].map(bits);
     let Some(apex) = other.iter().map(|corner| corner.point).find(|p| !shared.contains(&bits(*p))) else {
         return false;
     };
-    if ![a, b, c, apex].into_iter().all(in_range) || !is_coplanar([a, b, c], apex) {
+    if !is_coplanar([a, b, c], apex) {
         return false;
     }
     // Seen in a projection in which the first has area: both turn the same way.
-    let axes = axes([a, b, c]);
-    let (this, that) = (turn([a, b, c], axes), turn([b, a, apex], axes));
-    this != 0.0 && that != 0.0 && (this > 0.0) == (that > 0.0)
-}
-
-fn in_range(point: DVec3) -> bool {
-    point.to_array().iter().all(|number| *number == 0.0 || RANGE.contains(&number.abs()))
-}
-
-fn is_coplanar([a, b, c]: [DVec3; 3], d: DVec3) -> bool {
-    let [a, b, c, d] = [a, b, c, d].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
-    robust::orient3d(a, b, c, d) == 0.0
+    let [u, v] = axes([a, b, c]);
+    let seen = |corners: [DVec3; 3]| turn(corners.map(|p| DVec2::new(p[u], p[v])));
+    let this = seen([a, b, c]);
+    this != Ordering::Equal && this == seen([b, a, apex])
 }
 
 /// The two axes that remain when the normal's longest is dropped.
@@ -106,14 +84,8 @@ fn axes([a, b, c]: [DVec3; 3]) -> [usize; 2] {
     [(dropped + 1) % 3, (dropped + 2) % 3]
 }
 
-/// Positive when counter-clockwise in the two axes.
-fn turn(corners: [DVec3; 3], [u, v]: [usize; 2]) -> f64 {
-    let [a, b, c] = corners.map(|p| Coord { x: p[u], y: p[v] });
-    robust::orient2d(a, b, c)
-}
-
 /// The polygons that some joined triangles form; none when they overlap.
-fn polygons(triangles: &[Triangle], group: &[usize]) -> Option<Vec<Facet>> {
+fn polygons(triangles: &[Corners], group: &[usize]) -> Option<Vec<Facet>> {
     if group.len() == 1 {
         return None;
     }
@@ -131,15 +103,16 @@ fn polygons(triangles: &[Triangle], group: &[usize]) -> Option<Vec<Facet>> {
     let loops = whole.polygons().map(|polygon| {
         std::iter::once(polygon.outer()).chain(polygon.holes()).map(lift).collect::<Option<Vec<_>>>()
     });
-    let parts: Vec<Triangle> = group.iter().map(|&index| triangles[index]).collect();
+    let parts: Vec<Corners> = group.iter().map(|&index| triangles[index]).collect();
     loops.map(|loops| Some(Facet { number: group[0], loops: loops?, parts: parts.clone() })).collect()
 }
 
 /// The two kept axes, in the order in which the triangle is counter-clockwise.
-fn front(triangle: &Triangle) -> [usize; 2] {
+fn front(triangle: &Corners) -> [usize; 2] {
     let corners = triangle.map(|corner| corner.point);
     let [u, v] = axes(corners);
-    if turn(corners, [u, v]) > 0.0 { [u, v] } else { [v, u] }
+    let seen = corners.map(|p| DVec2::new(p[u], p[v]));
+    if turn(seen) == Ordering::Greater { [u, v] } else { [v, u] }
 }
 
 fn flat_bits(point: DVec2) -> [u64; 2] {
@@ -150,12 +123,12 @@ fn flat_bits(point: DVec2) -> [u64; 2] {
 mod tests {
     use super::*;
 
-    fn triangle(corners: [[f64; 3]; 3]) -> Triangle {
+    fn triangle(corners: [[f64; 3]; 3]) -> Corners {
         corners.map(|point| Corner { point: point.into(), ..Corner::default() })
     }
 
     /// The outlines' and holes' numbers of vertices.
-    fn shapes(triangles: Vec<Triangle>) -> Vec<Vec<usize>> {
+    fn shapes(triangles: Vec<Corners>) -> Vec<Vec<usize>> {
         merge(&triangles).iter().map(|facet| facet.loops.iter().map(Vec::len).collect()).collect()
     }
 

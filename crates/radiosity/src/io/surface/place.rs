@@ -1,9 +1,14 @@
 //! Into the world: transformed, checked, split where needed, named.
+use super::finish::{Finish, Spectra, Surface};
+use super::flaws::Flaws;
+use super::polygon::{Corner, Facet, Polygon, bits};
 use super::split::split;
-use super::warn::Flaws;
-use super::{Corner, Facet, Finish, Polygon, Spectra, Surface, bits};
-use crate::inspect::Finding;
-use crate::{Origin, Patch, Texture};
+use crate::scene::{
+    finding::Finding,
+    patch::{Origin, Patch},
+    texture::Texture,
+};
+use crate::union_find::UnionFind;
 use formfactor::PlanarPolygon;
 use glam::{DMat4, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -95,22 +100,15 @@ impl Surfaces {
 
     /// For each facet the number of its smoothing group: facets that share a vertex and the normal there.
     fn smoothing(&mut self, facets: &[Facet]) -> Vec<Option<usize>> {
-        let mut leaders: Vec<usize> = (0..facets.len()).collect();
-        let lead = |leaders: &[usize], mut index: usize| {
-            while leaders[index] != index {
-                index = leaders[index];
-            }
-            index
-        };
+        let mut groups = UnionFind::new(facets.len());
         let mut first = HashMap::new();
         for (index, facet) in facets.iter().enumerate() {
             for corner in facet.loops.iter().flatten().filter(|corner| corner.normal != DVec3::ZERO) {
                 let known = *first.entry((bits(corner.point), bits(corner.normal))).or_insert(index);
-                let (a, b) = (lead(&leaders, known), lead(&leaders, index));
-                leaders[a.max(b)] = a.min(b);
+                groups.join(known, index);
             }
         }
-        let leaders: Vec<usize> = (0..facets.len()).map(|index| lead(&leaders, index)).collect();
+        let leaders: Vec<usize> = (0..facets.len()).map(|index| groups.first(index)).collect();
         let mut sizes = vec![0; facets.len()];
         leaders.iter().for_each(|&leader| sizes[leader] += 1);
         let base = self.groups;

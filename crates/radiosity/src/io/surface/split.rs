@@ -1,5 +1,6 @@
 //! A polygon cut into triangles: one that is not planar, since they always are, or one that shows a picture.
-use super::{Corner, Polygon};
+use super::polygon::{Corner, Polygon};
+use crate::predicates::ray_crosses;
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
@@ -18,7 +19,8 @@ pub(super) fn split(loops: &Polygon) -> Vec<[Corner; 3]> {
     let triangles = mesh.inner_faces().filter_map(|face| {
         let corners = face.vertices().map(|vertex| vertex.data().corner);
         let centre = corners.iter().map(flat).sum::<DVec2>() / 3.0;
-        inside(centre, &edges).then_some(corners)
+        let crossed = edges.iter().filter(|edge| ray_crosses(centre, **edge));
+        (crossed.count() % 2 == 1).then_some(corners)
     });
     triangles.collect()
 }
@@ -55,17 +57,6 @@ fn constrain(
 
 fn edges(ring: &[Corner], flat: impl Fn(&Corner) -> DVec2) -> impl Iterator<Item = [DVec2; 2]> {
     (0..ring.len()).map(move |index| [flat(&ring[index]), flat(&ring[(index + 1) % ring.len()])])
-}
-
-/// Whether a point away from the edges is inside an odd number of loops: crossings of the ray to the right.
-fn inside(point: DVec2, edges: &[[DVec2; 2]]) -> bool {
-    let crossed = edges.iter().filter(|[a, b]| {
-        (a.y > point.y) != (b.y > point.y) && {
-            let side = (*b - *a).perp_dot(point - *a);
-            (side > 0.0) == (b.y > a.y)
-        }
-    });
-    crossed.count() % 2 == 1
 }
 
 fn newell(ring: &[Corner]) -> DVec3 {

@@ -1,0 +1,180 @@
+//! A convex target as dA sees it, and the half-spaces in which something must be to hide any of it.
+use super::clip::clip;
+use super::cone::{Corner, ERROR, Edge, Place, UNDERFLOW, faces, size};
+use super::corners::{copy, deviation_error};
+use crate::exact::deviation;
+use crate::numeric::predicates::{over_horizon, place, turn};
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::extent::Extent;
+use crate::shapes::polygon::PlanarPolygon;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// A convex target as dA sees it, cut off at the horizon.
+#[derive(Debug)]
+pub(crate) struct Target<'a> {
+    pub(super) from: &'a DifferentialArea,
+    pub(super) to: &'a PlanarPolygon,
+    pub(super) edges: &'a [Edge],
+    /// The half-spaces in which a part of an occluder must be to hide any of the target.
+    sides: &'a [Side],
+    /// A bound on the form factor of what its vertices' deviation leaves open.
+    pub(super) error: f64,
+}
+
+/// A half-space around dA: normal . p + shift >= 0, known within `error` by the size of p, and `least`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    normal: DVec3,
+    shift: f64,
+    error: f64,
+    least: f64,
+}
+
+impl Side {
+    /// The side of a target's plane that it faces.
+    fn before(to: &PlanarPolygon, origin: DVec3) -> Self {
+        let (normal, anchor) = (to.plane().rounded(), to.plane().corners[0] - origin);
+        let error = ERROR * normal.abs().max_element();
+        Self { normal, shift: -normal.dot(anchor), error, least: error * size(anchor) + UNDERFLOW }
+    }
+
+    fn above(from: &DifferentialArea) -> Self {
+        let normal = from.given_normal();
+        Self { normal, shift: 0.0, error: ERROR * normal.abs().max_element(), least: UNDERFLOW }
+    }
+
+    fn within(edge: &Edge) -> Self {
+        Self { normal: edge.inward, shift: 0.0, error: edge.errors.max_element(), least: UNDERFLOW }
+    }
+
+    /// Whether a point is outside for certain, from the product with the normal and its size.
+    fn is_out(&self, product: f64, size: f64) -> bool {
+        product + self.shift < -self.error * size - self.least
+    }
+
+    /// Where a point lies that may be off by some distance; `more` is that distance as an addition to the point's size.
+    fn place(&self, point: DVec3, more: f64) -> Place {
+        let (product, size) = (self.normal.dot(point), size(point) + more);
+        let (height, margin) = (product + self.shift, self.error * size + self.least);
+        if height > margin {
+            Place::Inside
+        } else if height < -margin {
+            Place::Outside
+        } else {
+            Place::Open
+        }
+    }
+}
+
+/// The sides that come before those of the edges: the target's plane and the horizon.
+const BEFORE_EDGES: usize = 2;
+
+/// What keeps a polygon from hiding anything of a target.
+#[derive(Debug)]
+pub(super) enum Apart<'t> {
+    /// It lies outside of a side for certain.
+    Outside,
+    /// It touches the side of an edge from outside.
+    Touching(&'t Edge),
+}
+
+/// Turns a distance into an addition to a vector's size that allows for as large an error; the factor 3 is for the sum of three
+/// components.
+const INVERSE: f64 = 3.0 / ERROR;
+
+impl<'a> Target<'a> {
+    /// `None` when it is not convex, or where doubles leave open whether it is seen.
+    pub(super) fn new(
+        from: &'a DifferentialArea,
+        to: &'a PlanarPolygon,
+        [corners, spare]: &mut [Vec<Corner>; 2],
+        edges: &'a mut Vec<Edge>,
+        sides: &'a mut Vec<Side>,
+    ) -> Option<Self> {
+        let (origin, normal) = (from.position(), from.given_normal());
+        if !to.is_convex() || to.plane().quick_side(origin) != Some(Ordering::Greater) {
+            return None;
+        }
+        copy(to, false, corners);
+        let height = |c: &Corner| place(normal, origin, c.at);
+        if corners.iter().any(|c| height(c) == Ordering::Less) {
+            let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
+            clip(corners, spare, |p| place(normal, origin, p), exact);
+        }
+        if corners.iter().all(|c| height(c) != Ordering::Greater) {
+            return None;
+        }
+        edges.clear();
+        faces(origin, corners, edges);
+        if edges.len() < 3 {
+            // So little is above the horizon that its corners coincide: anything would seem to cover it.
+            return None;
+        }
+        let error = deviation_error(origin, corners, edges)? + deviation::of_facing(origin, to);
+        sides.clear();
+        sides.extend([Side::before(to, origin), Side::above(from)]);
+        sides.extend(edges.iter().map(Side::within));
+        Some(Self { from, to, edges, sides, error })
+    }
+
+    /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons
+    /// in it may lie off their vertices by `deviation`.
+    pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
+        let origin = self.from.position();
+        let (low, high) = (extent.low - origin, extent.high - origin);
+        let size = size(low.abs().max(high.abs())) + deviation * INVERSE;
+        self.sides.iter().any(|side| {
+            let innermost = (side.normal * low).max(side.normal * high).element_sum();
+            side.is_out(innermost, size)
+        })
+    }
+
+    /// What keeps a polygon from hiding anything: a side that it is outside of, or an edge that it touches from outside.
+    ///
+    /// Neighbours of a target in a mesh touch its sides; exact turns decide that they hide nothing.
+    pub(super) fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
+        let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
+        let mut touched = None;
+        for (index, side) in self.sides.iter().enumerate() {
+            let mut is_outside = true;
+            // Stops at the first vertex inside, as this side separates nothing then.
+            let is_inside = occluder.points().iter().any(|p| {
+                let place = side.place(*p - origin, more);
+                is_outside &= place == Place::Outside;
+                place == Place::Inside
+            });
+            if is_inside {
+                continue;
+            }
+            if is_outside {
+                return Some(Apart::Outside);
+            }
+            let edge = index.checked_sub(BEFORE_EDGES).map(|index| &self.edges[index]);
+            touched = touched.or(edge.filter(|edge| self.is_touched(edge, occluder)));
+        }
+        touched.map(Apart::Touching)
+    }
+
+    /// Whether a polygon is outside of the side through an edge, touching allowed.
+    fn is_touched(&self, edge: &Edge, occluder: &PlanarPolygon) -> bool {
+        let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
+        occluder.points().iter().all(|point| {
+            let p = *point - origin;
+            let (depth, error) = edge.depth(p);
+            depth < -error - edge.errors.element_sum() * more
+                || p == edge.start
+                || p == edge.end
+                || (depth <= error && more == 0.0 && self.is_outside(edge, *point))
+        })
+    }
+
+    /// Whether a point is outside of the side through an edge between two given vertices, or on it: exactly.
+    fn is_outside(&self, edge: &Edge, point: DVec3) -> bool {
+        let given = |p: DVec3| self.to.points().iter().find(|q| **q - self.from.position() == p);
+        match (given(edge.start), given(edge.end)) {
+            (Some(a), Some(b)) => turn(self.from.position(), *a, *b, point) != Ordering::Less,
+            _ => false,
+        }
+    }
+}

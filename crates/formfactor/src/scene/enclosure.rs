@@ -1,0 +1,211 @@
+//! Enclosures: many polygons that see and hide each other.
+use super::body::Bodies;
+use super::pool::Pool;
+use super::shaft::Shaft;
+use super::tree::Tree;
+use crate::exact::deviation::unseen;
+use crate::form_factor::FormFactor;
+use crate::pipeline::{self, Reach};
+use crate::shapes::differential_area::DifferentialArea;
+use crate::shapes::polygon::PlanarPolygon;
+use crate::stats::Stats;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// A set of polygons, each of which is a target and an occluder of the others.
+///
+/// Build it once and query it often: it keeps the polygons in a tree of boxes and reuses its buffers. It is `Sync`: many
+/// threads may query one enclosure, and a result depends on the query alone.
+///
+/// ```
+/// use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
+/// let lamp = PlanarPolygon::new([[[-1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, -1.0, 2.0], [-1.0, -1.0, 2.0]]])?;
+/// let board = PlanarPolygon::new([[[-2.0, -2.0, 1.0], [0.0, -2.0, 1.0], [0.0, 2.0, 1.0], [-2.0, 2.0, 1.0]]])?;
+/// let room = Enclosure::new(vec![lamp, board]);
+/// // The board hides half of the lamp, and turns its back to the floor.
+/// let floor = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+/// let row = room.row(&floor);
+/// assert!((row[0].value - 0.239_456_470_460_773_54 / 2.0).abs() < 1e-15);
+/// assert_eq!(row[1].value, 0.0);
+/// # Ok::<(), formfactor::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Enclosure {
+    polygons: Vec<PlanarPolygon>,
+    tree: Tree,
+    bodies: Bodies,
+    /// The largest deviation of a vertex from where it stands.
+    deviation: f64,
+    pool: Pool,
+}
+
+impl Enclosure {
+    /// An enclosure of these polygons. A polygon's index is its id. The polygons need not enclose anything.
+    ///
+    /// Takes O(n log^2 n) for n vertices.
+    #[must_use]
+    pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
+        let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
+        Self {
+            tree: Tree::over(&polygons),
+            bodies: Bodies::among(&polygons),
+            polygons,
+            deviation,
+            pool: Pool::default(),
+        }
+    }
+
+    /// The polygons, in the order of their ids.
+    #[must_use]
+    pub fn polygons(&self) -> &[PlanarPolygon] {
+        &self.polygons
+    }
+
+    /// The boxes around them.
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The form factor from `from` to polygon `id`, with all other polygons as occluders.
+    ///
+    /// The polygon that [owns](DifferentialArea::owned_by) `from` occludes nothing, and the form factor to it is exactly 0. The
+    /// same holds for polygons in the owner's plane, such as the other side of a thin wall, even where rounding put `from` a
+    /// last bit off that plane.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factor(&self, from: &DifferentialArea, id: usize) -> FormFactor {
+        self.past_found(from, id, &self.polygons[id]).0
+    }
+
+    /// [`Self::form_factor`], with counts of the work that it took.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factor_with_stats(&self, from: &DifferentialArea, id: usize) -> (FormFactor, Stats) {
+        self.past_found(from, id, &self.polygons[id])
+    }
+
+    /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factor_to_part(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        part: &PlanarPolygon,
+    ) -> FormFactor {
+        self.past_found(from, id, part).0
+    }
+
+    /// The form factor to a part of polygon `id`, past the occluders that the tree finds.
+    fn past_found(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> (FormFactor, Stats) {
+        let found = |reach: &Reach| self.tree.find(|extent| reach.misses_box(extent, self.deviation));
+        self.past_any_of(from, id, part, found)
+    }
+
+    /// The form factor to a part of polygon `id`, past those of `candidates` that can hide it.
+    fn past_any_of<I>(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        part: &PlanarPolygon,
+        candidates: impl Fn(&Reach) -> I,
+    ) -> (FormFactor, Stats)
+    where
+        I: IntoIterator<Item = usize>,
+    {
+        let unhidden = Stats { none: 1, ..Stats::default() };
+        if self.is_edge_on(from, id) {
+            return (FormFactor::default(), unhidden);
+        }
+        // Rounding may have put the part a last bit off the polygon's plane, which decides.
+        let whole = &self.polygons[id];
+        if whole.plane().side_of(from.position()) != Ordering::Greater {
+            return (unseen(from, whole), unhidden);
+        }
+        self.pool.lend(|buffers| {
+            let occluders = |reach: &Reach| self.others(from, id, candidates(reach));
+            (pipeline::past(from, part, occluders, buffers), buffers.stats)
+        })
+    }
+
+    /// The form factors from many points to polygon `id`, each equal to that of [`Self::form_factor`] within the bounds.
+    ///
+    /// The occluders that can stand between all points and the polygon are found once. That pays where the points are near
+    /// each other, as the vertices of an element or the sample points of a patch are.
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factors(&self, points: &[DifferentialArea], id: usize) -> Vec<FormFactor> {
+        let positions: Vec<DVec3> = points.iter().map(DifferentialArea::position).collect();
+        let near = self.in_shaft(&positions, id);
+        points.iter().map(|from| self.past(from, id, &near)).collect()
+    }
+
+    /// The polygons that can stand between points and polygon `id`.
+    fn in_shaft(&self, points: &[DVec3], id: usize) -> Vec<usize> {
+        let shaft = Shaft::between(points, &self.polygons[id]);
+        let behind = |i: usize| {
+            let plane = self.polygons[id].plane();
+            self.polygons[i].points().iter().all(|p| plane.side_of(*p) != Ordering::Greater)
+        };
+        let mut found = self.tree.find(|extent| shaft.misses_box(extent, self.deviation));
+        found.retain(|i| {
+            *i != id && !shaft.misses(&self.polygons[*i]) && !(self.deviation == 0.0 && behind(*i))
+        });
+        found
+    }
+
+    /// The polygons that can stand between polygons `source` and `target`.
+    pub(crate) fn between(&self, source: usize, target: usize) -> Vec<usize> {
+        let from = &self.polygons[source];
+        let mut found = self.in_shaft(from.points(), target);
+        let is_below = |i: usize| {
+            self.polygons[i].points().iter().all(|p| from.plane().side_of(*p) != Ordering::Greater)
+        };
+        found.retain(|i| *i != source && !(self.polygons[*i].lies_in_plane_of(from) || is_below(*i)));
+        found
+    }
+
+    /// The form factor to polygon `id`, past those of the polygons `near` that can hide it.
+    pub(crate) fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
+        self.past_any_of(from, id, &self.polygons[id], |_| near.iter().copied()).0
+    }
+
+    /// Those of the polygons that can hide polygon `id`.
+    fn others(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        found: impl IntoIterator<Item = usize>,
+    ) -> impl Iterator<Item = &PlanarPolygon> {
+        let mut last = None;
+        // Left out are polygons seen edge-on, faces of the target's own body, which is behind the target, and the far sides of
+        // other bodies, which hide nothing that the near sides do not.
+        let can_hide = move |i: &usize| {
+            *i != id
+                && !self.bodies.is_one(id, *i)
+                && !self.is_edge_on(from, *i)
+                && !self.bodies.is_far_side(&self.polygons, from, *i, &mut last)
+        };
+        found.into_iter().filter(can_hide).map(|i| &self.polygons[i])
+    }
+
+    /// Whether polygon `id` owns `from` or lies in the plane of the one that does.
+    fn is_edge_on(&self, from: &DifferentialArea, id: usize) -> bool {
+        from.owner()
+            .is_some_and(|owner| id == owner || self.polygons[id].lies_in_plane_of(&self.polygons[owner]))
+    }
+
+    /// The form factors from `from` to every polygon, by id.
+    #[must_use]
+    pub fn row(&self, from: &DifferentialArea) -> Vec<FormFactor> {
+        (0..self.polygons.len()).map(|id| self.form_factor(from, id)).collect()
+    }
+}

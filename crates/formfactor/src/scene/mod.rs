@@ -1,0 +1,6 @@
+//! Many polygons that see and hide each other: which of them can stand before a target.
+pub(crate) mod body;
+pub(crate) mod enclosure;
+pub(crate) mod pool;
+pub(crate) mod shaft;
+pub(crate) mod tree;

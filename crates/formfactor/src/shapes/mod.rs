@@ -1,0 +1,5 @@
+//! Polygons, the differential area that sees them, and boxes around them.
+pub(crate) mod differential_area;
+pub(crate) mod extent;
+pub(crate) mod loops;
+pub(crate) mod polygon;

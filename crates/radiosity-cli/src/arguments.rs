@@ -1,0 +1,80 @@
+//! The command line: its commands, and who runs them.
+use crate::commands::compare::{self, Compare};
+use crate::commands::expose::{self, Expose};
+use crate::commands::factors::{self, Factors};
+use crate::commands::inspect::{self, Inspect};
+use crate::commands::report::{self, Report};
+use crate::commands::scene::{self, BuiltIn};
+use crate::commands::solve::{self, options::Solve};
+use crate::commands::view::{self, View};
+use crate::failure::Failure;
+use crate::outputs::print;
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use std::process::ExitCode;
+
+/// The diffuse light of a scene, by radiosity with exact form factors.
+///
+/// Data goes to stdout, everything else to stderr. Exit codes: 0 done, 1 input/output or internal error, 2 wrong usage,
+/// 3 bad scene, 4 stopped before the tolerance was reached, 5 a difference above `--fail-above`, 130 stopped by Ctrl-C. A
+/// stopped run writes its result and a state to resume from.
+#[derive(Debug, Parser)]
+#[command(name = "radiosity", version, max_term_width = 110)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Number of threads; the result does not depend on it [default: one per core]
+    #[arg(short = 'j', long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve for the light of a scene and write it as a picture, a scene, a page or numbers
+    Solve(Solve),
+    /// Turn a solution into displayable colours
+    Expose(Expose),
+    /// Write an HTML page that shows a solution in a browser
+    View(View),
+    /// Print form factors: from a point, from patches, or the whole matrix of a scene
+    Factors(Factors),
+    /// Describe a scene and find what will trouble a solution
+    Inspect(Inspect),
+    /// Compare two solutions of one scene: relative L1, L2 and maximum difference of reflected light
+    Compare(Compare),
+    /// Benchmark: measure error against time of every form factor method on every scene, and write it as a page
+    Report(Report),
+    /// Write one of the built-in scenes
+    Scene(BuiltIn),
+    /// Print completions for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// Runs the command; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
+pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
+    let threads = arguments.threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
+    pool.install(|| match arguments.command {
+        Command::Solve(arguments) => solve::run(&arguments),
+        Command::Expose(arguments) => expose::run(&arguments),
+        Command::View(arguments) => view::run(&arguments),
+        Command::Factors(arguments) => factors::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
+        Command::Scene(arguments) => scene::run(&arguments),
+        Command::Completions { shell } => completions(shell),
+    })
+}
+
+/// Prints a shell's completions.
+fn completions(shell: Shell) -> Result<ExitCode, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "radiosity", &mut script);
+    print(&String::from_utf8_lossy(&script))?;
+    Ok(ExitCode::SUCCESS)
+}

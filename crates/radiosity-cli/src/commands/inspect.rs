@@ -1,0 +1,110 @@
+//! `radiosity inspect`
+use crate::failure::Failure;
+use crate::outputs::print;
+use crate::{input, json};
+use clap::Args;
+use radiosity::inspect::{Inspection, inspect};
+use radiosity::io::{self, collada::Collada};
+use std::{fmt::Write, path::PathBuf, process::ExitCode};
+
+/// How many emitters are listed for people.
+const EMITTERS: usize = 20;
+/// How many patches of a finding.
+const NAMES: usize = 8;
+
+/// `radiosity inspect`
+#[derive(Args, Debug)]
+pub(crate) struct Inspect {
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
+    scene: PathBuf,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+    /// Cut faces that overlap in one plane out of each other; needs -o
+    #[arg(long, requires = "output")]
+    repair: bool,
+    /// Write the repaired scene to this file, as COLLADA
+    #[arg(short, long, value_name = "FILE", requires = "repair")]
+    output: Option<PathBuf>,
+}
+
+/// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
+pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
+    let (scene, _) = input::read_quietly(&arguments.scene)?;
+    let inspection = inspect(&scene);
+    print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
+    if let Some(path) = &arguments.output {
+        let (repaired, changes) = radiosity::repair(&scene);
+        io::save(path, Collada::of(&repaired).text().as_bytes())?;
+        changes.iter().for_each(|change| eprintln!("{change}"));
+        eprintln!("{} patches changed; written to {}", changes.len(), path.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Lines for people.
+fn text(inspection: &Inspection) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name:<10} {value}");
+    };
+    let [low, high] = inspection.extent;
+    let unit = inspection.unit;
+    line(
+        "patches",
+        format!("{} with {} vertices, area {:.6e}", inspection.patches, inspection.vertices, inspection.area),
+    );
+    line("extent", format!("{low:?} to {high:?}; the unit is {unit} m, up is {:?}", inspection.up));
+    line("bands", inspection.bands.to_string());
+    line("cameras", inspection.cameras.to_string());
+    for emitter in inspection.emitters.iter().take(EMITTERS) {
+        line("emitter", format!("{} emits {:?} W (in units of {unit} m)", emitter.name, emitter.power));
+    }
+    if inspection.emitters.len() > EMITTERS {
+        line("emitters", format!("{} in all; --json lists them", inspection.emitters.len()));
+    }
+    line("openness", openness(inspection));
+    let cost = &inspection.cost;
+    line(
+        "cost",
+        format!(
+            "{} elements with {} form factors to whole patches, about {:.1} s; large patches are split and need more",
+            cost.elements, cost.factors, cost.seconds
+        ),
+    );
+    for finding in &inspection.findings {
+        let who = names(&finding.patches);
+        let gap = if who.is_empty() { "" } else { ": " };
+        let (kind, what, repair) = (json::word(&finding.kind), &finding.what, &finding.repair);
+        line("finding", format!("{kind}: {who}{gap}{what}; repair: {repair}"));
+    }
+    line("findings", inspection.findings.len().to_string());
+    text
+}
+
+/// The first names, and how many more there are.
+fn names(patches: &[String]) -> String {
+    let listed = patches[..patches.len().min(NAMES)].join(", ");
+    match patches.len().saturating_sub(NAMES) {
+        0 => listed,
+        more => format!("{listed} and {more} more"),
+    }
+}
+
+fn openness(inspection: &Inspection) -> String {
+    match &inspection.opening {
+        None => "no patch to look from".to_owned(),
+        Some(_) if inspection.closed => "closed: no view from a patch leaves the scene".to_owned(),
+        Some(opening) if opening.share < 0.0 => {
+            format!("overlapping: {} sees {:.3} % twice", opening.patch, -100.0 * opening.share)
+        }
+        Some(opening) => {
+            format!(
+                "open: {:.3} % of the view from {} leaves the scene or ends on a back",
+                100.0 * opening.share,
+                opening.patch
+            )
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! The commands.
+pub(crate) mod compare;
+pub(crate) mod expose;
+pub(crate) mod factors;
+pub(crate) mod inspect;
+pub(crate) mod report;
+pub(crate) mod scene;
+pub(crate) mod solve;
+pub(crate) mod view;

@@ -1,0 +1,131 @@
+//! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
+use super::options::options;
+use super::progress::Bar;
+use super::solve_outputs::SolveOutputs;
+use super::steps::Steps;
+use crate::failure::Failure;
+use radiosity::{Progress, Solution, State, io};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// What a shell reports of a program that Ctrl-C ended.
+const INTERRUPTED: u8 = 130;
+
+/// The state in a file; an empty one when there is none to go on from.
+pub(super) fn resume(path: Option<&Path>) -> Result<State, Failure> {
+    let Some(path) = path else { return Ok(State::default()) };
+    let bytes = std::fs::read(path)
+        .map_err(|error| Failure::internal(format!("{}: cannot be read: {error}", path.display())))?;
+    State::from_bytes(&bytes).map_err(|error| Failure::internal(format!("{}: {error}", path.display())))
+}
+
+/// Follows a run: shows it, notes its steps, saves it, and stops it on Ctrl-C.
+#[derive(Debug)]
+pub(super) struct Follower<'o> {
+    outputs: &'o SolveOutputs<'o>,
+    bar: Bar,
+    steps: Steps,
+    /// Where the state goes: beside the first output.
+    state: Option<PathBuf>,
+    interrupted: Arc<AtomicBool>,
+    saved: Instant,
+    /// Whether this run wrote the state.
+    state_written: bool,
+    failure: Option<Failure>,
+}
+
+impl<'o> Follower<'o> {
+    /// Follows from now on; takes over Ctrl-C.
+    pub(super) fn new(outputs: &'o SolveOutputs<'o>) -> Result<Follower<'o>, Failure> {
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&interrupted);
+        let stop = move || {
+            if flag.swap(true, Ordering::SeqCst) {
+                std::process::exit(INTERRUPTED.into());
+            }
+            eprintln!("stopping and writing the result so far; Ctrl-C again ends at once");
+        };
+        ctrlc::set_handler(stop)
+            .map_err(|error| Failure::internal(format!("Ctrl-C cannot be handled: {error}")))?;
+        Ok(Follower {
+            outputs,
+            bar: Bar::new(options(outputs.arguments).tolerance),
+            steps: Steps::new(outputs.arguments.steps.as_deref()),
+            state: outputs.arguments.output.first().map(|path| {
+                let mut name = path.clone().into_os_string();
+                name.push(".state");
+                name.into()
+            }),
+            interrupted,
+            saved: Instant::now(),
+            state_written: false,
+            failure: None,
+        })
+    }
+
+    /// One step of the run.
+    pub(super) fn follow(&mut self, progress: &Progress<'_>) -> ControlFlow<()> {
+        self.bar.show(progress);
+        self.steps.note(progress);
+        let due = self.outputs.arguments.snapshot_every;
+        if due.is_some_and(|seconds| self.saved.elapsed().as_secs_f64() >= seconds) {
+            let written = self.outputs.write(&progress.solution()).and_then(|_| self.save(progress.state()));
+            self.failure = written.err();
+            self.saved = Instant::now();
+        }
+        let stop = self.failure.is_some() || self.interrupted.load(Ordering::SeqCst);
+        if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Ends the following: the state of a run that was stopped is saved, one that is no longer needed removed. A run without
+    /// a solution leaves none.
+    pub(super) fn end(&mut self, state: &State, solution: Option<&Solution>) -> Result<(), Failure> {
+        self.bar.clear();
+        if let Some(failure) = self.failure.take() {
+            return Err(failure);
+        }
+        match solution {
+            Some(solution) if !solution.converged => self.save(state)?,
+            Some(_) if self.state_written => {
+                self.state.iter().try_for_each(std::fs::remove_file).map_err(Failure::internal)?;
+            }
+            _ => {}
+        }
+        self.steps.save()
+    }
+
+    /// Writes the state, whole or not at all.
+    fn save(&mut self, state: &State) -> Result<(), Failure> {
+        let Some(path) = &self.state else { return Ok(()) };
+        io::save(path, &state.to_bytes())?;
+        self.state_written = true;
+        Ok(())
+    }
+
+    /// The exit code, and a word on why a run ended early.
+    pub(super) fn code(&self, solution: &Solution) -> ExitCode {
+        if solution.converged {
+            return ExitCode::SUCCESS;
+        }
+        match &self.state {
+            Some(path) if self.state_written => eprintln!("continue with --resume {}", path.display()),
+            _ => {}
+        }
+        if let Some(fault) = &solution.fault {
+            return Failure::internal(fault).report();
+        }
+        if self.interrupted.load(Ordering::SeqCst) {
+            return ExitCode::from(INTERRUPTED);
+        }
+        let (shots, products) = (solution.shots, solution.products);
+        eprintln!(
+            "warning: stopped after {shots} shots and {products} products, before the tolerance was reached; raise the \
+             limit or the tolerance"
+        );
+        ExitCode::from(4)
+    }
+}

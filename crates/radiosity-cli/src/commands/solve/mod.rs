@@ -1,0 +1,66 @@
+//! `radiosity solve`
+//!
+//! ```text
+//! interrupt      Ctrl-C, snapshots, and the state that a run goes on from
+//! solve_outputs  every output of a solution
+//! progress       the bar on a terminal
+//! steps          bound and ledger of every step, as CSV
+//! options        what may be asked, and what the solver is asked
+//! ```
+mod interrupt;
+pub(crate) mod options;
+mod progress;
+mod solve_outputs;
+mod steps;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::outputs::{Output, print};
+use interrupt::{Follower, resume};
+use options::{Solve, options};
+use radiosity::{Scene, Solution};
+use solve_outputs::SolveOutputs;
+use std::process::ExitCode;
+
+/// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
+///
+/// Ctrl-C stops the run: what was found so far is written, and the state. A second Ctrl-C ends the program at once.
+pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
+    if arguments.output.is_empty() && !arguments.json {
+        return Err(Failure::usage("there is no output; give -o FILE or --json"));
+    }
+    let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let (scene, source) = input::read(&arguments.scene)?;
+    warn_of_darkness(&scene);
+    let mut state = resume(arguments.resume.as_deref())?;
+    let writer = SolveOutputs { arguments, outputs: &outputs, source: &source, scene: &scene };
+    let mut follower = Follower::new(&writer)?;
+    let solution =
+        radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
+    let ended = follower.end(&state, solution.as_ref().ok());
+    let solution = solution?;
+    // What was found is not lost for a state that cannot be written.
+    let figures = writer.write(&solution)?;
+    ended?;
+    if arguments.json {
+        print(&figures)?;
+    }
+    report(&solution);
+    Ok(follower.code(&solution))
+}
+
+/// One line for people.
+fn report(solution: &Solution) {
+    let (elements, seconds) = (solution.mesh.elements.len(), solution.seconds);
+    let (shots, products) = (solution.shots, solution.products);
+    eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s");
+}
+
+/// A scene without light is solved: it is dark. Most likely it was not meant.
+fn warn_of_darkness(scene: &Scene) {
+    if scene.patches.iter().all(|patch| patch.emission.iter().all(|&radiance| radiance == 0.0)) {
+        eprintln!(
+            "warning: no patch emits light, so the scene is dark; give a material an <emission> above 0"
+        );
+    }
+}

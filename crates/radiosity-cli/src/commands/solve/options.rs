@@ -1,0 +1,141 @@
+//! The options of `radiosity solve`, and those of the solver that they lead to.
+use crate::parse::{count, positive};
+use crate::view_options::ViewOptions;
+use clap::{Args, ValueEnum};
+use radiosity::Options;
+use std::path::PathBuf;
+
+/// `radiosity solve`
+#[derive(Args, Debug)]
+pub(crate) struct Solve {
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
+    pub(super) scene: PathBuf,
+    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb), a page (.html),
+    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Print the result's figures on stdout as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    /// How fine and how exact the result is
+    #[arg(long, value_enum, default_value_t = Quality::Normal)]
+    pub(super) quality: Quality,
+    /// About how many elements to cut the scene into [default: by quality]
+    #[arg(long, value_name = "N", value_parser = count)]
+    pub(super) elements: Option<usize>,
+    /// How often to refine the mesh where the light is not resolved; 0: equal elements [default: by quality]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=4))]
+    pub(super) passes: Option<u8>,
+    /// The norm that tells where the light is not resolved
+    #[arg(long, value_enum, default_value_t = Norm::L2)]
+    pub(super) norm: Norm,
+    /// How many of the strongest emitters get element edges along the edges of their shadows [default: by quality]
+    #[arg(long, value_name = "EMITTERS")]
+    pub(super) shadows: Option<u8>,
+    /// The method of solution
+    #[arg(long, value_enum, default_value_t = Method::Auto)]
+    pub(super) method: Method,
+    /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness
+    /// [default: by quality]
+    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    pub(super) tolerance: Option<f64>,
+    /// Split a piece while its power deviates from a uniform piece by more than this share of all power [default: by quality]
+    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    pub(super) spread: Option<f64>,
+    /// Take form factors from hemicubes of N × N cells instead of exact ones, to compare
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=4096))]
+    pub(super) hemicube: Option<u32>,
+    /// Stop after this many shots
+    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
+    pub(super) max_shots: usize,
+    /// Stop after this many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub(super) time: Option<f64>,
+    /// Resume from the state that a stopped run of the same scene wrote
+    #[arg(long, value_name = "FILE")]
+    pub(super) resume: Option<PathBuf>,
+    /// Write all outputs and the state whenever this many seconds have passed; the state stands beside the first output
+    #[arg(long, value_name = "SECONDS", value_parser = positive, requires = "output")]
+    pub(super) snapshot_every: Option<f64>,
+    /// Write the bound and the ledger of every step as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(super) steps: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) view: ViewOptions,
+}
+
+/// `--quality`
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Quality {
+    /// A first look: 1500 equal elements, a bound of 1 %
+    Draft,
+    /// For pictures: 6000 elements, half of them where the light changes most, a bound of 0.1 %
+    Normal,
+    /// For figures and close views: 20 000 elements, shadow edges along element edges, exact direct light at every
+    /// vertex, a bound of 0.1 %
+    High,
+}
+
+/// `--norm`
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Norm {
+    /// The largest difference between corners of an element
+    Gradient,
+    /// Power in the wrong place
+    L1,
+    /// Squared difference: what the eye sees
+    L2,
+    /// The worst place
+    Linf,
+}
+
+/// `--method`
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Method {
+    /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
+    Auto,
+    /// Progressive refinement: the piece with the most unshot light shoots it, again and again
+    Shoot,
+    /// Gaussian elimination on the full matrix, for checks with up to a few thousand elements
+    Matrix,
+    /// Conjugate gradients on symmetric exchange areas: for bright closed rooms
+    Cg,
+    /// GMRES on unscaled form factors
+    Gmres,
+}
+
+/// The options of the solver.
+pub(super) fn options(arguments: &Solve) -> Options {
+    let by_quality = match arguments.quality {
+        Quality::Draft => radiosity::Quality::Draft,
+        Quality::Normal => radiosity::Quality::Normal,
+        Quality::High => radiosity::Quality::High,
+    };
+    let method = match arguments.method {
+        Method::Auto => radiosity::Method::Auto,
+        Method::Shoot => radiosity::Method::Shoot,
+        Method::Matrix => radiosity::Method::Matrix,
+        Method::Cg => radiosity::Method::Cg,
+        Method::Gmres => radiosity::Method::Gmres,
+    };
+    let norm = match arguments.norm {
+        Norm::Gradient => radiosity::Norm::Gradient,
+        Norm::L1 => radiosity::Norm::L1,
+        Norm::L2 => radiosity::Norm::L2,
+        Norm::Linf => radiosity::Norm::LInfinity,
+    };
+    let given = by_quality.options();
+    Options {
+        method,
+        norm,
+        elements: arguments.elements.unwrap_or(given.elements),
+        passes: arguments.passes.map_or(given.passes, usize::from),
+        shadows: arguments.shadows.map_or(given.shadows, usize::from),
+        tolerance: arguments.tolerance.unwrap_or(given.tolerance),
+        spread: arguments.spread.unwrap_or(given.spread),
+        hemicube: arguments.hemicube,
+        gather: given.gather,
+        max_shots: arguments.max_shots,
+        max_seconds: arguments.time,
+    }
+}

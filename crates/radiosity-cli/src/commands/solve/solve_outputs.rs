@@ -1,0 +1,35 @@
+//! Every output of a solution.
+use super::options::Solve;
+use crate::failure::Failure;
+use crate::json;
+use crate::outputs::{Contents, Output};
+use radiosity::{Record, Scene, Solution, io};
+
+/// What results are written with.
+#[derive(Debug)]
+pub(super) struct SolveOutputs<'s> {
+    pub(super) arguments: &'s Solve,
+    pub(super) outputs: &'s [Output],
+    pub(super) source: &'s io::Source,
+    pub(super) scene: &'s Scene,
+}
+
+impl SolveOutputs<'_> {
+    /// Writes every output; gives the figures.
+    pub(super) fn write(&self, solution: &Solution) -> Result<String, Failure> {
+        let &SolveOutputs { arguments, outputs, source, scene } = self;
+        let name = arguments.scene.display().to_string();
+        let figures = json::Figures::new(&name, scene, solution);
+        if !outputs.is_empty() {
+            let (view, record) = (&arguments.view, &Record::new(&name, scene, solution));
+            let contents = Contents { view, record, source: Some((source, scene)), figures: Some(&figures) };
+            // A picture of a stopped run shows what is unshot as if it had spread evenly.
+            let shown = Record::new(&name, scene, &solution.with_ambient());
+            let picture = Contents { record: if solution.converged { record } else { &shown }, ..contents };
+            let write =
+                |output: &Output| output.write(if output.is_picture() { &picture } else { &contents });
+            outputs.iter().try_for_each(write)?;
+        }
+        Ok(json::line(&figures))
+    }
+}

@@ -1,0 +1,90 @@
+//! What `--json` prints.
+use radiosity::{Record, Scene, Solution};
+use serde::Serialize;
+
+/// The figures of a solution.
+#[derive(Debug, Serialize)]
+pub(crate) struct Figures<'s> {
+    scene: &'s str,
+    elements: usize,
+    shots: usize,
+    products: usize,
+    seconds: f64,
+    bound: &'s [f64],
+    closure: Option<f64>,
+    scaling: Option<f64>,
+    energy: Energy<'s>,
+    patches: Vec<PatchFigures<'s>>,
+}
+
+/// A `.json` file: the figures and the light itself.
+#[derive(Debug, Serialize)]
+pub(crate) struct SolutionFile<'s> {
+    #[serde(flatten)]
+    pub(crate) figures: Option<&'s Figures<'s>>,
+    pub(crate) light: &'s Record,
+}
+
+/// The ledger.
+#[derive(Debug, Serialize)]
+struct Energy<'s> {
+    emitted: &'s [f64],
+    absorbed: &'s [f64],
+    escaped: &'s [f64],
+    unshot: &'s [f64],
+    defect: &'s [f64],
+}
+
+/// A patch and its means.
+#[derive(Debug, Serialize)]
+struct PatchFigures<'s> {
+    name: &'s str,
+    area: f64,
+    irradiance: Vec<f64>,
+    radiosity: Vec<f64>,
+}
+
+impl<'s> Figures<'s> {
+    /// The figures of `solution`, the solution of `scene`, read from the file `name`.
+    pub(crate) fn new(name: &'s str, scene: &'s Scene, solution: &'s Solution) -> Figures<'s> {
+        let ledger = &solution.ledger;
+        let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
+        let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
+        let patches = scene.patches.iter().zip(irradiance).zip(radiosity);
+        Figures {
+            scene: name,
+            elements: solution.mesh.elements.len(),
+            shots: solution.shots,
+            products: solution.products,
+            seconds: solution.seconds,
+            bound: &solution.bound,
+            closure: solution.closure,
+            scaling: solution.scaling,
+            energy: Energy {
+                emitted: &ledger.emitted,
+                absorbed: &ledger.absorbed,
+                escaped: &ledger.escaped,
+                unshot: &ledger.unshot,
+                defect: &ledger.defect,
+            },
+            patches: patches
+                .map(|((patch, irradiance), radiosity)| PatchFigures {
+                    name: &patch.name,
+                    area: patch.polygon.area(),
+                    irradiance,
+                    radiosity,
+                })
+                .collect(),
+        }
+    }
+}
+
+/// One line of JSON, ended by a newline.
+pub(crate) fn line(value: &impl Serialize) -> String {
+    serde_json::to_string(value).expect("plain numbers and names can be written") + "\n"
+}
+
+/// The word that stands for a plain value in JSON.
+pub(crate) fn word(value: &impl Serialize) -> String {
+    line(value).trim().trim_matches('"').to_owned()
+}

@@ -1,0 +1,31 @@
+//! The `radiosity` program: parses, calls the library, prints.
+//!
+//! ```text
+//! arguments     what may be asked, and who answers
+//! commands      a file or folder for each
+//! outputs       results to files, by extension, and data to stdout
+//! view_options  how pictures are taken
+//! input         scenes and solutions from files
+//! json          what --json prints
+//! parse         numbers on the command line
+//! failure       what went wrong, and the exit code that says so
+//! ```
+use clap::Parser;
+use std::process::ExitCode;
+
+mod arguments;
+mod commands;
+mod failure;
+mod input;
+mod json;
+mod outputs;
+mod parse;
+mod view_options;
+
+fn main() -> ExitCode {
+    let arguments = arguments::Arguments::parse();
+    match arguments::run(arguments) {
+        Ok(code) => code,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,141 @@
+//! Results to files, by extension, and data to stdout.
+use crate::failure::Failure;
+use crate::json;
+use crate::view_options::ViewOptions;
+use radiosity::io::{self, Source, gltf};
+use radiosity::{Record, Scene, element_table, patch_table, viewer};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A file that a result can be written to.
+#[derive(Debug)]
+pub(crate) struct Output {
+    path: PathBuf,
+    kind: FileKind,
+}
+
+/// What the file will hold.
+#[derive(Clone, Copy, Debug)]
+enum FileKind {
+    Picture,
+    Collada,
+    Glb,
+    Json,
+    Page,
+    Patches,
+    Elements,
+}
+
+/// By the end of the file's name.
+const KINDS: [(&str, FileKind); 7] = [
+    (".elements.csv", FileKind::Elements),
+    (".csv", FileKind::Patches),
+    (".png", FileKind::Picture),
+    (".dae", FileKind::Collada),
+    (".glb", FileKind::Glb),
+    (".json", FileKind::Json),
+    (".html", FileKind::Page),
+];
+
+/// What outputs are written from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contents<'s> {
+    pub(crate) view: &'s ViewOptions,
+    pub(crate) record: &'s Record,
+    /// The scene and its file, where they are at hand.
+    pub(crate) source: Option<(&'s Source, &'s Scene)>,
+    /// The solver's figures, where it has just run.
+    pub(crate) figures: Option<&'s json::Figures<'s>>,
+}
+
+impl Output {
+    /// An output file: its extension must be known, and its folder must take new files, before anything is solved.
+    pub(crate) fn new(path: &Path) -> Result<Output, Failure> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let found = KINDS.iter().find(|(end, _)| name.ends_with(end));
+        let (_, kind) = *found.ok_or_else(|| {
+            let ends: Vec<&str> = KINDS.iter().map(|(end, _)| *end).collect();
+            Failure::usage(format!("{}: unknown kind of file; name it {}", path.display(), ends.join(", ")))
+        })?;
+        probe(path)?;
+        Ok(Output { path: path.to_owned(), kind })
+    }
+
+    /// Whether it is for eyes alone.
+    pub(crate) fn is_picture(&self) -> bool {
+        matches!(self.kind, FileKind::Picture)
+    }
+
+    /// Writes the file, whole or not at all.
+    pub(crate) fn write(&self, contents: &Contents<'_>) -> Result<(), Failure> {
+        let bytes = match self.kind {
+            FileKind::Picture => contents.picture()?,
+            FileKind::Collada => contents.collada()?,
+            FileKind::Glb => contents.glb()?,
+            FileKind::Json => contents.json().into_bytes(),
+            FileKind::Page => {
+                viewer::page(contents.record, contents.view.exposure(contents.record)).into_bytes()
+            }
+            FileKind::Patches => patch_table(contents.record).into_bytes(),
+            FileKind::Elements => element_table(contents.record).into_bytes(),
+        };
+        Ok(io::save(&self.path, &bytes)?)
+    }
+}
+
+impl Contents<'_> {
+    /// PNG as the camera sees it.
+    fn picture(&self) -> Result<Vec<u8>, Failure> {
+        let (record, view) = (self.record, self.view);
+        let camera = view.camera(record)?;
+        Ok(record.draw(&camera, view.exposure(record), view.width))
+    }
+
+    /// The scene's own COLLADA with the unscaled radiosity at the vertices.
+    fn collada(&self) -> Result<Vec<u8>, Failure> {
+        let (source, scene) = self.source.ok_or_else(|| {
+            Failure::usage(
+                "only solve writes COLLADA, into the scene's own file; expose then turns it into colours",
+            )
+        })?;
+        Ok(source.with_light(scene, &self.record.mesh(), &self.record.colours())?.into_bytes())
+    }
+
+    /// glTF binary.
+    fn glb(&self) -> Result<Vec<u8>, Failure> {
+        Ok(gltf::glb(self.record, self.view.exposure(self.record))?)
+    }
+
+    /// The figures and the light.
+    fn json(&self) -> String {
+        json::line(&json::SolutionFile { figures: self.figures, light: self.record })
+    }
+}
+
+/// Refuses a path that is a folder, or whose folder is missing or takes no files.
+fn probe(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let refused =
+        |reason: String| Failure::internal(format!("{}: cannot be written: {reason}", path.display()));
+    if path.is_dir() {
+        return Err(refused("it is a folder; name a file".to_owned()));
+    }
+    if path.exists() && !path.is_file() {
+        return Ok(());
+    }
+    match tempfile::tempfile_in(folder) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(refused(format!("{error}; check the folder and its permissions"))),
+    }
+}
+
+/// Prints data on stdout. A reader that has gone away wants no more of it: that is no error.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let written = std::io::stdout().write_all(text.as_bytes()).and_then(|()| std::io::stdout().flush());
+    match written {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::internal(format!("stdout cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}

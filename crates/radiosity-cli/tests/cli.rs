@@ -1,0 +1,372 @@
+//! The program as a user meets it: exit codes, what is on stdout, what is written and what is not.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Small enough to be quick, and all that the Cornell box has: a split wall, a hole, blocks, colours.
+const SOLVE: [&str; 6] = ["solve", "scenes/cornell-box.dae", "--elements", "300", "--tolerance", "1e-2"];
+
+fn radiosity(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_radiosity"))
+        .args(arguments)
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../radiosity"))
+        .output()
+        .expect("the program starts")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("no signal")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).expect("one JSON object and nothing else on stdout")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("an array").iter().map(|n| n.as_f64().expect("a number")).collect()
+}
+
+/// A folder of its own, and the files in it.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Folder {
+        Folder(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn put(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.path(name), text).expect("a temporary file");
+        text_of(&self.path(name))
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).expect("the folder");
+        let mut names: Vec<_> =
+            entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+}
+
+fn text_of(path: &Path) -> String {
+    path.to_str().expect("a temporary path is UTF-8").to_owned()
+}
+
+#[test]
+fn solve_prints_the_figures_and_writes_every_kind_of_file() {
+    let folder = Folder::new();
+    let files: Vec<String> = ["a.png", "a.dae", "a.glb", "a.json", "a.csv", "a.elements.csv", "a.html"]
+        .map(|n| text_of(&folder.path(n)))
+        .to_vec();
+    let mut arguments = SOLVE.to_vec();
+    for file in &files {
+        arguments.extend(["-o", file]);
+    }
+    arguments.extend(["--json", "-j", "2"]);
+    let output = radiosity(&arguments);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(folder.names(), ["a.csv", "a.dae", "a.elements.csv", "a.glb", "a.html", "a.json", "a.png"]);
+    assert!(std::fs::read(&files[0]).expect("a picture").starts_with(b"\x89PNG\r\n\x1a\n"));
+    assert!(std::fs::read(&files[2]).expect("a GLB").starts_with(b"glTF"));
+    let mut written: Value =
+        serde_json::from_slice(&std::fs::read(&files[3]).expect("a solution")).expect("JSON");
+    let light = written.as_object_mut().expect("an object").remove("light").expect("the light");
+    assert_eq!(written, json(&output), "the figures stand beside the light");
+    assert_eq!(light["elements"].as_array().expect("elements").len(), written["elements"]);
+
+    let figures = json(&output);
+    for key in ["scene", "elements", "shots", "seconds", "bound", "closure", "energy", "patches"] {
+        assert!(!figures[key].is_null(), "{key} is missing");
+    }
+    for key in ["emitted", "absorbed", "escaped", "unshot", "defect"] {
+        assert_eq!(numbers(&figures["energy"][key]).len(), 3, "{key}");
+    }
+    for (emitted, defect) in
+        numbers(&figures["energy"]["emitted"]).iter().zip(numbers(&figures["energy"]["defect"]))
+    {
+        assert!(defect.abs() < 1e-9 * emitted);
+    }
+    let names: Vec<_> =
+        figures["patches"].as_array().expect("patches").iter().map(|p| p["name"].clone()).collect();
+    let expected = "floor ceiling back right left.1 left.2 light short-top short-1 short-2 short-3 short-4 \
+                    tall-top tall-1 tall-2 tall-3 tall-4";
+    assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
+}
+
+/// A solution in every kind of file.
+fn solved(folder: &Folder, kinds: &[&str]) -> Vec<String> {
+    let files: Vec<String> = kinds.iter().map(|kind| text_of(&folder.path(kind))).collect();
+    let mut arguments = SOLVE.to_vec();
+    files.iter().for_each(|file| arguments.extend(["-o", file]));
+    let output = radiosity(&arguments);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    files
+}
+
+#[test]
+fn tables_have_a_row_for_each_patch_and_element() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.csv", "a.elements.csv", "a.json"]);
+    let [patches, elements] = [0, 1].map(|i| std::fs::read_to_string(&files[i]).expect("a table"));
+    assert!(patches.starts_with("patch,area,reflectance.0,"));
+    assert!(elements.starts_with("element,patch,x,y,z,area,irradiance.0,"));
+    let written: Value =
+        serde_json::from_slice(&std::fs::read(&files[2]).expect("a solution")).expect("JSON");
+    assert_eq!(patches.lines().count(), 1 + 17);
+    assert_eq!(elements.lines().count() as u64, 1 + written["elements"].as_u64().expect("a number"));
+    let floor: Vec<&str> = patches.lines().nth(1).expect("the floor").split(',').collect();
+    assert_eq!(floor[0], "floor");
+    let mean = written["patches"][0]["radiosity"][0].as_f64().expect("a number");
+    assert_eq!(floor[floor.len() - 3].parse::<f64>().expect("a number"), mean);
+}
+
+#[test]
+fn expose_on_a_written_solution_gives_what_solve_gives() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json", "a.png", "a.glb", "a.dae"]);
+    let out = |name: &str| text_of(&folder.path(name));
+    let expose = |from: &str, to: &str, more: &[&str]| {
+        let output = radiosity(&[&["expose", from, "-o", to], more].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        std::fs::read(to).expect("an exposed solution")
+    };
+    let read = |file: &str| std::fs::read(file).expect("a file");
+    assert_eq!(expose(&files[0], &out("b.png"), &["--auto"]), read(&files[1]));
+    assert_eq!(expose(&files[0], &out("b.glb"), &[]), read(&files[2]));
+    assert_ne!(expose(&files[0], &out("b.png"), &["-k", "0.01"]), read(&files[1]));
+    // Exposed in place or from the solution: the same colours.
+    let direct = expose(&files[0], &out("c.glb"), &["-k", "0.05"]);
+    let in_place = expose(&files[2], &out("d.glb"), &["-k", "0.05"]);
+    assert_eq!(direct.len(), in_place.len());
+    let colours = expose(&files[3], &out("b.dae"), &["-k", "0.05"]);
+    let (before, after) = (String::from_utf8(read(&files[3])), String::from_utf8(colours));
+    assert_exposed(&before.expect("text"), &after.expect("text"));
+}
+
+/// Every vertex colour is 1 - exp(-0.05 B); all else is as it was.
+fn assert_exposed(before: &str, after: &str) {
+    let is_colour = |line: &str| line.starts_with("<float_array") && line.contains("lit-colours");
+    let numbers = |line: &str| -> Vec<f64> {
+        let text = line.split(['<', '>']).nth(2).expect("the element's text");
+        text.split(' ').map(|number| number.parse().expect("a number")).collect()
+    };
+    let mut colours = 0;
+    for (old, new) in before.lines().zip(after.lines()) {
+        if !is_colour(old) {
+            assert_eq!(old, new);
+            continue;
+        }
+        colours += 1;
+        for (light, colour) in numbers(old).into_iter().zip(numbers(new)) {
+            assert!((colour - (1.0 - (-0.05 * light).exp())).abs() < 1e-14);
+        }
+    }
+    assert_eq!((before.lines().count(), colours), (after.lines().count(), 16));
+}
+
+#[test]
+fn a_camera_may_be_named_or_given() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json", "a.png"]);
+    let picture = |camera: &str| {
+        let path = text_of(&folder.path("b.png"));
+        let output = radiosity(&["expose", &files[0], "-o", &path, "--camera", camera]);
+        (code(&output), std::fs::read(&path).unwrap_or_default(), stderr(&output))
+    };
+    assert_eq!(picture("camera").1, std::fs::read(&files[1]).expect("a picture"));
+    let given = picture("278,273,-400,278,273,0,60");
+    assert!(given.0 == 0 && given.1 != picture("camera").1);
+    let unknown = picture("no-such-camera");
+    assert!(unknown.0 == 2 && unknown.2.contains("the scene has camera"), "{}", unknown.2);
+    assert_eq!(picture("0,0,0,0,1,0").0, 2, "straight up");
+}
+
+#[test]
+fn inspect_tells_and_repairs() {
+    let folder = Folder::new();
+    let scene = String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text");
+    // The ceiling without its hole: the emitter lies in it.
+    let (start, end) = (scene.find("<h>").expect("a hole"), scene.find("</h>").expect("a hole"));
+    let closed = folder.put("closed.dae", &format!("{}{}", &scene[..start], &scene[end + 4..]));
+    let repaired = text_of(&folder.path("repaired.dae"));
+    let output = radiosity(&["inspect", &closed, "--json", "--repair", "-o", &repaired]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let findings = json(&output)["findings"].clone();
+    assert_eq!(findings.as_array().expect("findings").len(), 1);
+    assert_eq!(
+        (&findings[0]["kind"], &findings[0]["patches"][1]),
+        (&"emitter-in-face".into(), &"light".into())
+    );
+    let again = json(&radiosity(&["inspect", &repaired, "--json"]));
+    assert_eq!(again["findings"].as_array().expect("findings").len(), 0);
+    let ceiling =
+        |file: &str| json(&radiosity(&["inspect", file, "--json"]))["area"].as_f64().expect("an area");
+    assert!((ceiling(&closed) - ceiling(&repaired) - 130.0 * 105.0).abs() < 1e-6);
+}
+
+#[test]
+fn view_writes_one_page_without_addresses() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json"]);
+    let output = radiosity(&["view", &files[0]]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let page = std::fs::read_to_string(folder.path("a.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.contains("short-top"));
+    for address in ["http://", "https://", "src=", "@import"] {
+        assert!(!page.contains(address), "{address}");
+    }
+}
+
+#[test]
+fn what_is_no_solution_is_refused() {
+    let folder = Folder::new();
+    let page = text_of(&folder.path("a.png"));
+    let files = solved(&folder, &["good.json"]);
+    let good = std::fs::read_to_string(&files[0]).expect("a solution");
+    let cases = [
+        folder.put("text.json", "no JSON"),
+        folder.put("other.json", "{}"),
+        folder.put("cut.json", &good[..good.len() / 2]),
+        folder.put("short.json", &good.replacen("\"bands\":3", "\"bands\":2", 1)),
+        folder.put("index.json", &good.replacen("\"elements\":[[0,", "\"elements\":[[99,", 1)),
+    ];
+    for file in cases {
+        let output = radiosity(&["expose", &file, "-o", &page]);
+        assert_eq!(code(&output), 3, "{file}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn what_was_written_can_be_solved_again() {
+    let folder = Folder::new();
+    let lit = text_of(&folder.path("lit.dae"));
+    let mut arguments = SOLVE.to_vec();
+    arguments.extend(["-o", &lit]);
+    assert_eq!(code(&radiosity(&arguments)), 0);
+    let again = radiosity(&["factors", &lit, "--from", "278,200,100,0,1,0", "--json"]);
+    assert_eq!(code(&again), 0, "{}", stderr(&again));
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let run = |threads: &str| {
+        let folder = Folder::new();
+        let picture = text_of(&folder.path("a.png"));
+        let mut arguments = SOLVE.to_vec();
+        arguments.extend(["-o", &picture, "-j", threads]);
+        assert_eq!(code(&radiosity(&arguments)), 0);
+        std::fs::read(&picture).expect("a picture")
+    };
+    assert!(run("1") == run("3"));
+}
+
+#[test]
+fn factors_are_named_bounded_and_summed() {
+    let output = radiosity(&["factors", "scenes/cornell-box.dae", "--from", "278,200,100,0,1,0", "--json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let figures = json(&output);
+    let rows = figures["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 17);
+    let sum: f64 = rows.iter().map(|row| row["form_factor"].as_f64().expect("a number")).sum();
+    assert!((sum - figures["sum"].as_f64().expect("a number")).abs() < 1e-12);
+    assert!(rows.iter().all(|row| row["error_bound"].as_f64().expect("a number") < 1e-9));
+
+    let on_floor =
+        ["factors", "scenes/cornell-box.dae", "--from", "278,0,100,0,1,0", "--on", "floor", "--json"];
+    let rows = json(&radiosity(&on_floor));
+    assert_eq!(rows["rows"][0]["form_factor"], 0.0, "the floor does not see itself");
+}
+
+#[test]
+fn a_built_in_scene_goes_to_stdout_or_to_a_file() {
+    let folder = Folder::new();
+    let file = text_of(&folder.path("box.dae"));
+    let to_stdout = radiosity(&["scene", "cornell-box"]);
+    assert_eq!(code(&to_stdout), 0);
+    assert_eq!(code(&radiosity(&["scene", "cornell-box", "-o", &file])), 0);
+    assert_eq!(std::fs::read(&file).expect("the scene"), to_stdout.stdout);
+    let unknown = radiosity(&["scene", "no-such-scene", "-o", &file]);
+    assert_eq!(code(&unknown), 2);
+    assert!(stderr(&unknown).contains("cornell-box"), "names what there is");
+}
+
+#[test]
+fn wrong_usage_is_2() {
+    let cases: [&[&str]; 8] = [
+        &[],
+        &["solve"],
+        &["solve", "scenes/cornell-box.dae"],
+        &["solve", "scenes/cornell-box.dae", "-o", "light.bmp"],
+        &["solve", "scenes/cornell-box.dae", "--json", "--tolerance", "-1"],
+        &["solve", "scenes/cornell-box.dae", "--json", "-j", "0"],
+        &["factors", "scenes/cornell-box.dae", "--from", "1,2,3"],
+        &["factors", "scenes/cornell-box.dae", "--from", "1,2,3,0,0,1", "--on", "no-such-patch"],
+    ];
+    for arguments in cases {
+        let output = radiosity(arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty());
+        assert!(!stderr(&output).is_empty());
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written_are_1() {
+    let missing = radiosity(&["solve", "no-such-file.dae", "--json"]);
+    assert_eq!(code(&missing), 1);
+    assert!(stderr(&missing).contains("no-such-file.dae"));
+    let mut arguments = SOLVE.to_vec();
+    arguments.extend(["-o", "no-such-folder/a.png"]);
+    assert_eq!(code(&radiosity(&arguments)), 1);
+}
+
+#[test]
+fn bad_scenes_are_3_and_leave_no_file() {
+    let folder = Folder::new();
+    let bad = folder.put("bad.dae", "<COLLADA version=\"1.4.1\"><library_geometries>");
+    let picture = folder.path("a.png");
+    let output = radiosity(&["solve", &bad, "-o", &text_of(&picture)]);
+    assert_eq!(code(&output), 3, "{}", stderr(&output));
+    assert!(stderr(&output).contains("bad.dae:1"), "names file and line: {}", stderr(&output));
+    assert_eq!(folder.names(), ["bad.dae"]);
+}
+
+#[test]
+fn a_scene_without_light_is_dark_and_says_so() {
+    let folder = Folder::new();
+    let scene = String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text");
+    let dark = folder.put("dark.dae", &scene.replace("17 12 4 1", "0 0 0 1"));
+    let output = radiosity(&["solve", &dark, "--json", "--elements", "100"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stderr(&output).contains("no patch emits light"));
+    let figures = json(&output);
+    assert!(figures["patches"].as_array().expect("patches").iter().all(|p| p["radiosity"][0] == 0.0));
+}
+
+#[test]
+fn a_stopped_run_is_4_and_writes_its_result() {
+    let folder = Folder::new();
+    let picture = text_of(&folder.path("a.png"));
+    let mut arguments = SOLVE.to_vec();
+    arguments.extend(["-o", &picture, "--max-shots", "3", "--json"]);
+    let output = radiosity(&arguments);
+    assert_eq!(code(&output), 4, "{}", stderr(&output));
+    assert_eq!(json(&output)["shots"], 3);
+    assert_eq!(folder.names(), ["a.png", "a.png.state"]);
+    assert!(stderr(&output).contains("continue with --resume"), "{}", stderr(&output));
+    let state = text_of(&folder.path("a.png.state"));
+    let resumed = radiosity(&[&SOLVE[..], &["--json", "--resume", &state]].concat());
+    let whole = radiosity(&[&SOLVE[..], &["--json"]].concat());
+    assert_eq!(code(&resumed), 0, "{}", stderr(&resumed));
+    let light = |output| (json(output)["patches"].clone(), json(output)["energy"].clone());
+    assert_eq!(light(&resumed), light(&whole));
+}

@@ -1,0 +1,24 @@
+//! Colours and markers.
+
+/// A method has one style in all plots.
+pub(crate) fn style(name: &str) -> usize {
+    const NAMES: [&str; 10] = [
+        "exact",
+        "disk",
+        "Wallace",
+        "Pietrek",
+        "visibility index, 4 × 4 rays",
+        "visibility index, 8 × 8 rays",
+        "hemicube",
+        "Baum",
+        "paraboloid",
+        "single plane",
+    ];
+    const OTHERS: [&str; 4] = ["shooting", "full matrix", "conjugate gradients", "GMRES"];
+    let at = |names: &[&str]| names.iter().position(|known| *known == name);
+    match name {
+        "rays, random" => 10,
+        "rays, stratified" => 11,
+        _ => at(&NAMES).or_else(|| at(&OTHERS).map(|index| [2, 3, 0, 4][index])).unwrap_or(0),
+    }
+}

@@ -1,0 +1,106 @@
+//! Error against time: the plot, and its figures as tables.
+use super::plot::{Curve, Plot, Point};
+use super::style::style;
+use super::table::{Table, error, percent, seconds};
+use crate::analysis::{Line, TARGETS};
+use crate::rows::Measured;
+
+/// A work-precision plot.
+pub(crate) fn against_time(
+    lines: &[Line<'_>],
+    title: &str,
+    y: &str,
+    error_of: impl Fn(&Measured) -> f64,
+) -> String {
+    let curve = |line: &Line<'_>| {
+        let point = |row: &&Measured| Point {
+            x: row.time.cpu.median,
+            y: error_of(row),
+            spread: Some([row.time.cpu.low, row.time.cpu.high]),
+            hint: format!(
+                "{} {}: {}, {}",
+                row.series,
+                row.setting,
+                error(error_of(row)),
+                seconds(row.time.cpu.median)
+            ),
+        };
+        let floor = line.floor(&error_of);
+        let slope = line.slope(&error_of).map(|slope| format!("slope {}", signed(slope)));
+        let stuck = floor.map(|floor| format!("floor {}", error(floor)));
+        Curve {
+            style: style(line.name),
+            name: line.name.to_owned(),
+            note: slope.into_iter().chain(stuck).collect::<Vec<_>>().join(", "),
+            points: line.rows.iter().map(point).collect(),
+            floor,
+        }
+    };
+    let curves = lines.iter().map(curve).collect();
+    Plot { title: title.to_owned(), x: "CPU time for one point (s)", y, curves }.svg()
+}
+
+/// The time in which each method reaches some errors.
+pub(crate) fn time_to_error(lines: &[Line<'_>]) -> Table {
+    let mut table =
+        Table::new(["method", "to 1e-2", "to 1e-4", "to 1e-6", "smallest error, in", "slope", "floor"]);
+    for line in lines {
+        let [a, b, c] = TARGETS.map(|target| line.time_to(target).map_or_else(|| "–".to_owned(), seconds));
+        let [best, time] = line.best();
+        table.push([
+            line.name.to_owned(),
+            a,
+            b,
+            c,
+            format!("{}, {}", error(best), seconds(time)),
+            line.slope(largest).map_or_else(|| "–".to_owned(), signed),
+            line.floor(largest).map_or_else(|| "–".to_owned(), error),
+        ]);
+    }
+    table
+}
+
+/// Every row.
+pub(crate) fn every(rows: &[&Measured]) -> Table {
+    let header = [
+        "method",
+        "setting",
+        "largest error",
+        "mean",
+        "beyond 1e-3",
+        "CPU",
+        "CPU, from – to",
+        "wall",
+        "rounds",
+    ];
+    let mut table = Table::new(header);
+    for row in rows {
+        let (cpu, wall) = (row.time.cpu, row.time.wall);
+        table.push([
+            row.series.clone(),
+            row.setting.clone(),
+            error(row.error.max),
+            error(row.error.mean),
+            percent(row.error.beyond),
+            seconds(cpu.median),
+            format!("{} – {}", seconds(cpu.low), seconds(cpu.high)),
+            seconds(wall.median),
+            row.time.rounds.to_string(),
+        ]);
+    }
+    table
+}
+
+/// The largest error, and the mean: what plots are of.
+pub(crate) fn largest(row: &Measured) -> f64 {
+    row.error.max
+}
+
+pub(crate) fn mean(row: &Measured) -> f64 {
+    row.error.mean
+}
+
+/// With a sign as long as the digits.
+fn signed(value: f64) -> String {
+    format!("{value:.2}").replace('-', "−")
+}

@@ -1,0 +1,28 @@
+//! What was measured.
+use crate::analysis::subjects;
+use crate::machine::Machine;
+use crate::rows::{Chapter, ErrorImage, Measured, Row};
+
+/// A report: what was measured.
+#[derive(Clone, Debug)]
+pub struct Report {
+    pub(crate) rows: Vec<Row>,
+    pub(crate) machine: Machine,
+    pub(crate) quick: bool,
+    pub(crate) images: Vec<ErrorImage>,
+}
+
+impl Report {
+    /// The rows of one chapter that measure an error.
+    pub(crate) fn measured(&self, chapter: Chapter) -> impl Iterator<Item = &Measured> {
+        self.rows.iter().filter_map(move |row| match row {
+            Row::Measured(row) if row.chapter == chapter => Some(row),
+            _ => None,
+        })
+    }
+
+    /// The subjects of a chapter.
+    pub(crate) fn subjects(&self, chapter: Chapter) -> Vec<&str> {
+        subjects(self.measured(chapter)).into_iter().map(|(name, _)| name).collect()
+    }
+}

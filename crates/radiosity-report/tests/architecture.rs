@@ -1,0 +1,61 @@
+//! The layout of the source: imports run one way, down the list below, and every name is imported from the module that
+//! defines it.
+#[path = "../../radiosity/tests/street/mod.rs"]
+mod street;
+
+use std::path::Path;
+use street::{complaints, shared_names};
+
+/// Each folder of `src`, from the top to the bottom.
+const STREET: [(&str, &[&str]); 3] = [
+    (
+        "",
+        &[
+            "lib", "report", "page", "measure", "clock", "results", "analysis", "methods", "plan", "machine",
+            "rows",
+        ],
+    ),
+    (
+        "page",
+        &[
+            "mod",
+            "chapter_scenes",
+            "chapter_axes",
+            "chapter_tables",
+            "peers",
+            "work_precision",
+            "plot",
+            "axis",
+            "style",
+            "table",
+            "escape",
+        ],
+    ),
+    (
+        "measure",
+        &[
+            "mod",
+            "published",
+            "left_out",
+            "stiff",
+            "booleans",
+            "error_image",
+            "stress",
+            "cases",
+            "test_scene",
+            "query",
+        ],
+    ),
+];
+
+#[test]
+fn imports_run_one_way() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    assert_eq!(complaints(&src, &STREET), Vec::<String>::new());
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    assert_eq!(shared_names(&src), Vec::<String>::new());
+}

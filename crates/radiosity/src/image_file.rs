@@ -1,0 +1,104 @@
+//! Pictures of textures: PNG and JPEG to linear colours.
+use crate::scene::texture::Image;
+use base64::Engine;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+/// The most texels that are read.
+const MAX_TEXELS: u64 = 1 << 26;
+
+/// A picture from a `data:` address, or from a file whose name is relative to a folder.
+pub(crate) fn fetch(address: &str, folder: Option<&Path>) -> Result<Image, String> {
+    let name = if address.starts_with("data:") { "embedded" } else { address };
+    decode(name, bytes(address, folder)?)
+}
+
+/// The bytes behind a `data:` address, or of a file whose name is relative to a folder.
+pub(super) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+    if let Some(data) = address.strip_prefix("data:") {
+        let (_, text) = data.split_once(";base64,").ok_or("its address is not in base64")?;
+        let bytes = base64::engine::general_purpose::STANDARD.decode(text.trim());
+        return bytes.map_err(|error| format!("its address is not in base64: {error}"));
+    }
+    let path = local(address).ok_or("it is not a file of this machine; save it beside the scene")?;
+    let folder = folder.ok_or("the scene is in no folder")?;
+    regular(&folder.join(&path)).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The bytes of a regular file: what else a scene may name, a device or a pipe, need not end.
+fn regular(path: &Path) -> std::io::Result<Vec<u8>> {
+    if !path.metadata()?.is_file() {
+        return Err(std::io::Error::other("not a regular file"));
+    }
+    std::fs::read(path)
+}
+
+/// A path from an address: `file://` or none, `%20` and its like resolved.
+fn local(address: &str) -> Option<PathBuf> {
+    let path = address.strip_prefix("file://").unwrap_or(address);
+    if path.contains("://") {
+        return None;
+    }
+    Some(PathBuf::from(percent_encoding::percent_decode_str(path).decode_utf8().ok()?.into_owned()))
+}
+
+/// Decodes a picture; its colours are taken as sRGB, as pictures are stored, and an alpha channel is left out.
+pub(super) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
+    let mut reader = image::ImageReader::new(Cursor::new(&bytes))
+        .with_guessed_format()
+        .map_err(|error| format!("{name}: {error}"))?;
+    let mime = match reader.format() {
+        Some(image::ImageFormat::Png) => "image/png",
+        Some(image::ImageFormat::Jpeg) => "image/jpeg",
+        _ => return Err(format!("{name}: neither PNG nor JPEG; convert it")),
+    };
+    let mut limits = image::Limits::default();
+    limits.max_alloc = Some(16 * MAX_TEXELS);
+    reader.limits(limits);
+    let picture = reader.decode().map_err(|error| format!("{name}: {error}"))?.into_rgb16();
+    let linear = |word: u16| linear(f64::from(word) / f64::from(u16::MAX));
+    let texels: Vec<[f64; 3]> = picture.pixels().map(|pixel| pixel.0.map(linear)).collect();
+    if texels.is_empty() {
+        return Err(format!("{name}: it has no texels"));
+    }
+    Ok(Image { name: name.into(), mime, width: picture.width() as usize, texels, bytes })
+}
+
+/// The linear intensity of an sRGB value, both 0 to 1 (IEC 61966-2-1).
+fn linear(value: f64) -> f64 {
+    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_comes_back_as_it_was() {
+        let greys = [0.0, 0.05, 0.5, 0.8, 1.0, 0.2];
+        let image = decode("six", crate::picture::png::grey(&greys, 3)).unwrap();
+        assert_eq!((image.width, image.mime), (3, "image/png"));
+        for (texel, grey) in image.texels.iter().zip(greys) {
+            assert!(texel.iter().all(|band| (band - grey).abs() < 3e-5), "{texel:?} {grey}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused_by_name() {
+        for bytes in [&b""[..], b"\x89PNG\r\n\x1a\n", b"GIF89a", b"\xff\xd8\xff\xe0 no more"] {
+            assert!(decode("broken", bytes.to_vec()).unwrap_err().starts_with("broken"));
+        }
+        assert!(fetch("https://example.org/a.png", None).is_err());
+        assert!(fetch("data:image/png;base64,%%%", None).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_never_ends_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        for address in ["/dev/zero", "file:///dev/zero", "%2Fdev/zero", "."] {
+            let refusal = bytes(address, Some(folder.path())).unwrap_err();
+            assert!(refusal.contains("not a regular file"), "{refusal}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Patches.
+use super::texture::Texture;
+use formfactor::PlanarPolygon;
+use glam::DVec3;
+
+/// A planar surface that reflects diffusely and may emit, on its front side.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// A unique name: that of the file's node, with `.k` when the node holds several polygons, `.k.m` for pieces of a split one.
+    pub name: String,
+    /// The shape. The front, where the outline is counter-clockwise, sends and receives light; both sides block it.
+    pub polygon: PlanarPolygon,
+    /// Diffuse reflectance per band, 0 to below 1.
+    pub reflectance: Vec<f64>,
+    /// Emitted radiance L per band, W/m²/sr; the emitted radiosity is E = πL.
+    pub emission: Vec<f64>,
+    /// A picture on the patch: the reflectance of each point. `reflectance` is then its mean.
+    pub texture: Option<Texture>,
+    /// The smoothing group: patches of one object with the same number are facets of one curved surface and share their light
+    /// where they meet. `None` for a flat surface.
+    pub smoothing: Option<usize>,
+    /// Whether the patch only blocks light: it sends none and its own light is of no interest.
+    pub only_blocks: bool,
+    /// The place in the file.
+    pub origin: Origin,
+}
+
+impl Patch {
+    /// A patch without texture and without a file.
+    ///
+    /// ```
+    /// use radiosity::{Patch, formfactor::PlanarPolygon};
+    ///
+    /// let square = PlanarPolygon::new([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]])?;
+    /// let lamp = Patch::new("lamp", square, vec![0.5], vec![10.0]); // one band; radiance 10, so 10 pi W/m² are emitted
+    /// assert_eq!(lamp.polygon.normal().z, 1.0);
+    /// # Ok::<(), radiosity::formfactor::Error>(())
+    /// ```
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        polygon: PlanarPolygon,
+        reflectance: Vec<f64>,
+        emission: Vec<f64>,
+    ) -> Patch {
+        let name = name.into();
+        let (texture, smoothing, only_blocks, origin) = (None, None, false, Origin::default());
+        Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, origin }
+    }
+
+    /// The reflectance per band of a triangle on the patch: the patch's own, or the mean of the texture over the triangle.
+    #[must_use]
+    pub fn reflectance_over(&self, corners: [DVec3; 3]) -> Vec<f64> {
+        match &self.texture {
+            None => self.reflectance.clone(),
+            Some(texture) => {
+                let mean = texture.mean(corners);
+                (0..self.reflectance.len()).map(|band| mean[band.min(2)]).collect()
+            }
+        }
+    }
+
+    /// Whether the patch emits light in some band.
+    #[must_use]
+    pub fn emits(&self) -> bool {
+        self.emission.iter().any(|&radiance| radiance > 0.0)
+    }
+}
+
+/// The place of a patch in its file, so that a writer can put the result back there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// Which geometry instance, counted in the order in which the reader met them.
+    pub instance: usize,
+    /// Which primitive element (`polylist`, `triangles`, …) of that geometry.
+    pub primitive: usize,
+    /// Which polygon of that primitive.
+    pub polygon: usize,
+}

@@ -1,0 +1,100 @@
+//! A run from its first step to its solution.
+use super::direct::gather;
+use super::follow::follow;
+use super::hemicube::Hemicubes;
+use super::ledger::gaps;
+use super::options::Method;
+use super::relax::relax;
+use super::run::Run;
+use super::shoot::shoot;
+use super::shooters::Shooters;
+use super::solution::Solution;
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// From this reflectance of a closed room on, solving for all pieces at once is quicker than shooting.
+const STIFF: f64 = 0.9;
+/// So many columns are found for the closure in any case.
+const FEW: usize = 64;
+
+impl Run<'_> {
+    /// Goes on until the tolerance is reached (true), or the watcher, a limit or a defect ends it (false).
+    pub(super) fn advance(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let converged = self.solve(scene);
+        Ok(self.survive(converged)?.unwrap_or(false))
+    }
+
+    fn solve(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let choice = if self.sample(scene)? { self.choose(scene)? } else { None };
+        match choice {
+            None => Ok(false),
+            Some(Method::Auto | Method::Shoot) => shoot(self),
+            Some(method) => relax(self, method),
+        }
+    }
+
+    /// Draws hemicubes where they are asked for; false when the watcher wants to stop.
+    fn sample(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let Some(resolution) = self.options.hemicube else { return Ok(true) };
+        let subdivision = self.factors.subdivision;
+        let drawn = Hemicubes::draw(scene, subdivision, resolution, || self.report().is_break())?;
+        let Some(hemicubes) = drawn else { return Ok(false) };
+        self.factors.approximate(hemicubes, resolution);
+        Ok(true)
+    }
+
+    /// Chooses how to solve; follows the light through the rooms where that decides, and refuses what has no solution.
+    /// Nothing when the watcher wants to stop.
+    fn choose(&mut self, scene: &Scene) -> Result<Option<Method>, Error> {
+        let asked = self.options.method;
+        let largest = (0..self.light.areas.len()).map(|element| self.light.largest_reflectance(element));
+        let largest = largest.fold(0.0, f64::max);
+        let auto = asked == Method::Auto;
+        if largest < 1.0 && (asked == Method::Shoot || (auto && largest < STIFF)) {
+            return Ok(Some(Method::Shoot));
+        }
+        let Some(rooms) = follow(scene, self)? else { return Ok(None) };
+        rooms.check(scene)?;
+        self.gaps = gaps(&self.light, Some(&rooms.sums));
+        let stiff = rooms.closed_reflectance() >= STIFF;
+        if asked != Method::Shoot {
+            let lit = rooms.lit().into_iter();
+            self.shooters = Shooters::new(lit, self.factors.subdivision, &self.light);
+        }
+        self.rooms = Some(rooms);
+        Ok(Some(match (auto, stiff) {
+            (true, true) => Method::Cg,
+            (true, false) => Method::Shoot,
+            (false, _) => asked,
+        }))
+    }
+
+    /// The solution; direct light is gathered for the last mesh only.
+    pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
+        let (mut closure, mut direct) = (None, None);
+        if converged {
+            let found = self.closure(scene.patches.len());
+            closure = self.survive(found)?.flatten();
+        }
+        if converged && last && self.options.gather {
+            let gathered = gather(scene, &mut self);
+            direct = self.survive(gathered)?;
+        }
+        Ok(self.into_solution(converged, closure, direct))
+    }
+
+    /// The largest |ΣF − 1| over the elements, for pieces that cover the patches once. Not found where that takes more
+    /// columns than the solution did.
+    fn closure(&mut self, patches: usize) -> Result<Option<f64>, Error> {
+        let mut whole = vec![true; patches];
+        let mut pieces: Vec<usize> = self.shooters.front().collect();
+        pieces.iter().for_each(|&node| whole[self.factors.subdivision.nodes[node].patch] = false);
+        pieces.extend((0..patches).filter(|&patch| whole[patch]));
+        let missing = pieces.iter().filter(|&&node| !self.factors.is_known(node)).count();
+        if missing > (pieces.len() - missing).max(FEW) {
+            return Ok(None);
+        }
+        let sums = self.factors.sums(pieces)?;
+        Ok(Some(sums.iter().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max)))
+    }
+}

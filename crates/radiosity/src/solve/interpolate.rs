@@ -1,0 +1,118 @@
+//! From one value per element to one value per vertex.
+//!
+//! Around a vertex lie the elements that share it, all of one patch and of one side of whatever stands there. Facets of
+//! one curved surface, patches of one object and one smoothing group, share their light where they meet; nothing else
+//! does, so that light neither leaks nor bleeds over edges.
+use super::solution::Solution;
+use crate::mesh::element::Mesh;
+use crate::scene::Scene;
+use std::collections::BTreeMap;
+
+impl Solution {
+    /// Irradiance at the vertices, vertices × bands, W/m²: the area-weighted mean of the elements around each vertex.
+    /// Where direct light was gathered, that of the emitters is exact and only the rest is such a mean. O(elements).
+    #[must_use]
+    pub fn vertex_irradiance(&self) -> Vec<f64> {
+        let means = Means::of(&self.mesh, self.bands);
+        let Some(direct) = &self.direct else {
+            return means.shared(&self.welds, means.around(&self.irradiance));
+        };
+        let indirect: Vec<f64> =
+            self.irradiance.iter().zip(&direct.elements).map(|(all, emitters)| all - emitters).collect();
+        let sums = means
+            .around(&indirect)
+            .into_iter()
+            .zip(&direct.vertices)
+            .map(|(rest, emitters)| (rest + emitters).max(0.0));
+        means.shared(&self.welds, sums.collect())
+    }
+
+    /// Radiosity at the vertices, vertices × bands, W/m²: what the elements around each vertex send on average, at the
+    /// irradiance of the vertex. O(elements).
+    #[must_use]
+    pub fn vertex_radiosity(&self) -> Vec<f64> {
+        let means = Means::of(&self.mesh, self.bands);
+        let given = means.around(&self.irradiance);
+        let reflectance = means.around(&self.reflectance);
+        let change = self.vertex_irradiance().into_iter().zip(given).map(|(here, around)| here - around);
+        let radiosity = means.around(&self.radiosity).into_iter().zip(reflectance).zip(change);
+        radiosity.map(|((b, rho), change)| (b + rho * change).max(0.0)).collect()
+    }
+}
+
+/// For each vertex the first vertex that it shares its light with: at the same place, on patches of one object and one
+/// smoothing group. A vertex that a patch has more than once, at the foot of what stands on it, shares with none.
+pub(crate) fn welds(scene: &Scene, mesh: &Mesh) -> Vec<usize> {
+    let mut patch_of = vec![None; mesh.vertices.len()];
+    for element in &mesh.elements {
+        element.corners.iter().for_each(|&corner| patch_of[corner] = Some(element.patch));
+    }
+    let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    for (vertex, place) in mesh.vertices.iter().enumerate() {
+        let Some(patch) = patch_of[vertex].map(|patch| &scene.patches[patch]) else { continue };
+        let Some(smoothing) = patch.smoothing else { continue };
+        let place = place.to_array().map(|coordinate| (coordinate + 0.0).to_bits());
+        places.entry((patch.origin.instance, smoothing, place)).or_default().push(vertex);
+    }
+    let mut welds: Vec<usize> = (0..mesh.vertices.len()).collect();
+    for vertices in places.values() {
+        let mut patches: Vec<_> = vertices.iter().map(|&vertex| patch_of[vertex]).collect();
+        patches.sort_unstable();
+        patches.dedup();
+        if patches.len() == vertices.len() {
+            vertices.iter().for_each(|&vertex| welds[vertex] = vertices[0]);
+        }
+    }
+    welds
+}
+
+/// Area-weighted means around vertices.
+struct Means<'m> {
+    mesh: &'m Mesh,
+    bands: usize,
+    areas: Vec<f64>,
+    /// The area around each vertex.
+    weights: Vec<f64>,
+}
+
+impl<'m> Means<'m> {
+    fn of(mesh: &'m Mesh, bands: usize) -> Means<'m> {
+        let areas: Vec<f64> = (0..mesh.elements.len()).map(|element| mesh.area(element)).collect();
+        let mut weights = vec![0.0; mesh.vertices.len()];
+        for (element, area) in mesh.elements.iter().zip(&areas) {
+            element.corners.iter().for_each(|&corner| weights[corner] += area);
+        }
+        Means { mesh, bands, areas, weights }
+    }
+
+    /// The means of element values, vertices × bands.
+    fn around(&self, values: &[f64]) -> Vec<f64> {
+        let mut means = vec![0.0; self.weights.len() * self.bands];
+        for (element, value) in values.chunks_exact(self.bands).enumerate() {
+            for corner in self.mesh.elements[element].corners {
+                let share = self.areas[element] / self.weights[corner].max(f64::MIN_POSITIVE);
+                let mean = means[corner * self.bands..].iter_mut();
+                mean.zip(value).for_each(|(mean, v)| *mean += share * v);
+            }
+        }
+        means
+    }
+
+    /// The means over vertices that share their light.
+    fn shared(&self, welds: &[usize], values: Vec<f64>) -> Vec<f64> {
+        let mut sums = vec![0.0; values.len()];
+        let mut weights = vec![0.0; welds.len()];
+        for (vertex, &first) in welds.iter().enumerate() {
+            weights[first] += self.weights[vertex];
+            for band in 0..self.bands {
+                sums[first * self.bands + band] += self.weights[vertex] * values[vertex * self.bands + band];
+            }
+        }
+        let shared = |(at, value): (usize, f64)| {
+            let first = welds[at / self.bands];
+            let alone = weights[first] == self.weights[at / self.bands];
+            if alone { value } else { sums[first * self.bands + at % self.bands] / weights[first] }
+        };
+        values.into_iter().enumerate().map(shared).collect()
+    }
+}

@@ -1,0 +1,182 @@
+//! What hides light: patches that continue each other in one plane, as one polygon.
+//!
+//! A wall that comes as a thousand triangles hides what the wall hides, at a thousandth of the cost. Which edges lie
+//! inside a wall is read off the vertices, which neighbours share; nothing is intersected.
+use crate::scene::{Scene, patch::Patch};
+use crate::union_find::UnionFind;
+use formfactor::PlanarPolygon;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// How near two planes, or a vertex and a straight line, are one, in shares of the coordinates' size: what rounding
+/// leaves of a wall that was cut in parts.
+const NEAR: f64 = 1e-12;
+
+type Key = [u64; 3];
+
+/// The polygons, and which of them each patch is a part of.
+#[derive(Debug)]
+pub(crate) struct Occluders {
+    pub(crate) polygons: Vec<PlanarPolygon>,
+    pub(crate) of_patch: Vec<usize>,
+}
+
+impl Occluders {
+    /// Joins the patches of a scene. O(n log n) for n vertices.
+    pub(crate) fn join(scene: &Scene) -> Occluders {
+        let mut sides: BTreeMap<[Key; 2], usize> = BTreeMap::new();
+        let mut groups = UnionFind::new(scene.patches.len());
+        for (index, patch) in scene.patches.iter().enumerate() {
+            for [a, b] in edges(patch) {
+                let other = sides.get(&[key(b), key(a)]).copied();
+                if let Some(other) = other.filter(|&other| continues(&scene.patches[other], patch)) {
+                    groups.join(other, index);
+                }
+                sides.insert([key(a), key(b)], index);
+            }
+        }
+        let (numbers, firsts) = groups.number();
+        let mut members = vec![Vec::new(); firsts.len()];
+        numbers.iter().enumerate().for_each(|(patch, &group)| members[group].push(patch));
+        let mut occluders = Occluders { polygons: Vec::new(), of_patch: vec![0; scene.patches.len()] };
+        members.iter().for_each(|patches| occluders.add(scene, patches));
+        occluders
+    }
+
+    /// Adds a group as one polygon, or each patch by itself where the whole is none.
+    fn add(&mut self, scene: &Scene, patches: &[usize]) {
+        let whole = if patches.len() > 1 { outline(scene, patches) } else { None };
+        match whole {
+            Some(whole) => {
+                patches.iter().for_each(|&patch| self.of_patch[patch] = self.polygons.len());
+                self.polygons.push(whole);
+            }
+            None => {
+                for &patch in patches {
+                    self.of_patch[patch] = self.polygons.len();
+                    self.polygons.push(scene.patches[patch].polygon.clone());
+                }
+            }
+        }
+    }
+}
+
+/// A place as a key of a map; −0.0 reads as 0.0.
+fn key(place: DVec3) -> Key {
+    place.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
+}
+
+/// The directed edges of all loops.
+fn edges(patch: &Patch) -> impl Iterator<Item = [DVec3; 2]> {
+    let loops = patch.polygon.loops();
+    loops.flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]))
+}
+
+/// Whether a patch lies in the plane of another one and faces the same way.
+fn continues(one: &Patch, other: &Patch) -> bool {
+    let (normal, points) = (one.polygon.normal(), || other.polygon.loops().flatten());
+    let Some(&origin) = one.polygon.loops().flatten().next() else { return false };
+    let size = points().map(|point| point.abs().max_element()).fold(origin.abs().max_element(), f64::max);
+    normal.dot(other.polygon.normal()) > 0.0
+        && points().all(|point| (*point - origin).dot(normal).abs() <= NEAR * size)
+}
+
+/// The polygon that patches cover together: the edges that only one of them has, straight ones as one.
+fn outline(scene: &Scene, patches: &[usize]) -> Option<PlanarPolygon> {
+    let mut rim: BTreeMap<[Key; 2], [DVec3; 2]> = BTreeMap::new();
+    for [a, b] in patches.iter().flat_map(|&patch| edges(&scene.patches[patch])) {
+        if rim.remove(&[key(b), key(a)]).is_none() {
+            rim.insert([key(a), key(b)], [a, b]);
+        }
+    }
+    let normal = scene.patches[patches[0]].polygon.normal();
+    let mut loops: Vec<Vec<DVec3>> = link(rim).iter().map(|walk| straighten(walk)).collect();
+    loops.retain(|walk| walk.len() > 2);
+    let outer =
+        (0..loops.len()).max_by(|&a, &b| area(&loops[a], normal).total_cmp(&area(&loops[b], normal)))?;
+    loops.swap(0, outer);
+    PlanarPolygon::new(&loops).ok()
+}
+
+/// Closed walks over directed edges; each is used once.
+fn link(mut rim: BTreeMap<[Key; 2], [DVec3; 2]>) -> Vec<Vec<DVec3>> {
+    let mut walks = Vec::new();
+    while let Some((_, [start, mut end])) = rim.pop_first() {
+        let mut walk = vec![start];
+        while key(end) != key(start) {
+            walk.push(end);
+            let onward = rim.range([key(end), [0; 3]]..).next().filter(|(edge, _)| edge[0] == key(end));
+            let Some(next) = onward.map(|(edge, _)| *edge) else { break };
+            end = rim.remove(&next).map_or(start, |edge| edge[1]);
+        }
+        walks.push(walk);
+    }
+    walks
+}
+
+/// Leaves out the vertices that lie straight between their neighbours.
+fn straighten(walk: &[DVec3]) -> Vec<DVec3> {
+    let mut kept: Vec<DVec3> = Vec::new();
+    for (index, &point) in walk.iter().enumerate() {
+        let before = kept.last().copied().unwrap_or(walk[walk.len() - 1]);
+        let after = walk[(index + 1) % walk.len()];
+        let (way, arm) = (after - before, point - before);
+        let off = way.cross(arm).length();
+        let straight = off <= NEAR * point.abs().max_element() * way.length() && way.dot(arm) > 0.0;
+        if !(straight && arm.length_squared() < way.length_squared()) {
+            kept.push(point);
+        }
+    }
+    kept
+}
+
+/// Signed area of a closed walk, seen from the front.
+fn area(walk: &[DVec3], normal: DVec3) -> f64 {
+    let origin = walk[0];
+    let next = walk.iter().cycle().skip(1);
+    walk.iter().zip(next).map(|(a, b)| (*a - origin).cross(*b - origin)).sum::<DVec3>().dot(normal) / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rectangle with a hole, cut in triangles around the hole.
+    fn cut_frame() -> Scene {
+        let outer = [[0., 0.], [3., 0.], [3., 3.], [0., 3.]];
+        let inner = [[1., 1.], [2., 1.], [2., 2.], [1., 2.]];
+        let place = |[x, y]: [f64; 2]| DVec3::new(x, y, 0.5 * x + 0.25 * y);
+        let triangle = |corners: [[f64; 2]; 3]| {
+            let polygon = PlanarPolygon::new([corners.map(place)]).unwrap();
+            Patch::new("triangle", polygon, vec![0.5], vec![0.0])
+        };
+        let pieces = (0..4).flat_map(|k| {
+            let next = (k + 1) % 4;
+            [triangle([outer[k], outer[next], inner[k]]), triangle([outer[next], inner[next], inner[k]])]
+        });
+        Scene { patches: pieces.collect(), bands: 1, ..Scene::default() }
+    }
+
+    #[test]
+    fn triangles_of_a_wall_hide_as_the_wall_with_its_hole() {
+        let occluders = Occluders::join(&cut_frame());
+        assert_eq!(occluders.of_patch, [0; 8]);
+        let whole = &occluders.polygons[0];
+        assert_eq!(whole.loops().map(<[DVec3]>::len).collect::<Vec<_>>(), [4, 4]);
+        let parts: f64 = cut_frame().patches.iter().map(|patch| patch.polygon.area()).sum();
+        assert!((whole.area() / parts - 1.0).abs() < 1e-14);
+        assert!(whole.normal().distance(cut_frame().patches[0].polygon.normal()) < 1e-14);
+    }
+
+    #[test]
+    fn a_bend_and_a_turned_back_part_surfaces() {
+        let square = |corners: [[f64; 3]; 4]| {
+            Patch::new("square", PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![0.0])
+        };
+        let floor = square([[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
+        let wall = square([[0., 0., 0.], [0., 0., 1.], [1., 0., 1.], [1., 0., 0.]]);
+        let beside = square([[1., 0., 0.], [1., 1., 0.], [2., 1., 0.], [2., 0., 0.]]);
+        let scene = Scene { patches: vec![floor, wall, beside], bands: 1, ..Scene::default() };
+        assert_eq!(Occluders::join(&scene).of_patch, [0, 1, 2]);
+    }
+}

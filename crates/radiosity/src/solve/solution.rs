@@ -1,0 +1,97 @@
+//! The light of a scene.
+use super::ledger::Ledger;
+use crate::error::Error;
+use crate::mesh::element::Mesh;
+
+/// The light of a scene.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The elements.
+    pub mesh: Mesh,
+    /// Number of bands.
+    pub bands: usize,
+    /// Radiosity of every element, elements × bands, W/m².
+    pub radiosity: Vec<f64>,
+    /// Irradiance of every element, elements × bands, W/m².
+    pub irradiance: Vec<f64>,
+    /// Where the emitted power went.
+    pub ledger: Ledger,
+    /// Per band, a bound on the algebraic error of every element's radiosity in W/m²: ‖r‖∞ / (1 − max ρ ΣF). The error of the
+    /// mesh is not part of it: see [`Solution::error_estimate`]. Infinite where a patch reflects all light.
+    pub bound: Vec<f64>,
+    /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, and
+    /// where computing it would take longer than the solution.
+    pub closure: Option<f64>,
+    /// The largest relative change of a form factor by closure scaling; `None` where nothing was scaled.
+    pub scaling: Option<f64>,
+    /// How many shots were made.
+    pub shots: usize,
+    /// How many matrix-vector products were made.
+    pub products: usize,
+    /// Whether the tolerance was reached.
+    pub converged: bool,
+    /// The [`Error::Defect`] that ended the run early, if one did; the light is as far as the run had come.
+    pub fault: Option<Error>,
+    /// Seconds that the run took.
+    pub seconds: f64,
+    /// Reflectance of every element, elements × bands.
+    pub(crate) reflectance: Vec<f64>,
+    /// Light straight from the emitters, where it was gathered.
+    pub(crate) direct: Option<DirectLight>,
+    /// For each vertex the first one that it shares its light with.
+    pub(crate) welds: Vec<usize>,
+}
+
+impl Solution {
+    /// The irradiance per band that every element would still receive if the unshot light spread evenly. It brightens the
+    /// picture of a run that was stopped.
+    ///
+    /// ΣAΔB / ΣA / (1 − ρ̄), ρ̄ the mean reflectance: all its reflections to come (Cohen, Chen, Wallace and Greenberg 1988).
+    #[must_use]
+    pub fn ambient(&self) -> Vec<f64> {
+        let areas: Vec<f64> = (0..self.mesh.elements.len()).map(|element| self.mesh.area(element)).collect();
+        let in_band = |band: usize| {
+            let kept = self.reflectance.iter().skip(band).step_by(self.bands).map(|rho| 1.0 - rho);
+            let absorbed: f64 = kept.zip(&areas).map(|(kept, area)| kept * area).sum();
+            let unshot = self.ledger.unshot[band].max(0.0);
+            if unshot == 0.0 || absorbed == 0.0 { 0.0 } else { unshot / absorbed }
+        };
+        (0..self.bands).map(in_band).collect()
+    }
+
+    /// The solution with [`Solution::ambient`] added to every element, for display only.
+    #[must_use]
+    pub fn with_ambient(&self) -> Solution {
+        let ambient = self.ambient();
+        let mut lit = self.clone();
+        for (at, h) in lit.irradiance.iter_mut().enumerate() {
+            *h += ambient[at % self.bands];
+            lit.radiosity[at] += self.reflectance[at] * ambient[at % self.bands];
+        }
+        lit
+    }
+
+    /// Area-weighted means of `values` (elements × bands) over each of the scene's patches: patches × bands.
+    #[must_use]
+    pub fn patch_means(&self, values: &[f64], patches: usize) -> Vec<Vec<f64>> {
+        let mut sums = vec![vec![0.0; self.bands]; patches];
+        let mut areas = vec![0.0; patches];
+        for (index, element) in self.mesh.elements.iter().enumerate() {
+            let area = self.mesh.area(index);
+            areas[element.patch] += area;
+            for (sum, value) in sums[element.patch].iter_mut().zip(&values[index * self.bands..]) {
+                *sum += area * value;
+            }
+        }
+        sums.iter().zip(&areas).map(|(sums, area)| sums.iter().map(|sum| sum / area).collect()).collect()
+    }
+}
+
+/// Light that comes straight from the emitters, found exactly.
+#[derive(Clone, Debug)]
+pub(crate) struct DirectLight {
+    /// Irradiance of the elements, elements × bands.
+    pub(crate) elements: Vec<f64>,
+    /// Irradiance of the vertices, vertices × bands.
+    pub(crate) vertices: Vec<f64>,
+}
