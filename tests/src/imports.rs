@@ -1,9 +1,9 @@
 //! Whether the imports of a crate run one way. Each crate's `tests/architecture.rs` includes this file by its path, so that
 //! no published crate depends on this package.
 //!
-//! An order names the folders and files of `src` from the top down, as `folder`, `file` or `folder/file`; where several
-//! entries fit a path, the longest does. A path may lead down or stay within its entry. `lib.rs`, which re-exports, is read
-//! by nobody: a name is imported from the module that defines it.
+//! An order names the folders and files of `src` from the top down, as `folder`, `file` or `folder/file`. Where several
+//! entries fit a path, the longest one counts. A path may lead down or stay within its entry. `lib.rs` only re-exports, so it
+//! is left out, and no name is imported from it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,8 @@ pub(crate) fn upward(text: &str, module: &[String], order: &[&str]) -> Vec<Strin
     paths(text, module).into_iter().filter_map(complaint).collect()
 }
 
-/// All paths that start with `crate` or `super`, in `use` and elsewhere, from the root. A module `tests` inside a file ends it.
+/// All paths that start with `crate` or `super`, in `use` and elsewhere, seen from the root. What stands behind `mod tests {` in
+/// a file is read as a module inside of it.
 pub(crate) fn paths(text: &str, module: &[String]) -> Vec<Module> {
     let code: Vec<&str> =
         text.lines().map(|line| line.split_once("//").map_or(line, |(code, _)| code)).collect();

@@ -183,7 +183,6 @@ impl LabelledArrangement<'_> {
             pieces.extend(whole.map(|along| Piece::whole(ring, about, along)));
             return;
         }
-        let first = pieces.len();
         let mut run: Option<SubEdgeRun> = None;
         let mut first_run: Option<SubEdgeRun> = None;
         let mut put = |run: SubEdgeRun| {
@@ -209,7 +208,7 @@ impl LabelledArrangement<'_> {
                 }
             };
         }
-        // The loop ends with one run open. Join it with the first one where the ring closes.
+        // The loop may end with a run open, which the first one may continue where the ring closes.
         match (first_run, run) {
             // One run all around: the ring is a piece without nodes, unless something meets it at its start.
             (None, Some(run)) if run.start == sub_edges.start && run.end == sub_edges.start => {
@@ -223,7 +222,6 @@ impl LabelledArrangement<'_> {
             }
             (a, b) => pieces.extend(a.into_iter().chain(b).map(|run| self.piece(ring, run))),
         }
-        debug_assert!(pieces.len() >= first);
     }
 
     /// Whether a sub-edge is selected, and its ring's direction then.
