@@ -1,27 +1,35 @@
-//! The layout of the source: imports run one way, down the list below, and every name is imported from the module that
-//! defines it.
-#[path = "../../radiosity/tests/street/mod.rs"]
-mod street;
+//! The layout of the source: imports run one way, and no two types have one name.
 
-use std::path::Path;
-use street::{complaints, shared_names};
+#[path = "../../../tests/src/imports.rs"]
+mod imports;
+#[path = "../../radiosity/tests/names/mod.rs"]
+mod names;
 
-/// Each folder of `src`, from the top to the bottom.
-const STREET: [(&str, &[&str]); 4] = [
-    ("", &["main", "arguments", "commands", "outputs", "view_options", "input", "json", "parse", "failure"]),
-    ("commands", &["mod", "compare", "expose", "factors", "inspect", "report", "scene", "solve", "view"]),
-    ("commands/factors", &["mod", "format", "matrix"]),
-    ("commands/solve", &["mod", "interrupt", "solve_outputs", "progress", "steps", "options"]),
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
+/// folder's own entry is its `mod.rs`.
+#[rustfmt::skip]
+const ORDER: [&str; 23] = [
+    "arguments",
+    "commands", "commands/compare", "commands/expose", "commands/factors", "commands/factors/format",
+    "commands/factors/matrix", "commands/inspect", "commands/report", "commands/scene",
+    "commands/solve", "commands/solve/interrupt", "commands/solve/solve_outputs",
+    "commands/solve/progress", "commands/solve/steps", "commands/solve/options", "commands/view",
+    "outputs", "view_options", "input", "json", "parse", "failure",
 ];
+
+fn crate_file(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
 
 #[test]
 fn imports_run_one_way() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    assert_eq!(complaints(&src, &STREET), Vec::<String>::new());
+    assert_eq!(imports::complaints(&crate_file("src"), &ORDER), Vec::<String>::new());
 }
 
 #[test]
 fn no_two_types_have_one_name() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    assert_eq!(shared_names(&src), Vec::<String>::new());
+    assert_eq!(names::shared(&crate_file("src"), &mut BTreeSet::new()), Vec::<String>::new());
 }

@@ -14,7 +14,7 @@ pub(crate) fn fetch(address: &str, folder: Option<&Path>) -> Result<Image, Strin
 }
 
 /// The bytes behind a `data:` address, or of a file whose name is relative to a folder.
-pub(super) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+pub(crate) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     if let Some(data) = address.strip_prefix("data:") {
         let (_, text) = data.split_once(";base64,").ok_or("its address is not in base64")?;
         let bytes = base64::engine::general_purpose::STANDARD.decode(text.trim());
@@ -43,7 +43,7 @@ fn local(address: &str) -> Option<PathBuf> {
 }
 
 /// Decodes a picture; its colours are taken as sRGB, as pictures are stored, and an alpha channel is left out.
-pub(super) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
+pub(crate) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
     let mut reader = image::ImageReader::new(Cursor::new(&bytes))
         .with_guessed_format()
         .map_err(|error| format!("{name}: {error}"))?;
@@ -72,16 +72,6 @@ fn linear(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_picture_comes_back_as_it_was() {
-        let greys = [0.0, 0.05, 0.5, 0.8, 1.0, 0.2];
-        let image = decode("six", crate::picture::png::grey(&greys, 3)).unwrap();
-        assert_eq!((image.width, image.mime), (3, "image/png"));
-        for (texel, grey) in image.texels.iter().zip(greys) {
-            assert!(texel.iter().all(|band| (band - grey).abs() < 3e-5), "{texel:?} {grey}");
-        }
-    }
 
     #[test]
     fn what_is_no_picture_is_refused_by_name() {

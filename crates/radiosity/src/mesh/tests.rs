@@ -216,7 +216,12 @@ fn the_ground_around_a_lit_floor_leaves_it_its_elements() {
 
 #[test]
 fn elements_are_shared_out_by_area_where_the_largest_patch_is_lit() {
-    let scene = crate::scenes::scene("emission").unwrap();
+    let level =
+        |side: f64, z: f64| vec![[-side, -side, z], [side, -side, z], [side, side, z], [-side, side, z]];
+    let mut scene = scene(&[level(4.0, 0.0)]);
+    let lamp = level(0.5, 2.0).into_iter().rev().collect();
+    scene.patches.extend(self::scene(&[lamp]).patches);
+    scene.patches[1].emission.fill(1.0);
     let spacings = Plan::even(&scene, 1000).spacings;
     assert!(spacings.iter().all(|spacing| *spacing == spacings[0]));
     let total: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();

@@ -31,3 +31,19 @@ fn file(bytes: &[u8], size: [usize; 2], colour: png::ColorType, depth: png::BitD
     written.expect("a picture of the stated size is written to memory");
     file
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image_file::decode;
+
+    #[test]
+    fn a_picture_comes_back_as_it_was() {
+        let greys = [0.0, 0.05, 0.5, 0.8, 1.0, 0.2];
+        let image = decode("six", grey(&greys, 3)).unwrap();
+        assert_eq!((image.width, image.mime), (3, "image/png"));
+        for (texel, grey) in image.texels.iter().zip(greys) {
+            assert!(texel.iter().all(|band| (band - grey).abs() < 3e-5), "{texel:?} {grey}");
+        }
+    }
+}
