@@ -1,4 +1,4 @@
-//! Every promise that `CONTRIBUTING.md` lists stands beside tests that exist.
+//! Every promise that `tests/PROMISES.md` lists stands beside tests that exist.
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,7 +40,7 @@ fn tests_of(file: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_test_beside_a_promise_exists() {
-    let page = fs::read_to_string(root().join("CONTRIBUTING.md")).expect("the page stands at the root");
+    let page = fs::read_to_string(root().join("tests/PROMISES.md")).expect("the page stands beside the tests");
     let promises = promises(&page);
     assert!(promises.len() > 40, "only {} promises were found", promises.len());
     for (promise, tests) in promises {
