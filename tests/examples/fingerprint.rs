@@ -7,12 +7,12 @@ use formfactor::{
 };
 use polycsg::{Csg, DVec2, Region, Scratch, classify};
 use tests::against::{csg, leaf};
+use tests::corpus;
 use tests::enclosures::surroundings;
-use tests::generators::{KINDS, Pair, lattice, nasty};
+use tests::generators::{KINDS, Pair, crowd, lattice, nasty};
 use tests::oracle::Operation;
 use tests::random::Random;
 use tests::trees::Tree;
-use tests::{Ring, corpus};
 
 /// FNV-1a over words.
 struct Fingerprint(u64);
@@ -66,23 +66,6 @@ impl Fingerprint {
             }
         }
     }
-}
-
-/// Small polygons and long bars over one another: thousands of edges and of crossings.
-fn crowd(seed: u64, count: usize) -> Vec<Ring> {
-    let mut random = Random::new(seed);
-    let mut ring = |_| {
-        let center = DVec2::new(random.range(0.0, 20.0), random.range(0.0, 20.0));
-        let corners = random.between(3, 9);
-        let stretch = if random.one_in(8) { DVec2::new(12.0, 0.1) } else { DVec2::ONE };
-        let turn = DVec2::from_angle(random.angle());
-        let mut corner = |i: i32| {
-            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(corners);
-            center + turn.rotate(DVec2::from_angle(angle) * stretch * random.range(0.2, 1.0))
-        };
-        (0..corners).map(&mut corner).collect()
-    };
-    (0..count).map(&mut ring).collect()
 }
 
 fn crowds() -> u64 {

@@ -40,7 +40,8 @@ fn tests_of(file: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_test_beside_a_promise_exists() {
-    let page = fs::read_to_string(root().join("tests/PROMISES.md")).expect("the page stands beside the tests");
+    let page =
+        fs::read_to_string(root().join("tests/PROMISES.md")).expect("the page stands beside the tests");
     let promises = promises(&page);
     assert!(promises.len() > 40, "only {} promises were found", promises.len());
     for (promise, tests) in promises {

@@ -1,7 +1,9 @@
 //! Inputs for the suites, each a function of its seed alone.
+mod crowd;
 mod lattice;
 mod nasty;
 
+pub use crowd::crowd;
 pub use lattice::lattice;
 pub use nasty::{KINDS, nasty};
 
