@@ -7,15 +7,13 @@
 //! tan(phi - beta) = (A_z a_z b_z - (a_h . b_h) A_h^2 / (|A| + A_z)) / ((a_h . b_h)(a . b) + A_z |A|),
 //!
 //! where phi is the azimuth between a and b, beta the angle between them, and the azimuths add to 2 pi.
-use crate::exact::horizon::Vertex;
 use crate::exact::lambert::{Direction, swept};
-use crate::exact::view::View;
+use crate::exact::{horizon::Vertex, view::View};
 use crate::form_factor::FormFactor;
 use crate::numeric::offset::{accurate_cross, accurate_dot};
 use crate::numeric::rounding::ROUNDING;
 use crate::pipeline::unoccluded;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::f64::consts::TAU;
 

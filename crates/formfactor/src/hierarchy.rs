@@ -1,14 +1,10 @@
 //! A second way to form factors, as a check: Equation 3.6 through the boundary representation of what is hidden.
-use crate::exact::deviation::unseen;
 use crate::exact::lambert::{ContourSum, Direction};
 use crate::exact::shadows::{Shadows, shadows};
-use crate::exact::view::View;
-use crate::exact::visible::union;
+use crate::exact::{deviation::unseen, view::View, visible::union};
 use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::loops::leaf;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, loops::leaf, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec2;
 use polycsg::Region;

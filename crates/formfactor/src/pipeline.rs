@@ -1,13 +1,9 @@
 //! The one way to a form factor: the quick route in doubles, and the exact one where doubles leave it open.
 use crate::buffers::Buffers;
-use crate::exact;
-use crate::exact::pyramid::Pyramid;
+use crate::exact::{self, pyramid::Pyramid};
 use crate::form_factor::FormFactor;
-use crate::quick;
-use crate::quick::target::Target;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::extent::Extent;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::quick::{self, target::Target};
+use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use crate::stats::Stats;
 
 /// The form factor from a differential area to the front of a polygon, with occluders in between.

@@ -1,10 +1,7 @@
 //! The visible part of a target as a region.
 use crate::exact::shadows::{Shadows, shadows};
-use crate::exact::view::View;
-use crate::exact::visible::union;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::loops::leaf;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::exact::{view::View, visible::union};
+use crate::shapes::{differential_area::DifferentialArea, loops::leaf, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
 use polycsg::Region;

@@ -5,11 +5,9 @@ use crate::base::id::index;
 use crate::contacts::Place;
 use crate::error::Error;
 use crate::expression::csg::Csg;
-use crate::pipeline;
-use crate::pipeline::scratch::Scratch;
+use crate::pipeline::{self, scratch::Scratch};
 use crate::predicates::crossing_point;
-use crate::region::Region;
-use crate::region::membership::Membership;
+use crate::region::{Region, membership::Membership};
 use glam::DVec2;
 
 /// A part of a classified segment, between neighbouring contacts with the region's boundary.

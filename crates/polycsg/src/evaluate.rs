@@ -3,8 +3,7 @@
 use crate::boundary::Boundary;
 use crate::error::Error;
 use crate::expression::csg::{Csg, FillRule};
-use crate::pipeline;
-use crate::pipeline::scratch::Scratch;
+use crate::pipeline::{self, scratch::Scratch};
 use crate::region::Region;
 use glam::DVec2;
 

@@ -2,8 +2,7 @@
 
 use crate::error::Error;
 use crate::expression::csg::{Csg, FillRule};
-use crate::region::rings::Rings;
-use crate::region::{self, Region};
+use crate::region::{self, Region, rings::Rings};
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 

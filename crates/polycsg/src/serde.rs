@@ -4,8 +4,7 @@
 //! without repeating the first: GeoJSON's coordinates of a MultiPolygon, but for the closing points. The depth of a polygon
 //! follows from the rest.
 
-use crate::region::rings::Rings;
-use crate::region::{Invalid, Polygon, Region};
+use crate::region::{Invalid, Polygon, Region, rings::Rings};
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 

@@ -2,8 +2,7 @@
 
 use crate::base::id::index;
 use crate::predicates::{Segment, Side, is_inside, side};
-use crate::region::rings::ring_edges;
-use crate::region::{Invalid, Region};
+use crate::region::{Invalid, Region, rings::ring_edges};
 use crate::spatial::slabs::SlabDecomposition;
 
 impl Region {

@@ -1,14 +1,11 @@
 //! The report: measured, then written.
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
-use crate::measure::error_image::images;
 use crate::measure::test_scene::TestScene;
-use crate::measure::{booleans, cases, left_out, published, stiff, stress};
+use crate::measure::{booleans, cases, error_image::images, left_out, published, stiff, stress};
 use crate::methods::{Step, middle, steps};
 use crate::page::chapter_tables::{left_out_table, published_table};
-use crate::page::peers::Peers;
-use crate::page::work_precision::time_to_error;
-use crate::page::{page, summary};
+use crate::page::{page, peers::Peers, summary, work_precision::time_to_error};
 use crate::plan::Plan;
 use crate::results::Report;
 use crate::rows::{Chapter, Measured, Row};

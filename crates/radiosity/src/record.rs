@@ -2,9 +2,7 @@
 use crate::expose::Exposure;
 use crate::image_file::fetch;
 use crate::mesh::element::{Element, Mesh};
-use crate::picture::framing::framing;
-use crate::picture::paint;
-use crate::picture::painting::Painting;
+use crate::picture::{framing::framing, paint, painting::Painting};
 use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Image};
 use crate::solve::solution::Solution;
 use crate::spectrum::Colours;

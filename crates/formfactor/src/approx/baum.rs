@@ -1,9 +1,7 @@
 //! The hemicube for what is far and for what is seen, the contour sum for what is near.
 use super::gather::{aim, as_contour};
-use super::hemicube::Hemicube;
-use super::method::Method;
 use super::parts::{Division, Part, divide, pieces};
-use super::screen::Screen;
+use super::{hemicube::Hemicube, method::Method, screen::Screen};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 

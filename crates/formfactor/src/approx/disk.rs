@@ -1,9 +1,7 @@
 //! The target as one disk.
-use super::method::Method;
-use super::parts::pieces;
+use super::{method::Method, parts::pieces};
 use crate::scene::enclosure::Enclosure;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::f64::consts::PI;
 

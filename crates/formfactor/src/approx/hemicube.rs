@@ -1,9 +1,7 @@
 //! The hemicube: an item buffer on half a cube.
-use super::delta;
 use super::frame::{Rotation, frame};
-use super::method::Method;
-use super::ray::items;
 use super::screen::{Screen, steps};
+use super::{delta, method::Method, ray::items};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;

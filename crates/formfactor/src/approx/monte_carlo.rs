@@ -1,8 +1,7 @@
 //! Monte Carlo: rays at random.
 use super::frame::{Rotation, along, frame};
-use super::method::Method;
-use super::random::Random;
 use super::ray::{along_ray, items, seen};
+use super::{method::Method, random::Random};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;

@@ -1,8 +1,6 @@
 //! The hemisphere in one image, by a paraboloid.
-use super::delta::normalise;
 use super::frame::{Rotation, along, frame};
-use super::method::Method;
-use super::monte_carlo::cast;
+use super::{delta::normalise, method::Method, monte_carlo::cast};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 

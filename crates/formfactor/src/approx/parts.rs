@@ -1,6 +1,5 @@
 //! Targets in parts: triangles and parallelograms, which divide into congruent ones.
-use crate::shapes::loops::leaf;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{loops::leaf, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::fmt;
 

@@ -1,7 +1,6 @@
 //! Far parts as disks, near parts by the contour sum.
 use super::gather::{as_contour, as_disk, by_parts, row_of_targets};
-use super::method::Method;
-use super::parts::Division;
+use super::{method::Method, parts::Division};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 

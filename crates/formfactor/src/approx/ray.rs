@@ -1,9 +1,7 @@
 //! Rays from dA against an enclosure, by the exact method's rules: occluders block for 0 < t < 1, the owner never, nor
 //! does what is coplanar with the target or whose plane contains dA. Each polygon has a cone around it, to skip it by.
 use crate::scene::enclosure::Enclosure;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::extent::Extent;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 

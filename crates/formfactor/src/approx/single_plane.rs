@@ -1,8 +1,7 @@
 //! One plane above dA, cut finer where edges are.
-use super::delta;
 use super::frame::{Rotation, along, frame};
-use super::method::Method;
 use super::ray::{Item, items, seen};
+use super::{delta, method::Method};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 use glam::DVec3;

@@ -1,8 +1,7 @@
 //! Parts, split where rays disagree.
 use super::gather::{aim, as_contour, as_disk, row_of_targets};
-use super::method::Method;
 use super::parts::{Part, pieces};
-use super::ray::RayTarget;
+use super::{method::Method, ray::RayTarget};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 

@@ -1,7 +1,6 @@
 //! The target's parts as disks.
 use super::gather::{as_disk, by_parts, row_of_targets};
-use super::method::Method;
-use super::parts::Division;
+use super::{method::Method, parts::Division};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
 

@@ -1,6 +1,5 @@
 //! Pieces of the polygon that is integrated over, in its two kept coordinates.
-use crate::shapes::loops::leaf;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{loops::leaf, polygon::PlanarPolygon};
 use glam::DVec2;
 
 /// A convex quadrilateral, counter-clockwise; its last two corners are one in a triangle.

@@ -9,8 +9,7 @@
 //! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's rule,
 //! halved until it agrees with itself.
 use crate::numeric::gauss::RULE_8;
-use crate::shapes::loops::leaf;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{loops::leaf, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::f64::consts::TAU;
 

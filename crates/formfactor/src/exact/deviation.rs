@@ -5,8 +5,7 @@
 //! 0 for triangles and for polygons whose vertices are exactly coplanar.
 use super::lambert::{self, Direction};
 use crate::form_factor::FormFactor;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
 
 /// The form factor to a target that turns its back or lies below the horizon: 0, but for what deviation leaves open.

@@ -17,8 +17,7 @@ pub(crate) mod visible;
 pub(crate) mod whole;
 
 use crate::form_factor::FormFactor;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use polycsg::Scratch;
 use pyramid::Pyramid;

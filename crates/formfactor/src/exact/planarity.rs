@@ -3,12 +3,9 @@
 //! An occluder that is coplanar with the target, or that touches its plane or the plane of dA and one of its edges, is
 //! decided upon as its vertices are given. Moved onto its plane it may block a little. All bounds are 0 where neither
 //! polygon has a deviation.
-use super::deviation::swept;
-use super::horizon::Vertex;
 use super::lambert::{self, Direction};
-use super::view::View;
-use crate::shapes::loops::leaf;
-use crate::shapes::polygon::PlanarPolygon;
+use super::{deviation::swept, horizon::Vertex, view::View};
+use crate::shapes::{loops::leaf, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
 use polycsg::Scratch;
 

@@ -3,10 +3,8 @@
 //! The projection is a pure function of the vertex in double-doubles, rounded once: where the exact projection is a double,
 //! it is that double, so that shadows that meet exactly do so in doubles too.
 use super::horizon::{Loops, Vertex, clip, seen};
-use super::planarity::loosen;
 use super::projected_vertex::{ProjectedVertex, swept};
-use super::pyramid::Wall;
-use super::view::View;
+use super::{planarity::loosen, pyramid::Wall, view::View};
 use crate::numeric::offset::Offset;
 use crate::shapes::polygon::PlanarPolygon;
 use exactfloat::DoubleDouble;

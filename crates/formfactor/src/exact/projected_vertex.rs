@@ -2,8 +2,7 @@
 use super::horizon::Vertex;
 use super::lambert::{self, Arc, Direction};
 use crate::numeric::rounding::ROUNDING;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use exactfloat::DoubleDouble;
 use glam::DVec2;
 use std::f64::consts::PI;

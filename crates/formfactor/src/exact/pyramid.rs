@@ -1,8 +1,6 @@
 //! The planes through dA that bound what can matter for a target: what lies outside of one is dropped unseen.
 use crate::numeric::predicates::turn;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::extent::Extent;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 

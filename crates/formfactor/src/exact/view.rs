@@ -1,14 +1,10 @@
 //! A target as a differential area sees it, before anything stands in between.
-use super::deviation;
 use super::horizon::{Loops, Vertex, above};
 use super::lambert::{ContourSum, Direction};
 use super::projected_vertex::{ProjectedVertex, swept};
-use super::pyramid::Pyramid;
-use crate::numeric::offset::Offset;
-use crate::numeric::predicates::place;
-use crate::numeric::rounding::ROUNDING;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use super::{deviation, pyramid::Pyramid};
+use crate::numeric::{offset::Offset, predicates::place, rounding::ROUNDING};
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use exactfloat::DoubleDouble;
 use glam::DVec2;
 use polycsg::{Csg, Scratch};

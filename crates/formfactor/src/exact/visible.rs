@@ -1,7 +1,5 @@
 //! The visible part of a target: the target less the union of the shadows, by polycsg.
-use super::lambert::ContourSum;
-use super::project::Shadow;
-use super::view::View;
+use super::{lambert::ContourSum, project::Shadow, view::View};
 use crate::shapes::loops::leaf;
 use polycsg::{Csg, Scratch};
 

@@ -1,9 +1,7 @@
 //! Convex targets of which nothing is hidden.
-use super::cubature;
-use super::view::View;
+use super::{cubature, view::View};
 use crate::form_factor::FormFactor;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 
 /// The relative error up to which the contour sum is good enough.
 const FINE: f64 = 1e-13;

@@ -2,10 +2,8 @@
 use super::cone::{Edge, coarse_error};
 use super::interval::Interval;
 use crate::form_factor::FormFactor;
-use crate::numeric::predicates::place;
-use crate::numeric::rounding::ROUNDING;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::numeric::{predicates::place, rounding::ROUNDING};
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 use std::f64::consts::TAU;

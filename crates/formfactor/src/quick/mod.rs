@@ -24,8 +24,7 @@ mod trace;
 pub(crate) use contour::unoccluded;
 
 use crate::form_factor::FormFactor;
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use classify::{Class, classify};
 use cone::{Cones, Corner, Edge};

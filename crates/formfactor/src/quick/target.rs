@@ -4,9 +4,7 @@ use super::cone::{Corner, ERROR, Edge, Place, UNDERFLOW, faces, size};
 use super::corners::{copy, deviation_error};
 use crate::exact::deviation;
 use crate::numeric::predicates::{over_horizon, place, turn};
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::extent::Extent;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::cmp::Ordering;
 

@@ -3,8 +3,7 @@
 //! With dA outside of a body, every ray that leaves it through its far side has entered it through its near side: the far side
 //! hides nothing more. The common edge of two faces of the near side is no part of the visible boundary, so that the body's
 //! silhouette remains.
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

@@ -1,13 +1,9 @@
 //! Enclosures: many polygons that see and hide each other.
-use super::body::Bodies;
-use super::pool::Pool;
-use super::shaft::Shaft;
-use super::tree::Tree;
+use super::{body::Bodies, pool::Pool, shaft::Shaft, tree::Tree};
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
 use crate::pipeline::{self, Reach};
-use crate::shapes::differential_area::DifferentialArea;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
 use std::cmp::Ordering;

@@ -1,7 +1,6 @@
 //! Shafts: the polygons that can stand between two sets of points meet the convex hull of both.
 use crate::numeric::predicates::turn;
-use crate::shapes::extent::Extent;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{extent::Extent, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::cmp::Ordering;
 

@@ -1,6 +1,5 @@
 //! A binary tree of boxes around polygons: what lies outside of a target's half-spaces is skipped branch by branch.
-use crate::shapes::extent::Extent;
-use crate::shapes::polygon::PlanarPolygon;
+use crate::shapes::{extent::Extent, polygon::PlanarPolygon};
 
 /// The boxes of all polygons. The children of node i are 2 i + 1 and 2 i + 2; each has half of its polygons.
 #[derive(Clone, Debug, Default)]

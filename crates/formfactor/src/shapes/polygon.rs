@@ -1,9 +1,8 @@
 //! Planar polygons: loops with holes, and the plane that they share.
 use super::loops;
 use crate::error::Error;
-use crate::numeric::offset::Offset;
-use crate::numeric::predicates::Plane;
 use crate::numeric::rounding::{ROUNDING, SMALLEST, in_range};
+use crate::numeric::{offset::Offset, predicates::Plane};
 use exactfloat::DoubleDouble;
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;

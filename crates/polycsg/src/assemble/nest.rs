@@ -12,15 +12,12 @@
 //! An edge below whose near side is on the wrong side of the boundary means that the rings are not nested.
 
 use super::link::{Cycles, IncidentHalfEdge, SimpleRing, by_angle, neighbours};
-use crate::base::id::index;
-use crate::base::id::span;
+use crate::base::{id::index, id::span};
 use crate::boundary::outline::Outline;
 use crate::predicates::lexicographic;
 use crate::region::{Region, RegionBuilder};
-use crate::spatial::chains::MonotoneChains;
-use crate::spatial::ray_shooting::VerticalRays;
-use crate::spatial::slabs::SlabDecomposition;
 use crate::spatial::strips::Strips;
+use crate::spatial::{chains::MonotoneChains, ray_shooting::VerticalRays, slabs::SlabDecomposition};
 use glam::DVec2;
 use std::cmp::Ordering;
 

@@ -1,9 +1,7 @@
 //! Stage 6: the sub-edges whose two sides differ, directed with the interior to the left, each vertex rounded once.
 
-use crate::arrangement::Node;
-use crate::arrangement::labels::LabelledArrangement;
-use crate::base::id::index;
-use crate::base::threads::Threads;
+use crate::arrangement::{Node, labels::LabelledArrangement};
+use crate::base::{id::index, threads::Threads};
 use crate::contacts::{Contacts, Place};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::crossing_point;

@@ -9,12 +9,10 @@
 //! A sample of the pairs of boxes decides. All three lead to one result. A sample may mislead, so boxes are given up later
 //! where they exceed their budget even so.
 
-use super::budget::WorkBudget;
-use super::pair::cross_clearly;
+use super::{budget::WorkBudget, pair::cross_clearly};
 use crate::edges::Edges;
 use crate::predicates::Margins;
-use crate::spatial::chains::MonotoneChains;
-use crate::spatial::strips::Strips;
+use crate::spatial::{chains::MonotoneChains, strips::Strips};
 
 /// Fewer boxes are not worth a sample.
 const FEW: usize = 256;

@@ -8,8 +8,7 @@
 use super::contact::{Contact, PartnerKind};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
-use crate::spatial::chains::LONGEST;
-use crate::spatial::slabs::SlabDecomposition;
+use crate::spatial::{chains::LONGEST, slabs::SlabDecomposition};
 use glam::DVec2;
 
 /// See the module's page.

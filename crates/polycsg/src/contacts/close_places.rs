@@ -1,8 +1,7 @@
 //! Where two contacts lie close together on an edge, all edges that meet there may meet once more when they are rounded.
 
-use super::Contacts;
 use super::close_pairs::{CloseGroups, ClosePairs, ClosePlaces, EdgePlace};
-use super::contact::PartnerKind;
+use super::{Contacts, contact::PartnerKind};
 use crate::edges::Edges;
 
 impl Contacts {

@@ -1,15 +1,12 @@
 //! Compares the candidate pairs of edges: those whose boxes meet, or those that the slab decomposition finds.
 
-use super::Contacts;
-use super::candidates::Candidates;
-use super::close_pairs::ClosePairs;
 use super::pair::{Crossing, Meeting, meeting};
+use super::{Contacts, candidates::Candidates, close_pairs::ClosePairs};
 use crate::base::threads::Threads;
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::predicates::Margins;
-use crate::spatial::chains::MonotoneChains;
-use crate::spatial::slabs::SlabDecomposition;
+use crate::spatial::{chains::MonotoneChains, slabs::SlabDecomposition};
 use std::ops::Range;
 
 /// What was found in some strips.

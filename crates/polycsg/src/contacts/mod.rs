@@ -15,9 +15,7 @@ mod find;
 mod meeting;
 mod pair;
 
-use crate::base::id::index;
-use crate::base::threads::Threads;
-use crate::base::union_find::UnionFind;
+use crate::base::{id::index, threads::Threads, union_find::UnionFind};
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::spatial::slabs::SlabDecomposition;

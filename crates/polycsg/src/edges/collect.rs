@@ -2,9 +2,7 @@
 
 use super::{END, EdgeRing, Edges, Origin};
 use crate::base::id::index;
-use crate::expression::bounds::ResultBounds;
-use crate::expression::csg::Csg;
-use crate::expression::winding::WindingNumbers;
+use crate::expression::{bounds::ResultBounds, csg::Csg, winding::WindingNumbers};
 use crate::region::rings::Rings;
 use glam::DVec2;
 

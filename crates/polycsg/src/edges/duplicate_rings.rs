@@ -1,8 +1,7 @@
 //! Duplicate rings, which have the same points: one represents all, so that a million of them cost little more than one.
 
 use super::{Also, EdgeRing, Edges};
-use crate::base::hash::mixed;
-use crate::base::id::index;
+use crate::base::{hash::mixed, id::index};
 use crate::spatial::chains::MonotoneChains;
 
 /// A ring with the same points as an earlier one.

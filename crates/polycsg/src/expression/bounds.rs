@@ -9,9 +9,8 @@
 //!
 //! Rings that only touch the bounds stay: their vertices are put into the edges that they touch.
 
-use super::circuit::Kind;
 use super::csg::{Csg, Token};
-use super::winding::WindingNumbers;
+use super::{circuit::Kind, winding::WindingNumbers};
 use glam::DVec2;
 
 /// An axis-parallel box with its sides; no point when it is turned inside out.

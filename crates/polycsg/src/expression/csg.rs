@@ -1,8 +1,7 @@
 //! Expressions of Booleans over any number of operands, evaluated in one arrangement.
 
 use crate::error::Error;
-use crate::region::Region;
-use crate::region::rings::Rings;
+use crate::region::{Region, rings::Rings};
 use glam::DVec2;
 use std::collections::VecDeque;
 use std::ops::{BitAnd, BitOr, BitXor, Sub};

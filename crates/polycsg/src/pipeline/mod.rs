@@ -6,13 +6,10 @@ pub(crate) mod scratch;
 #[cfg(test)]
 mod tests;
 
-use crate::arrangement::labels::LabelledArrangement;
-use crate::arrangement::labels::map::Map;
+use crate::arrangement::{labels::LabelledArrangement, labels::map::Map};
 use crate::assemble::nest::{Misnested, nest};
-use crate::boundary::Boundary;
-use crate::boundary::repair::fragments::Rounded;
-use crate::contacts::Request;
-use crate::contacts::candidates::Candidates;
+use crate::boundary::{Boundary, repair::fragments::Rounded};
+use crate::contacts::{Request, candidates::Candidates};
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::expression::csg::{Csg, Token};

@@ -1,24 +1,12 @@
 //! The buffers of all stages, one struct for each folder.
 
-use crate::arrangement::Arrangement;
-use crate::arrangement::labels::Labels;
-use crate::assemble::link::Cycles;
-use crate::assemble::nest::Nesting;
-use crate::boundary::outline::Outline;
-use crate::boundary::repair::Repair;
-use crate::boundary::select::Selection;
-use crate::contacts::Contacts;
-use crate::contacts::budget::WorkBudget;
-use crate::contacts::close_pairs::ClosePairs;
-use crate::edges::Edges;
-use crate::edges::collect::RingKey;
-use crate::edges::duplicate_rings::DuplicateRings;
-use crate::edges::opposite_edges::OppositeEdges;
-use crate::expression::bounds::ResultBounds;
-use crate::expression::winding::WindingNumbers;
-use crate::spatial::chains::MonotoneChains;
-use crate::spatial::slabs::SlabDecomposition;
-use crate::spatial::strips::Strips;
+use crate::arrangement::{Arrangement, labels::Labels};
+use crate::assemble::{link::Cycles, nest::Nesting};
+use crate::boundary::{outline::Outline, repair::Repair, select::Selection};
+use crate::contacts::{Contacts, budget::WorkBudget, close_pairs::ClosePairs};
+use crate::edges::{Edges, collect::RingKey, duplicate_rings::DuplicateRings, opposite_edges::OppositeEdges};
+use crate::expression::{bounds::ResultBounds, winding::WindingNumbers};
+use crate::spatial::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
 
 /// The buffers of an evaluation, to be reused from call to call. They never borrow the operands.
 ///

@@ -11,8 +11,7 @@
 //! Then no two of their pieces can meet after rounding but in a vertex that they share: pieces that do not end in the
 //! common point lie `4 u M` apart, and those that do keep different directions from it.
 
-use super::orient::Area;
-use super::segment::Segment;
+use super::{orient::Area, segment::Segment};
 
 /// The distances of the module's page.
 #[derive(Clone, Copy, Debug, Default)]

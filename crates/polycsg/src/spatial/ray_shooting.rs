@@ -1,8 +1,6 @@
 //! Vertical ray shooting: the edge right below a point.
 
-use super::chains::MonotoneChains;
-use super::slabs::SlabDecomposition;
-use super::strips::Strips;
+use super::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
 use crate::predicates::{Segment, Side, height_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;

@@ -11,8 +11,7 @@
 //! Coordinates are mapped to 31-bit integers by one weakly monotone function, so that boxes which meet as reals meet
 //! as integers: the index may report too much and never too little. A few boxes stay unsorted.
 
-use crate::base::id::index;
-use crate::base::threads::Threads;
+use crate::base::{id::index, threads::Threads};
 use glam::DVec2;
 use std::ops::Range;
 

@@ -2,8 +2,7 @@
 
 use crate::base::id::index;
 use crate::predicates::lexicographic;
-use crate::region::Region;
-use crate::region::rings::ring_edges;
+use crate::region::{Region, rings::ring_edges};
 use glam::DVec2;
 use std::cmp::Ordering;
 

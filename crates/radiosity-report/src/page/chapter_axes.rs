@@ -1,9 +1,8 @@
 //! The chapters of points, of stability, of solvers and of Booleans.
-use super::escape::escape;
 use super::plot::{Curve, Plot, Point};
-use super::style::style;
 use super::table::{error, seconds};
 use super::work_precision::{against_time, every, largest, time_to_error};
+use super::{escape::escape, style::style};
 use crate::analysis::{Line, lines, subjects};
 use crate::methods::EXACT;
 use crate::results::Report;

@@ -5,9 +5,7 @@ mod labels;
 
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
-use crate::measure::query::exact;
-use crate::measure::test_scene::TestScene;
-use crate::measure::{cases, published};
+use crate::measure::{cases, published, query::exact, test_scene::TestScene};
 use crate::methods::{self, Step};
 use crate::page::table::Table;
 use crate::plan::Plan;

@@ -1,7 +1,6 @@
 use super::*;
 use crate::scenes;
-use crate::solve::options::Options;
-use crate::solve::solve;
+use crate::solve::{options::Options, solve};
 use std::ops::ControlFlow;
 
 fn record(scene: &str, elements: usize) -> Record {

@@ -1,8 +1,5 @@
 //! A scene file of any kind.
-use super::collada::Collada;
-use super::error::FileError;
-use super::gltf::Gltf;
-use super::vs3::Vs3;
+use super::{collada::Collada, error::FileError, gltf::Gltf, vs3::Vs3};
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use std::path::Path;

@@ -1,7 +1,6 @@
 //! Points over a patch: its boundary and the contact lines at a spacing, and a lattice inside.
-use super::frame::Frame;
 use super::lattice::{Lattice, parts};
-use super::refusal::MeshRefusal;
+use super::{frame::Frame, refusal::MeshRefusal};
 use crate::predicates::ray_crosses;
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};

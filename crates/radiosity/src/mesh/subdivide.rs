@@ -1,14 +1,11 @@
 //! A scene cut into elements.
-use super::contacts::contacts;
 use super::divide::{Division, divide};
 use super::element::{Element, Mesh};
-use super::frame::Frame;
-use super::outline::Flat;
-use super::plan::Plan;
-use super::refusal::MeshRefusal;
-use super::split::split;
 use super::tree::{Node, grow};
 use super::triangulate::triangulate;
+use super::{
+    contacts::contacts, frame::Frame, outline::Flat, plan::Plan, refusal::MeshRefusal, split::split,
+};
 use crate::error::Error;
 use crate::extent::Extent;
 use crate::scene::Scene;

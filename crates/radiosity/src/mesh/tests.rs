@@ -1,6 +1,5 @@
 //! Laws of the mesh.
-use super::plan::Plan;
-use super::subdivide::Subdivision;
+use super::{plan::Plan, subdivide::Subdivision};
 use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;

@@ -1,7 +1,5 @@
 //! Pieces of a patch: a binary tree of its zones, and of rectangles of lattice cells within them.
-use super::divide::Points;
-use super::lattice::Lattice;
-use super::split::Split;
+use super::{divide::Points, lattice::Lattice, split::Split};
 use std::ops::Range;
 
 /// A piece of a patch.

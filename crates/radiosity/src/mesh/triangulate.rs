@@ -1,6 +1,5 @@
 //! Constrained Delaunay triangles of a patch.
-use super::divide::Points;
-use super::refusal::MeshRefusal;
+use super::{divide::Points, refusal::MeshRefusal};
 use spade::handles::{DirectedEdgeHandle, FixedFaceHandle, PossiblyOuterTag};
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::BTreeSet;

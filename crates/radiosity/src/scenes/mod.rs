@@ -13,9 +13,7 @@ mod gomes;
 mod rooms;
 mod shapes;
 
-use crate::io::collada::Collada;
-use crate::io::collada::compose::text;
-use crate::io::collada::model::Model;
+use crate::io::{collada::Collada, collada::compose::text, collada::model::Model};
 use crate::scene::Scene;
 
 type Builder = fn() -> Model;

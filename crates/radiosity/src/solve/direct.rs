@@ -1,7 +1,5 @@
 //! The final gather: light straight from the emitters, exact at every vertex.
-use super::factors::Factors;
-use super::run::Run;
-use super::solution::DirectLight;
+use super::{factors::Factors, run::Run, solution::DirectLight};
 use crate::error::Error;
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;

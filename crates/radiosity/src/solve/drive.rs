@@ -1,14 +1,8 @@
 //! A run from its first step to its solution.
-use super::direct::gather;
-use super::follow::follow;
-use super::hemicube::Hemicubes;
-use super::ledger::gaps;
-use super::options::Method;
-use super::relax::relax;
-use super::run::Run;
-use super::shoot::shoot;
-use super::shooters::Shooters;
-use super::solution::Solution;
+use super::{
+    direct::gather, follow::follow, hemicube::Hemicubes, ledger::gaps, options::Method, relax::relax,
+};
+use super::{run::Run, shoot::shoot, shooters::Shooters, solution::Solution};
 use crate::error::Error;
 use crate::scene::Scene;
 

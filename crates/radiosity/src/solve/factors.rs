@@ -1,12 +1,8 @@
 //! Exact form factors from the elements to the pieces.
-use super::fingerprint;
-use super::hemicube::Hemicubes;
-use super::occluders::Occluders;
 use super::state::{Column, State};
-use super::workers;
+use super::{fingerprint, hemicube::Hemicubes, occluders::Occluders, workers};
 use crate::error::Error;
-use crate::mesh::element::Element;
-use crate::mesh::subdivide::Subdivision;
+use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use std::sync::Arc;

@@ -1,7 +1,5 @@
 //! The light followed through the rooms of a scene.
-use super::light::Light;
-use super::rooms::Rooms;
-use super::run::Run;
+use super::{light::Light, rooms::Rooms, run::Run};
 use crate::error::Error;
 use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;

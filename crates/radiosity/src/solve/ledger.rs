@@ -1,6 +1,5 @@
 //! Where the power went, and how far the light is from the solution.
-use super::light::Light;
-use super::shooters::Shooters;
+use super::{light::Light, shooters::Shooters};
 
 /// Power per band, in W for lengths in m: emitted = absorbed + escaped + unshot + defect.
 #[derive(Clone, Debug, Default, PartialEq)]

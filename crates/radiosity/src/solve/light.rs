@@ -1,6 +1,5 @@
 //! What every element receives and sends.
-use super::magnitude::mean_by_itself;
-use super::state::Column;
+use super::{magnitude::mean_by_itself, state::Column};
 use crate::mesh::element::{Element, Mesh};
 use crate::scene::Scene;
 use std::{f64::consts::PI, ops::Range};

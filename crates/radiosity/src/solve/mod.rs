@@ -59,10 +59,7 @@ pub(crate) mod state;
 mod workers;
 
 use crate::error::Error;
-use crate::mesh::lattice::LEVELS;
-use crate::mesh::plan::Plan;
-use crate::mesh::shadows::shadows;
-use crate::mesh::subdivide::Subdivision;
+use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::shadows, subdivide::Subdivision};
 use crate::scene::Scene;
 use options::Options;
 use progress::Progress;

@@ -1,9 +1,5 @@
 //! The progress of a run, as its caller sees it.
-use super::factors::Factors;
-use super::ledger::Ledger;
-use super::light::Light;
-use super::solution::Solution;
-use super::state::State;
+use super::{factors::Factors, ledger::Ledger, light::Light, solution::Solution, state::State};
 
 /// The progress of the solver.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,5 @@
 //! Options by one word.
-use super::norm::Norm;
-use super::options::Options;
+use super::{norm::Norm, options::Options};
 
 /// A choice of [`Options`] by one word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

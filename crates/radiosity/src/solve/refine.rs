@@ -2,13 +2,8 @@
 //!
 //! An element carries one radiosity B; the linear function u through the means at its corners is the better guess, and
 //! u − B estimates what the mesh does not resolve (Gomes 2010, section 2.8).
-use super::magnitude::mean_by_itself;
-use super::norm::Norm;
-use super::solution::Solution;
-use crate::mesh::element::Element;
-use crate::mesh::lattice::LEVELS;
-use crate::mesh::plan::Plan;
-use crate::mesh::subdivide::Subdivision;
+use super::{magnitude::mean_by_itself, norm::Norm, solution::Solution};
+use crate::mesh::{element::Element, lattice::LEVELS, plan::Plan, subdivide::Subdivision};
 
 impl Solution {
     /// The estimated error of every element, in shares of the brightness of what is reflected, the bands added up.

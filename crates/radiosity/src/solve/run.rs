@@ -1,15 +1,8 @@
 //! A run of the solver: all that its steps share.
-use super::factors::Factors;
-use super::interpolate::welds;
 use super::ledger::{Ledger, bound, gaps};
-use super::light::Light;
-use super::magnitude::largest;
-use super::options::Options;
-use super::progress::Progress;
-use super::rooms::Rooms;
-use super::shooters::Shooters;
 use super::solution::{DirectLight, Solution};
-use super::state::State;
+use super::{factors::Factors, interpolate::welds, light::Light, magnitude::largest, options::Options};
+use super::{progress::Progress, rooms::Rooms, shooters::Shooters, state::State};
 use crate::error::Error;
 use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;

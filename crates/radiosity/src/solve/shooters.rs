@@ -1,7 +1,6 @@
 //! Who shoots: pieces of patches, and what each has sent so far.
 use super::light::Light;
-use crate::mesh::subdivide::Subdivision;
-use crate::mesh::tree::Node;
+use crate::mesh::{subdivide::Subdivision, tree::Node};
 
 /// A piece, and what it has sent per band.
 #[derive(Clone, Debug)]

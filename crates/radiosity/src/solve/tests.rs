@@ -1,7 +1,6 @@
 //! Laws of the solver.
 use super::options::{Method, Options};
-use super::solution::Solution;
-use super::state::State;
+use super::{solution::Solution, state::State};
 use super::{solve, solve_from};
 use crate::error::Error;
 use crate::scene::{Scene, patch::Patch};

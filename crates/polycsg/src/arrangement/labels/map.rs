@@ -6,8 +6,7 @@ use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
 use crate::expression::winding::WindingNumbers;
 use crate::predicates::crossing_x_order;
-use crate::spatial::chains::MonotoneChains;
-use crate::spatial::strips::Strips;
+use crate::spatial::{chains::MonotoneChains, strips::Strips};
 use std::cmp::Ordering;
 
 /// All that is known when the walk starts.

@@ -22,14 +22,12 @@ mod walk;
 
 use crate::arrangement::{Arrangement, Node};
 use crate::base::id::index;
-use crate::contacts::Contacts;
-use crate::contacts::close_pairs::ClosePairs;
+use crate::contacts::{Contacts, close_pairs::ClosePairs};
 use crate::edges::Edges;
 use crate::expression::winding::WindingNumbers;
 use crate::predicates::lexicographic;
 use crate::region::membership::Membership;
-use crate::spatial::ray_shooting::VerticalRays;
-use crate::spatial::slabs::SlabDecomposition;
+use crate::spatial::{ray_shooting::VerticalRays, slabs::SlabDecomposition};
 use label::{Label, NestedComponent};
 use map::Map;
 use std::cmp::Ordering;

@@ -1,9 +1,8 @@
 //! The walk, step by step.
 
-use super::Labels;
 use super::label::{Label, NestedComponent};
 use super::map::{Map, cross_overlapping, go_back, go_forward, holds_behind};
-use super::step::Step;
+use super::{Labels, step::Step};
 use crate::arrangement::Node;
 use crate::expression::winding::WindingNumbers;
 use crate::predicates::{Side, side};

@@ -1,9 +1,7 @@
 //! Cuts fragments that are in conflict until none is.
 
-use super::Repair;
 use super::fragment::{Class, Fragment, in_conflict};
-use super::fragments::Rounded;
-use super::near::Near;
+use super::{Repair, fragments::Rounded, near::Near};
 use crate::base::id::index;
 use crate::boundary::outline::Outline;
 use crate::contacts::close_pairs::ClosePairs;

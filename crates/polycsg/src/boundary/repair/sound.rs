@@ -1,8 +1,7 @@
 //! Whether rounding made pieces of the boundary meet.
 
-use super::Repair;
 use super::fragment::{Fragment, in_conflict};
-use super::fragments::Rounded;
+use super::{Repair, fragments::Rounded};
 use crate::base::id::index;
 use crate::contacts::close_pairs::ClosePairs;
 use crate::spatial::slabs::SlabDecomposition;

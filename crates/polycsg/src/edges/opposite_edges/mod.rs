@@ -15,8 +15,7 @@ mod cells;
 mod table;
 mod touched;
 
-use crate::base::hash::mixed;
-use crate::base::id::index;
+use crate::base::{hash::mixed, id::index};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::lexicographic;
 use glam::DVec2;

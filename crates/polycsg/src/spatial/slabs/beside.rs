@@ -10,8 +10,7 @@
 //!
 //! Steep edges are few in most inputs and their boxes narrow. Where they are not, looking at them is given up.
 
-use super::SlabDecomposition;
-use super::segments::RankedSegment;
+use super::{SlabDecomposition, segments::RankedSegment};
 use crate::base::id::index;
 use crate::predicates::{Margins, doubled_area, lexicographic};
 use std::ops::Range;

@@ -3,9 +3,8 @@
 //! Edges that are not vertical are in one point there. Where two of them meet, they do so in the next slab to the left or
 //! right that has a width, at its side; so only vertical edges are compared, with one another and with all others.
 
-use super::SlabDecomposition;
-use super::order::Order;
 use super::segments::{RankedSegment, Slab};
+use super::{SlabDecomposition, order::Order};
 use crate::base::id::index;
 use std::cmp::Ordering;
 

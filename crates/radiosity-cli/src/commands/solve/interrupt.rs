@@ -1,8 +1,5 @@
 //! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
-use super::options::options;
-use super::progress::Bar;
-use super::solve_outputs::SolveOutputs;
-use super::steps::Steps;
+use super::{options::options, progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
 use crate::failure::Failure;
 use radiosity::{Progress, Solution, State, io};
 use std::ops::ControlFlow;

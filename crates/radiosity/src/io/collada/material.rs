@@ -1,7 +1,6 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
 use super::file::{File, XmlNode, child, children, descend};
-use super::images::Images;
-use super::spectra::spectra;
+use super::{images::Images, spectra::spectra};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Finish;
 use crate::scene::finding::Finding;

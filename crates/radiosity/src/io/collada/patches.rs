@@ -1,13 +1,10 @@
 //! From instances to patches: each primitive with its material, where the node puts it.
-use super::file::File;
-use super::images::Images;
-use super::material::finish;
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
+use super::{file::File, images::Images, material::finish};
 use crate::io::error::{Fault, FileError};
-use crate::io::surface::facets;
-use crate::io::surface::finish::Surface;
 use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
+use crate::io::{surface::facets, surface::finish::Surface};
 use crate::scene::{
     finding::Finding,
     patch::{Origin, Patch},

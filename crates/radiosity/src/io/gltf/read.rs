@@ -1,12 +1,9 @@
 //! The default scene, walked: meshes become patches, cameras cameras.
-use super::accessor::Buffers;
-use super::document::GltfFile;
-use super::material::Materials;
+use super::{accessor::Buffers, document::GltfFile, material::Materials};
 use crate::io::error::{Fault, FileError};
-use crate::io::surface::facets;
-use crate::io::surface::finish::Surface;
 use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
 use crate::io::surface::polygon::{Corner, Polygon};
+use crate::io::{surface::facets, surface::finish::Surface};
 use crate::scene::{Scene, camera::Camera, finding::Finding, patch::Origin};
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;

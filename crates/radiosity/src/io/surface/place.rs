@@ -1,8 +1,7 @@
 //! Into the world: transformed, checked, split where needed, named.
 use super::finish::{Finish, Spectra, Surface};
-use super::flaws::Flaws;
 use super::polygon::{Corner, Facet, Polygon, bits};
-use super::split::split;
+use super::{flaws::Flaws, split::split};
 use crate::scene::{
     finding::Finding,
     patch::{Origin, Patch},

@@ -5,10 +5,7 @@
 //! S = (A F + (A F)ᵀ) / 2; they are scaled by D S D, D diagonal, so that they add to A in closed rooms (Sinkhorn and
 //! Knopp 1967) and to no more elsewhere: as light may not grow.
 use crate::mesh::subdivide::Subdivision;
-use crate::solve::light::Light;
-use crate::solve::rooms::Rooms;
-use crate::solve::shooters::Shooters;
-use crate::solve::state::Column;
+use crate::solve::{light::Light, rooms::Rooms, shooters::Shooters, state::Column};
 use std::sync::Arc;
 
 /// No piece.

@@ -1,7 +1,6 @@
 //! From what the pieces send to what every element receives.
 use super::exchange::Exchange;
-use crate::solve::light::Light;
-use crate::solve::state::Column;
+use crate::solve::{light::Light, state::Column};
 use rayon::prelude::*;
 use std::sync::Arc;
 

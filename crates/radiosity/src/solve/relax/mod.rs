@@ -14,9 +14,7 @@ mod gauss;
 mod gmres;
 
 use super::magnitude::{largest, mean_by_itself};
-use super::options::Method;
-use super::run::Run;
-use super::state::Column;
+use super::{options::Method, run::Run, state::Column};
 use crate::error::Error;
 use balance::Balance;
 use cg::conjugate_gradients;
