@@ -1,6 +1,5 @@
 //! Delta factors in closed form: what a rectangle of a cube around dA receives, its half-width and height being 1.
-use std::f64::consts::TAU;
-use std::ops::Range;
+use std::{f64::consts::TAU, ops::Range};
 
 /// Of a rectangle in the top, parallel to dA at height 1: the integral of 1 / (pi (x^2 + y^2 + 1)^2).
 pub(super) fn top(x: &Range<f64>, y: &Range<f64>) -> f64 {

@@ -6,9 +6,7 @@ use super::rule::{Integral, integrate};
 use crate::scene::{enclosure::Enclosure, shaft::Shaft};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-use std::sync::Arc;
+use std::{cmp::Ordering, collections::BinaryHeap, sync::Arc};
 
 /// Evaluations after which an integral is given back as it is.
 const MOST: u64 = 1 << 22;

@@ -5,8 +5,7 @@ use crate::form_factor::FormFactor;
 use crate::numeric::{predicates::place, rounding::ROUNDING};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
-use std::cmp::Ordering;
-use std::f64::consts::TAU;
+use std::{cmp::Ordering, f64::consts::TAU};
 
 /// Roundings of a term besides those of its edge's normal: the dot products, the root, the quotients, the arc tangent, the
 /// unit normal.

@@ -5,8 +5,7 @@
 //! silhouette remains.
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
-use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::{cmp::Ordering, collections::BTreeMap};
 
 /// Bodies: sets of polygons that close around a convex solid exactly, fronts outward.
 #[derive(Clone, Debug, Default)]

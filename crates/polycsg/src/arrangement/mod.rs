@@ -20,8 +20,7 @@ use crate::contacts::contact::{Contact, Partner, PartnerKind};
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
 use crate::predicates::{Segment, Side, lexicographic, turn};
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// No sub-edge, no node.
 const NONE: u32 = u32::MAX;

@@ -14,8 +14,7 @@ use crate::boundary::outline::Outline;
 use crate::predicates::{Side, lexicographic, side};
 use crate::region::rings::Rings;
 use glam::DVec2;
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// No chain, no place, no ring.
 const NONE: u32 = u32::MAX;

@@ -220,34 +220,18 @@ fn concatenated<T>(mut first: VecDeque<T>, mut second: VecDeque<T>) -> VecDeque<
     first
 }
 
-/// Union.
-impl<'a> BitOr for Csg<'a> {
-    type Output = Csg<'a>;
-    fn bitor(self, other: Csg<'a>) -> Csg<'a> {
-        self.then(Operator::Union, other)
-    }
+macro_rules! operator {
+    ($operator:ident, $trait:ident, $function:ident) => {
+        impl<'a> $trait for Csg<'a> {
+            type Output = Csg<'a>;
+            fn $function(self, other: Csg<'a>) -> Csg<'a> {
+                self.then(Operator::$operator, other)
+            }
+        }
+    };
 }
 
-/// Intersection.
-impl<'a> BitAnd for Csg<'a> {
-    type Output = Csg<'a>;
-    fn bitand(self, other: Csg<'a>) -> Csg<'a> {
-        self.then(Operator::Intersection, other)
-    }
-}
-
-/// Difference.
-impl<'a> Sub for Csg<'a> {
-    type Output = Csg<'a>;
-    fn sub(self, other: Csg<'a>) -> Csg<'a> {
-        self.then(Operator::Difference, other)
-    }
-}
-
-/// Symmetric difference.
-impl<'a> BitXor for Csg<'a> {
-    type Output = Csg<'a>;
-    fn bitxor(self, other: Csg<'a>) -> Csg<'a> {
-        self.then(Operator::SymmetricDifference, other)
-    }
-}
+operator!(Union, BitOr, bitor);
+operator!(Intersection, BitAnd, bitand);
+operator!(Difference, Sub, sub);
+operator!(SymmetricDifference, BitXor, bitxor);

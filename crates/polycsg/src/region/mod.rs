@@ -8,8 +8,7 @@ use crate::predicates::{Segment, Side, is_inside, lexicographic, rightward, side
 use area::enclosed_area;
 use glam::DVec2;
 use rings::{Rings, ring_edges};
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// A set of points of the plane: polygons with holes, islands in the holes, to any depth.
 ///

@@ -8,8 +8,7 @@
 
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;

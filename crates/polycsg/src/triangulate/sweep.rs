@@ -15,9 +15,7 @@
 use super::indexed::IndexedRegion;
 use crate::base::id::index;
 use crate::predicates::{Side, side};
-use std::cmp::Ordering;
-use std::collections::VecDeque;
-use std::ops::Range;
+use std::{cmp::Ordering, collections::VecDeque, ops::Range};
 
 /// Vertices from the lower edge to the upper one.
 type OpenChain = VecDeque<u32>;

@@ -3,8 +3,7 @@ use crate::failure::Failure;
 use crate::outputs::print;
 use clap::Args;
 use radiosity::{io, scenes};
-use std::path::PathBuf;
-use std::process::ExitCode;
+use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity scene`
 #[derive(Args, Debug)]

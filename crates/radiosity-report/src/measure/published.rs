@@ -12,8 +12,7 @@ use formfactor::approx::{Exact, Method, VisibilityIndex};
 use radiosity::compare::{Difference, compare};
 use radiosity::{Element, Error, Method as Solver, Options, Record, Scene, State, scenes, solve_from};
 use rayon::prelude::*;
-use std::f64::consts::PI;
-use std::ops::ControlFlow;
+use std::{f64::consts::PI, ops::ControlFlow};
 
 /// Number of the table, scene, elements, and what was printed of the exact method and of the visibility index.
 pub(crate) const BARRETO: [(&str, &str, usize, [&str; 2]); 5] = [

@@ -3,8 +3,7 @@ use crate::clock::{Job, interleaved};
 use crate::plan::Plan;
 use crate::rows::{Chapter, Deviation, Measured, Time};
 use radiosity::{Error, Method, Options, Scene, Solution, State, scenes, solve_from};
-use std::cell::RefCell;
-use std::ops::ControlFlow;
+use std::{cell::RefCell, ops::ControlFlow};
 
 /// The methods that solve, with their names.
 const METHODS: [(&str, Method); 4] = [

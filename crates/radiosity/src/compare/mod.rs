@@ -11,8 +11,7 @@ use crate::record::Record;
 use glam::DVec3;
 use overlap::Piece;
 use serde::Serialize;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
+use std::{collections::BTreeMap, f64::consts::PI};
 use thiserror::Error;
 
 /// The difference of two solutions.

@@ -12,8 +12,7 @@ use crate::scene::{
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use polycsg::{Csg, FillRule, Region};
-use std::collections::HashSet;
-use std::path::Path;
+use std::{collections::HashSet, path::Path};
 
 /// The text of a `.vs3` file.
 #[derive(Clone, Debug)]

@@ -66,8 +66,7 @@ use progress::Progress;
 use run::Run;
 use solution::Solution;
 use state::State;
-use std::ops::ControlFlow;
-use std::time::Instant;
+use std::{ops::ControlFlow, time::Instant};
 
 /// Solves for the light of a scene. `watch` is called before every step and may end the run early.
 ///

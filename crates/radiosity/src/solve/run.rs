@@ -6,8 +6,7 @@ use super::{progress::Progress, rooms::Rooms, shooters::Shooters, state::State};
 use crate::error::Error;
 use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
-use std::ops::ControlFlow;
-use std::time::Instant;
+use std::{ops::ControlFlow, time::Instant};
 
 /// Whoever follows a run.
 pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;

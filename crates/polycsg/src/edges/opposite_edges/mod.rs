@@ -19,8 +19,7 @@ use crate::base::{hash::mixed, id::index};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::lexicographic;
 use glam::DVec2;
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 use table::Table;
 use touched::Touched;
 

@@ -5,8 +5,7 @@ use super::cells::Cells;
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// So many edges are in a cell on the average: maps have far more at some places.
 const EDGES_PER_CELL: usize = 2;

@@ -48,8 +48,7 @@ use crate::predicates::{Segment, Side, lexicographic, side};
 use found::Found;
 use glam::DVec2;
 use segments::{RankedSegment, Slab, SpanningSegment, parts};
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// So many edges are compared with one another, each with each.
 const FEW: usize = 8;

@@ -4,8 +4,7 @@ use super::segments::{NONE, RankedSegment, Slab, SpanningSegment, parts};
 use super::{FEW, SlabDecomposition};
 use crate::predicates::{Side, height_order, side};
 use glam::DVec2;
-use std::cmp::Ordering;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 impl SlabDecomposition {
     /// For each of some of the points the edge right below it, by its id: of the edges that a ray straight down from just

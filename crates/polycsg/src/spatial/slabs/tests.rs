@@ -3,8 +3,7 @@ use super::SlabDecomposition;
 use crate::predicates::{Segment, Side, height_order, is_inside, rightward, side};
 use glam::DVec2;
 use proptest::prelude::*;
-use std::cmp::Ordering;
-use std::collections::BTreeSet;
+use std::{cmp::Ordering, collections::BTreeSet};
 
 fn found(segments: &[Segment]) -> BTreeSet<[u32; 2]> {
     let mut slabs = SlabDecomposition::default();

@@ -2,12 +2,9 @@
 use super::{options::options, progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
 use crate::failure::Failure;
 use radiosity::{Progress, Solution, State, io};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::{ops::ControlFlow, process::ExitCode, sync::Arc, time::Instant};
 
 /// What a shell reports of a program that Ctrl-C ended.
 const INTERRUPTED: u8 = 130;

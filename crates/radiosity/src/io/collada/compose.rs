@@ -4,8 +4,7 @@ use super::spectra::PROFILE;
 use super::xml::{TOOL, decimal, escape, list};
 use crate::scene::{asset::Asset, camera::Camera, texture::Texture};
 use glam::DVec3;
-use std::collections::HashMap;
-use std::fmt::Write;
+use std::{collections::HashMap, fmt::Write};
 
 /// The whole file, always the same bytes for the same model.
 pub(crate) fn text(model: &Model) -> String {

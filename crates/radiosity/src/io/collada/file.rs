@@ -1,7 +1,6 @@
 //! The parsed file: elements found by tag and by id, faults reported with their line.
 use crate::io::error::{Fault, FileError};
-use std::collections::HashMap;
-use std::str::FromStr;
+use std::{collections::HashMap, str::FromStr};
 
 pub(super) type XmlNode<'a> = roxmltree::Node<'a, 'a>;
 

@@ -2,9 +2,8 @@
 use super::file::{File, XmlNode, child, children, descend};
 use crate::image_file;
 use crate::scene::{finding::Finding, texture::Image};
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 
 /// Pictures read so far, by the id of their `<image>`.
 pub(super) struct Images {

@@ -9,8 +9,7 @@ use crate::scene::{
     finding::Finding,
     patch::{Origin, Patch},
 };
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::{collections::HashMap, collections::hash_map::Entry};
 
 /// The patches of all instances.
 pub(super) fn patches<'a>(

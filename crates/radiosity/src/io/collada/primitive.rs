@@ -4,8 +4,7 @@ use crate::io::error::{Fault, FileError};
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::scene::finding::Finding;
 use glam::{DVec2, DVec3};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::{collections::HashMap, collections::hash_map::Entry};
 
 /// A `<polylist>`, `<triangles>`, …: polygons of one material.
 pub(super) struct Primitive<'a> {

@@ -4,9 +4,7 @@ use crate::image_file;
 use crate::io::surface::finish::Finish;
 use crate::scene::{finding::Finding, texture::Image};
 use gltf::material::AlphaMode;
-use std::collections::HashMap;
-use std::path::Path;
-use std::sync::Arc;
+use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// A material as patches need it.
 #[derive(Clone)]

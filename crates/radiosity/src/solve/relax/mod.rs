@@ -22,8 +22,7 @@ use exchange::Exchange;
 use gather::gather;
 use gauss::eliminate;
 use gmres::gmres;
-use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::{ops::ControlFlow, sync::Arc};
 
 /// More pieces than this, and their matrix exceeds 2 GiB.
 const MOST: usize = 1 << 14;
