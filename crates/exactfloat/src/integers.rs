@@ -1,7 +1,6 @@
 //! Doubles as integers of any size: all of a question's numbers multiplied by one power of two.
 
-use crate::ratio::Ratio;
-use dashu_int::{IBig, Sign, UBig, ops::BitTest};
+use dashu_int::{IBig, Sign, UBig};
 use std::cmp::Ordering;
 
 /// Sign, odd mantissa and exponent of a finite `f64`: `x = ± mantissa · 2^exponent`; zero has no exponent.
@@ -61,19 +60,4 @@ pub fn sign(integer: &IBig) -> Ordering {
         (false, Sign::Positive) => Ordering::Greater,
         (false, Sign::Negative) => Ordering::Less,
     }
-}
-
-/// The `f64` nearest to `integer · 2^exponent`, ties to even; infinite beyond the range.
-///
-/// ```
-/// use exactfloat::{Integer, nearest};
-/// assert_eq!(nearest(Integer::from(3), -1), 1.5);
-/// assert_eq!(nearest(Integer::from(-1), 1024), f64::NEG_INFINITY);
-/// ```
-#[must_use]
-pub fn nearest(integer: IBig, exponent: i32) -> f64 {
-    if i64::from(exponent) + integer.bit_len() as i64 > 1024 {
-        return if integer.sign() == Sign::Positive { f64::INFINITY } else { f64::NEG_INFINITY };
-    }
-    Ratio::new(integer, IBig::ONE, exponent).to_f64()
 }

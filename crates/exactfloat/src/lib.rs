@@ -35,5 +35,5 @@ mod ratio;
 pub use dashu_int::IBig as Integer;
 pub use determinant::{orient2d, orient3d};
 pub use double_double::DoubleDouble;
-pub use integers::{integers, lowest_exponent, multiple, nearest, scaled_integers, sign};
-pub use ratio::Ratio;
+pub use integers::{integers, lowest_exponent, multiple, scaled_integers, sign};
+pub use ratio::{Ratio, nearest};

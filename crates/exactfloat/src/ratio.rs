@@ -80,6 +80,21 @@ impl Ratio {
     }
 }
 
+/// The `f64` nearest to `integer · 2^exponent`, ties to even; infinite beyond the range.
+///
+/// ```
+/// use exactfloat::{Integer, nearest};
+/// assert_eq!(nearest(Integer::from(3), -1), 1.5);
+/// assert_eq!(nearest(Integer::from(-1), 1024), f64::NEG_INFINITY);
+/// ```
+#[must_use]
+pub fn nearest(integer: IBig, exponent: i32) -> f64 {
+    if i64::from(exponent) + integer.bit_len() as i64 > 1024 {
+        return if integer.sign() == Sign::Positive { f64::INFINITY } else { f64::NEG_INFINITY };
+    }
+    Ratio::new(integer, IBig::ONE, exponent).to_f64()
+}
+
 /// `quotient · 2^exponent`, a little more when `inexact`, to the nearest `f64`, ties to even.
 fn round_binary(quotient: UBig, inexact: bool, exponent: i64) -> f64 {
     let top = exponent + quotient.bit_len() as i64 - 1;

@@ -1,10 +1,10 @@
 //! `ARCHITECTURE.md` names files that exist, what it says does not exist does not, and imports run one way.
 
-#[path = "../../../tests/src/imports.rs"]
-mod imports;
+#[path = "../../../tests/src/architecture.rs"]
+mod architecture;
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names, upward};
+use std::path::Path;
 
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
@@ -27,44 +27,23 @@ const ORDER: [&str; 75] = [
     "form_factor", "stats", "error",
 ];
 
-fn crate_file(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
-
-/// The files below a folder with their text, comments left out.
-fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
-    let entries = fs::read_dir(folder).expect("a folder of sources");
-    let paths = entries.map(|entry| entry.expect("an entry").path());
-    let code = |path: PathBuf| {
-        let text = fs::read_to_string(&path).expect("a source file");
-        let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-        (path, lines.map(|line| format!("{line}\n")).collect())
-    };
-    paths.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![code(path)] }).collect()
-}
-
-#[test]
-fn every_file_that_the_page_names_exists() {
-    let page = fs::read_to_string(crate_file("ARCHITECTURE.md")).expect("the page stands beside the code");
-    let quoted = page.split('`').skip(1).step_by(2);
-    let named: Vec<&str> =
-        quoted.filter(|name| [".rs", ".md", ".svg", "/"].iter().any(|end| name.ends_with(end))).collect();
-    assert!(named.len() > 30, "only {named:?}");
-    for name in named {
-        assert!(crate_file(name).exists() || crate_file("src").join(name).exists(), "there is no {name}");
-    }
+fn package() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
 fn imports_run_one_way() {
-    assert_eq!(imports::complaints(&crate_file("src"), &ORDER), Vec::<String>::new());
-    let listed = sources(&crate_file("src")).len() - 1;
-    assert_eq!(listed, ORDER.len(), "the order lists every file but lib.rs");
+    assert_eq!(complaints(&package().join("src"), &ORDER), Vec::<String>::new());
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    assert_eq!(shared_names(&package().join("src")), Vec::<String>::new());
 }
 
 #[test]
 fn an_import_that_runs_up_is_seen() {
-    let complaints = |text: &str| imports::upward(text, &["exact".into(), "view".into()], &ORDER).len();
+    let complaints = |text: &str| upward(text, &["exact".into(), "view".into()], &ORDER).len();
     for forbidden in [
         "use crate::pipeline::past;",
         "use super::whole::unhidden;",
@@ -77,51 +56,20 @@ fn an_import_that_runs_up_is_seen() {
 }
 
 #[test]
+fn every_file_that_the_page_names_exists() {
+    let [named, missing] = named_on_page(package());
+    assert!(named.len() > 30, "only {named:?}");
+    assert_eq!(missing, Vec::<String>::new());
+}
+
+#[test]
 fn what_must_not_exist_does_not() {
-    let absent = [
-        "HashMap",
-        "HashSet",
-        "thread_local",
-        "static mut",
-        "lazy_static",
-        "OnceLock",
-        "std::time",
-        "std::env",
-        "std::fs",
-        "std::io",
-        "println!",
-        "thread::current",
-        "unsafe ",
-    ];
-    for (source, code) in sources(&crate_file("src")) {
-        for line in code.lines() {
-            let found = absent.iter().find(|word| line.contains(**word));
-            assert!(found.is_none(), "{}: {line}", source.display());
-        }
-    }
+    assert_eq!(occurrences(&package().join("src"), &IMPURE), Vec::<String>::new());
 }
 
 /// Exact integers and determinants are asked for in one file.
 #[test]
 fn only_predicates_decides_signs() {
-    for (source, code) in sources(&crate_file("src")) {
-        let asks = ["orient2d", "orient3d", "integers("].iter().any(|name| code.contains(name));
-        assert!(!asks || source.ends_with("numeric/predicates.rs"), "{}", source.display());
-    }
-}
-
-#[test]
-fn no_two_types_share_a_name() {
-    let is_kind = |word: &str| ["struct", "enum", "trait", "type"].contains(&word);
-    let declared = |line: &str| {
-        let mut words =
-            line.split(|c: char| !c.is_alphanumeric() && c != '_').skip_while(|word| !is_kind(word));
-        words.nth(1).filter(|_| !line.starts_with(' ')).map(str::to_owned)
-    };
-    let sources = sources(&crate_file("src"));
-    let mut names: Vec<String> =
-        sources.iter().flat_map(|(_, code)| code.lines().filter_map(declared)).collect();
-    names.sort();
-    let shared: Vec<_> = names.windows(2).filter(|pair| pair[0] == pair[1]).collect();
-    assert!(names.len() > 50 && shared.is_empty(), "{shared:?} of {}", names.len());
+    let asks = occurrences(&package().join("src"), &["orient2d", "orient3d", "integers("]);
+    assert!(!asks.is_empty() && asks.iter().all(|line| line.contains("numeric/predicates.rs:")), "{asks:?}");
 }

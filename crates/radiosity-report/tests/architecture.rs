@@ -1,12 +1,10 @@
 //! The layout of the source: imports run one way, and no two types have one name.
 
-#[path = "../../../tests/src/imports.rs"]
-mod imports;
-#[path = "../../radiosity/tests/names/mod.rs"]
-mod names;
+#[path = "../../../tests/src/architecture.rs"]
+mod architecture;
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use architecture::{complaints, shared_names};
+use std::path::Path;
 
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
@@ -20,16 +18,16 @@ const ORDER: [&str; 30] = [
     "clock", "results", "analysis", "methods", "plan", "machine", "rows",
 ];
 
-fn crate_file(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+fn package() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
 fn imports_run_one_way() {
-    assert_eq!(imports::complaints(&crate_file("src"), &ORDER), Vec::<String>::new());
+    assert_eq!(complaints(&package().join("src"), &ORDER), Vec::<String>::new());
 }
 
 #[test]
 fn no_two_types_have_one_name() {
-    assert_eq!(names::shared(&crate_file("src"), &mut BTreeSet::new()), Vec::<String>::new());
+    assert_eq!(shared_names(&package().join("src")), Vec::<String>::new());
 }

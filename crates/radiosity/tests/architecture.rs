@@ -1,11 +1,10 @@
-//! The layout of the source: imports run one way, and no two types have one name, and `ARCHITECTURE.md` names files that exist.
+//! `ARCHITECTURE.md` names files that exist, imports run one way, and no two types have one name.
 
-#[path = "../../../tests/src/imports.rs"]
-mod imports;
-mod names;
+#[path = "../../../tests/src/architecture.rs"]
+mod architecture;
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use architecture::{complaints, named_on_page, shared_names, type_name};
+use std::path::Path;
 
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
@@ -44,36 +43,32 @@ const ORDER: [&str; 126] = [
     "plane", "spectrum", "union_find", "predicates", "error",
 ];
 
-fn crate_file(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+fn package() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
 fn imports_run_one_way() {
-    assert_eq!(imports::complaints(&crate_file("src"), &ORDER), Vec::<String>::new());
+    assert_eq!(complaints(&package().join("src"), &ORDER), Vec::<String>::new());
 }
 
 #[test]
 fn no_two_types_have_one_name() {
-    assert_eq!(names::shared(&crate_file("src"), &mut BTreeSet::new()), Vec::<String>::new());
+    assert_eq!(shared_names(&package().join("src")), Vec::<String>::new());
 }
 
-/// The check sees two types of one name: here `Options`, met before.
+/// The reader of names sees every way to declare a type.
 #[test]
-fn a_name_of_two_types_is_seen() {
-    let mut known = BTreeSet::from(["Options".to_owned()]);
-    assert_eq!(names::shared(&crate_file("src"), &mut known).len(), 1);
+fn names_of_types_are_seen() {
+    let lines =
+        ["pub struct A {", "pub(crate) enum A {", "trait A: B {", "type A = B;", "struct A<'a>(&'a str);"];
+    assert!(lines.iter().all(|line| type_name(line) == Some("A")));
+    assert_eq!(type_name("    type Output = A;"), None);
 }
 
 #[test]
 fn every_file_that_the_page_names_exists() {
-    let page =
-        std::fs::read_to_string(crate_file("ARCHITECTURE.md")).expect("the page stands beside the code");
-    let quoted =
-        page.split('`').skip(1).step_by(2).filter(|name| name.ends_with(".rs") && name.contains('/'));
-    let named: Vec<&str> = quoted.collect();
+    let [named, missing] = named_on_page(package());
     assert!(named.len() > 15, "only {named:?}");
-    for name in named {
-        assert!(crate_file(name).is_file(), "there is no {name}");
-    }
+    assert_eq!(missing, Vec::<String>::new());
 }

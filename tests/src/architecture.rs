@@ -1,10 +1,12 @@
-//! Whether the imports of a crate run one way. Each crate's `tests/architecture.rs` includes this file by its path, so that
-//! no published crate depends on this package.
+//! The laws of a crate's layout. Each crate's `tests/architecture.rs` includes this file by its path, so that no published
+//! crate depends on this package.
 //!
-//! An order names the folders and files of `src` from the top down, as `folder`, `file` or `folder/file`. Where several
-//! entries fit a path, the longest one counts. A path may lead down or stay within its entry. `lib.rs` only re-exports, so it
-//! is left out, and no name is imported from it.
+//! Imports run one way: an order names the folders and files of `src` from the top down, as `folder`, `file` or
+//! `folder/file`. Where several entries fit a path, the longest one counts. A path may lead down or stay within its entry.
+//! `lib.rs` only re-exports, so it is left out, and no name is imported from it.
+#![allow(dead_code, reason = "not every crate has every law")]
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -100,4 +102,65 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     let paths = entries.map(|entry| entry.expect("an entry").path());
     let files = paths.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] });
     files.filter(|file| !file.ends_with("src/lib.rs") && !file.ends_with("src/main.rs")).collect()
+}
+
+/// What a library that only computes does not contain: state, clocks, files, printing, and whose order is not its input's.
+pub(crate) const IMPURE: [&str; 13] = [
+    "HashMap",
+    "HashSet",
+    "thread_local",
+    "static mut",
+    "lazy_static",
+    "OnceLock",
+    "std::time",
+    "std::env",
+    "std::fs",
+    "std::io",
+    "println!",
+    "thread::current",
+    "unsafe ",
+];
+
+/// Where some words stand below a folder, comments left out.
+pub(crate) fn occurrences(src: &Path, words: &[&str]) -> Vec<String> {
+    let of_file = |file: PathBuf| {
+        let text = fs::read_to_string(&file).expect("a source file");
+        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let found = code.filter(|line| words.iter().any(|word| line.contains(word)));
+        found.map(|line| format!("{}: {line}", file.display())).collect::<Vec<_>>()
+    };
+    sources(src).into_iter().flat_map(of_file).collect()
+}
+
+/// The names that two types below a folder share, those of tests left out.
+pub(crate) fn shared_names(src: &Path) -> Vec<String> {
+    let mut known = BTreeSet::new();
+    let mut shared = Vec::new();
+    for file in sources(src) {
+        let text = fs::read_to_string(&file).expect("a source file");
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+        let names = code.lines().filter_map(type_name).map(str::to_owned);
+        shared.extend(names.filter(|name| !known.insert(name.clone())));
+    }
+    shared
+}
+
+/// The name of the type that a line declares at the top of its file.
+pub(crate) fn type_name(line: &str) -> Option<&str> {
+    let visibilities = ["pub ", "pub(crate) ", "pub(super) "];
+    let line = visibilities.iter().find_map(|start| line.strip_prefix(start)).unwrap_or(line);
+    let rest = ["struct ", "enum ", "trait ", "type "].iter().find_map(|kind| line.strip_prefix(kind))?;
+    rest.split(|c: char| !c.is_alphanumeric()).next()
+}
+
+/// The files and folders between backticks on the page `ARCHITECTURE.md` of a package, and those of them that do not exist.
+pub(crate) fn named_on_page(package: &Path) -> [Vec<String>; 2] {
+    let page = fs::read_to_string(package.join("ARCHITECTURE.md")).expect("the page stands beside the code");
+    let quoted = page.split('`').skip(1).step_by(2);
+    let is_path =
+        |name: &&str| name.contains('/') && ["/", ".rs", ".md", ".svg"].iter().any(|end| name.ends_with(end));
+    let named: Vec<String> = quoted.filter(is_path).map(str::to_owned).collect();
+    let exists = |name: &&String| package.join(name).exists() || package.join("src").join(name).exists();
+    let missing = named.iter().filter(|name| !exists(name)).cloned().collect();
+    [named, missing]
 }
