@@ -2,13 +2,14 @@
 
 use crate::contacts::budget::WorkBudget;
 use crate::pipeline::scratch::Scratch;
+use crate::predicates::laws;
 
 /// Asks every predicate about one configuration of points, made of a stream of words.
 ///
 /// # Errors
 /// The predicate that is wrong, and the points.
 pub fn check_predicates(word: impl FnMut() -> u64) -> Result<(), String> {
-    crate::predicates::check(word)
+    laws::check(word)
 }
 
 /// Finds what meets by slabs, without looking at boxes first.

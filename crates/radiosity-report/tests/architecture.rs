@@ -1,9 +1,9 @@
-//! The layout of the source: imports run one way, and no two types have one name.
+//! `ARCHITECTURE.md` names files that exist, imports run one way, and no two types have one name.
 
 #[path = "../../../tests/src/architecture.rs"]
 mod architecture;
 
-use architecture::{complaints, shared_names};
+use architecture::{complaints, named_on_page, shared_names};
 use std::path::Path;
 
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
@@ -30,4 +30,11 @@ fn imports_run_one_way() {
 #[test]
 fn no_two_types_have_one_name() {
     assert_eq!(shared_names(&package().join("src")), Vec::<String>::new());
+}
+
+#[test]
+fn every_file_that_the_page_names_exists() {
+    let [named, missing] = named_on_page(package());
+    assert!(named.len() > 8, "only {named:?}");
+    assert_eq!(missing, Vec::<String>::new());
 }

@@ -17,7 +17,7 @@
 //!     eprintln!("{:.1e} unshot", progress.unshot);
 //!     ControlFlow::Continue(())
 //! })?;
-//! println!("no radiosity is wrong by more than {:?} W/m²", solution.bound);
+//! println!("the discrete system is solved to within {:?} W/m²", solution.bound);
 //! let record = Record::new("room.glb", &scene, &solution);
 //! let page = radiosity::viewer::page(&record, record.exposure());
 //! # Ok::<(), Box<dyn std::error::Error>>(())

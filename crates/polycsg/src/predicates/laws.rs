@@ -10,6 +10,17 @@ use std::cmp::Ordering;
 /// Whether a predicate is right about a configuration; none where it has no question there.
 type Law = fn(&Configuration) -> Option<bool>;
 
+/// Asks every predicate about one configuration, made of a stream of words.
+///
+/// # Errors
+/// The predicate that is wrong, and the points.
+#[cfg(fuzzing)]
+pub(crate) fn check(mut word: impl FnMut() -> u64) -> Result<(), String> {
+    let points = super::configurations::configuration(&mut word);
+    let wrong = LAWS.iter().find(|(_, law)| law(&points) == Some(false));
+    wrong.map_or(Ok(()), |(name, _)| Err(format!("{name} is wrong about {points:?}")))
+}
+
 /// Each predicate's law.
 pub(super) const LAWS: [(&str, Law); 9] = [
     ("side", side_is_exact),

@@ -19,7 +19,7 @@ mod clear;
 mod configurations;
 mod fixed;
 #[cfg(any(test, fuzzing))]
-mod laws;
+pub(crate) mod laws;
 mod order;
 mod orient;
 mod parameter;
@@ -40,14 +40,3 @@ pub(crate) use orient::{Area, doubled_area, side, side_of, turn};
 pub(crate) use parameter::Parameter;
 pub(crate) use round::{crossing_point, crossing_ratio};
 pub(crate) use segment::{Segment, Side};
-
-/// Asks every predicate about one configuration, made of a stream of words.
-///
-/// # Errors
-/// The predicate that is wrong, and the points.
-#[cfg(fuzzing)]
-pub(crate) fn check(mut word: impl FnMut() -> u64) -> Result<(), String> {
-    let points = configurations::configuration(&mut word);
-    let wrong = laws::LAWS.iter().find(|(_, law)| law(&points) == Some(false));
-    wrong.map_or(Ok(()), |(name, _)| Err(format!("{name} is wrong about {points:?}")))
-}

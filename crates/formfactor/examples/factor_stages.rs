@@ -1,5 +1,5 @@
 //! Draws the stages of a form factor as SVG on standard output:
-//! `cargo run -p formfactor --example stages > crates/formfactor/docs/stages.svg` draws the figure of the docs.
+//! `cargo run -p formfactor --example factor_stages > crates/formfactor/docs/stages.svg` draws the figure of the docs.
 use formfactor::{DVec3, DifferentialArea, Error, PlanarPolygon, glam::DVec2, visible_part};
 use polycsg::{Csg, FillRule, Region};
 use std::fmt::Write as _;
