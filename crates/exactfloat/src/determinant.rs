@@ -93,14 +93,12 @@ mod tests {
         minor(1, 2) * &rows[2][0] + minor(2, 0) * &rows[2][1] + minor(0, 1) * &rows[2][2]
     }
 
-    /// Four points of a plane through the origin, which rounding moves off it; scaled by a power of two.
+    /// Four points of a plane through the origin, which rounding moves off it.
     fn nearly_coplanar() -> impl Strategy<Value = [[f64; 3]; 4]> {
-        let share = || prop::array::uniform4(prop::array::uniform2(-1.0..1.0f64));
-        (prop::array::uniform2(prop::array::uniform3(-1.0..1.0f64)), share(), -900i32..900).prop_map(
-            |([u, v], shares, e)| {
-                shares.map(|[s, t]| std::array::from_fn(|i| (s * u[i] + t * v[i]) * 2f64.powi(e)))
-            },
-        )
+        let shares = prop::array::uniform4(prop::array::uniform2(-1.0..1.0f64));
+        let plane = prop::array::uniform2(prop::array::uniform3(-1.0..1.0f64));
+        (plane, shares)
+            .prop_map(|([u, v], shares)| shares.map(|[s, t]| std::array::from_fn(|i| s * u[i] + t * v[i])))
     }
 
     proptest! {
@@ -121,7 +119,24 @@ mod tests {
         }
 
         #[test]
-        fn orient3d_has_the_sign_where_rounding_alone_decides(points in nearly_coplanar()) {
+        fn orient2d_has_the_sign_near_a_line_at_every_scale(
+            [from, along] in prop::array::uniform2(prop::array::uniform2(-1.0..1.0f64)),
+            shares in prop::array::uniform3(-1.0..1.0f64),
+            scales in prop::array::uniform2(-520i32..520),
+        ) {
+            let points = shares.map(|s| std::array::from_fn(|i| (from[i] + s * along[i]) * 2f64.powi(scales[i])));
+            let rows = rows(&points);
+            let wanted = (&rows[0][0] * &rows[1][1] - &rows[0][1] * &rows[1][0]).cmp(&BigRational::zero());
+            prop_assert_eq!(orient2d(points[0], points[1], points[2]).partial_cmp(&0.0), Some(wanted));
+        }
+
+        /// Axes of one scale, and of different ones about the edges of the window.
+        #[test]
+        fn orient3d_has_the_sign_where_rounding_alone_decides(
+            points in nearly_coplanar(),
+            scales in prop_oneof![prop::array::uniform3(-320i32..320), (-900i32..900).prop_map(|e| [e; 3])],
+        ) {
+            let points = points.map(|p| std::array::from_fn(|i| p[i] * 2f64.powi(scales[i])));
             let wanted = determinant(&rows(&points)).cmp(&BigRational::zero());
             let [a, b, c, d] = points;
             prop_assert_eq!(orient3d(a, b, c, d).partial_cmp(&0.0), Some(wanted));
