@@ -122,7 +122,7 @@ mod tests {
         fn orient2d_has_the_sign_near_a_line_at_every_scale(
             [from, along] in prop::array::uniform2(prop::array::uniform2(-1.0..1.0f64)),
             shares in prop::array::uniform3(-1.0..1.0f64),
-            scales in prop::array::uniform2(-520i32..520),
+            scales in prop::array::uniform2(prop_oneof![-520i32..520, -540i32..-460, 470i32..520]),
         ) {
             let points = shares.map(|s| std::array::from_fn(|i| (from[i] + s * along[i]) * 2f64.powi(scales[i])));
             let rows = rows(&points);
