@@ -80,13 +80,15 @@ impl Edges {
 
     fn add_ring(&mut self, rings: &Rings, place: RingKey, winding: &WindingNumbers, bounds: &ResultBounds) {
         let (operand, ring) = (place.operand, place.ring as usize);
+        let counter = winding.counter(operand as usize);
+        // What bounds nothing is an edge alone, not the way there and back.
+        let (is_open, fewest) = (counter.is_none(), if counter.is_none() { 1 } else { 3 });
         let (start, points) = (index(self.points.len()), rings.closed(ring));
+        let points = if is_open { &points[..2] } else { points };
         if !bounds.meets(points) {
             return;
         }
         let origin = Origin { operand, edge: index(rings.start(ring)) };
-        let counter = winding.counter(operand as usize);
-        let fewest = if counter.is_none() { 2 } else { 3 };
         if points.windows(2).any(|pair| pair[0] == pair[1]) {
             self.add_distinct(points, origin);
         } else {
@@ -103,7 +105,7 @@ impl Edges {
                 .extend(slots.clone().map(|slot| Origin { operand, edge: origin.edge + slot - start }));
         }
         self.ring.resize(self.points.len(), index(self.rings.len()));
-        self.rings.push(EdgeRing { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
+        self.rings.push(EdgeRing { start, end: slots.end - 1, is_open, counter, winds: 1, also: END, origin });
     }
 
     /// The points of a ring that differ from the next one, and the first of them again.

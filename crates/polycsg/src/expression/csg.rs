@@ -54,7 +54,7 @@ pub(crate) enum Operator {
 pub(crate) enum Token<'a> {
     Region(&'a Region),
     Rings(Rings, FillRule),
-    /// An open edge as a ring, there and back. It bounds nothing; the arrangement tells what lies beside it.
+    /// An edge, and the way back, as a ring. It bounds nothing; the arrangement tells what lies beside it.
     Edge(Rings),
     /// It takes that many operands: those that stand before it.
     Operator(Operator, usize),

@@ -85,16 +85,13 @@ fn collect<'s>(
     winding
 }
 
-/// Lets opposite edges cancel where many do, and one ring represent its duplicates; what is left stands in monotone chains.
+/// Lets one edge stand for those that coincide with it, where many do; what is left stands in monotone chains.
 fn reduce<'s>(
-    EdgeBuffers { edges, opposite, duplicates, .. }: &'s mut EdgeBuffers,
+    EdgeBuffers { edges, coincident, .. }: &'s mut EdgeBuffers,
     chains: &mut MonotoneChains,
 ) -> &'s Edges {
-    opposite.cancel(edges);
+    coincident.unite(edges);
     chains.build(edges.points(), edges.spans());
-    if duplicates.unite(edges, chains) {
-        chains.build(edges.points(), edges.spans());
-    }
     edges
 }
 

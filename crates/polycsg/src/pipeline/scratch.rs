@@ -4,7 +4,7 @@ use crate::arrangement::{Arrangement, labels::Labels};
 use crate::assemble::{link::Cycles, nest::Nesting};
 use crate::boundary::{outline::Outline, repair::Repair, select::Selection};
 use crate::contacts::{Contacts, budget::WorkBudget, close_pairs::ClosePairs};
-use crate::edges::{Edges, collect::RingKey, duplicate_rings::DuplicateRings, opposite_edges::OppositeEdges};
+use crate::edges::{Edges, coincident::CoincidentEdges, collect::RingKey};
 use crate::expression::{bounds::ResultBounds, winding::WindingNumbers};
 use crate::spatial::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
 
@@ -46,8 +46,7 @@ pub(crate) struct ExpressionBuffers {
 pub(crate) struct EdgeBuffers {
     pub(crate) edges: Edges,
     pub(crate) keys: Vec<RingKey>,
-    pub(crate) opposite: OppositeEdges,
-    pub(crate) duplicates: DuplicateRings,
+    pub(crate) coincident: CoincidentEdges,
 }
 
 /// Filled for the edges, and once more for the rings of the result.
