@@ -47,23 +47,29 @@ impl Table {
         std::iter::successors(Some(first), |&edge| Some(self.next[edge as usize]).filter(|&next| next != NONE))
     }
 
-    /// Groups the edges that bound something by their ends; the first of each group represents the others.
-    pub(super) fn group(&mut self, edges: &Edges, fates: &mut Vec<Fate>) {
+    /// Leaves all edges alone.
+    pub(super) fn clear(&mut self, edges: &Edges, fates: &mut Vec<Fate>) {
         fates.clear();
-        fates.resize(edges.len(), Fate::Represented);
+        fates.resize(edges.len(), Fate::GoesOn);
         self.next.clear();
         self.next.resize(edges.len(), NONE);
         self.several.clear();
+    }
+
+    /// Groups the edges that bound something by their ends; the first of each group represents the others.
+    pub(super) fn group(&mut self, edges: &Edges, fates: &mut Vec<Fate>) {
+        self.clear(edges, fates);
         self.lay_out(edges);
         for ring in edges.rings() {
             let mut key = mixed(edges.point(ring.start));
             for edge in ring.start..ring.end {
                 let next_key = mixed(edges.point(edge + 1));
-                if ring.counter.is_none() || self.is_first(edges, edge, key.wrapping_add(next_key)) {
-                    fates[edge as usize] = Fate::GoesOn;
+                if ring.counter.is_some() && !self.is_first(edges, edge, key.wrapping_add(next_key)) {
+                    fates[edge as usize] = Fate::Represented;
                 }
                 key = next_key;
             }
+            fates[ring.end as usize] = Fate::Represented;
         }
     }
 
