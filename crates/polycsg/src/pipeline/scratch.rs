@@ -87,7 +87,8 @@ impl Scratch {
     /// input.
     ///
     /// Each is a point of an edge with both coordinates rounded to the nearest double, which moves the edge there by at most
-    /// half a unit in the last place. All other vertices are the input's, or crossings rounded once.
+    /// half a unit in the last place. All other vertices are the input's, or crossings rounded once. Where two edges become one by
+    /// this, what lay between them is gone, and with it the tip of a needle.
     ///
     /// ```
     /// use polycsg::{Csg, FillRule, Scratch};

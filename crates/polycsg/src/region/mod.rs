@@ -19,7 +19,8 @@ use std::{cmp::Ordering, ops::Range};
 /// Always canonical: each ring starts at its leftmost (then lowest) vertex, polygons are sorted by depth and then by
 /// that vertex, the holes of each by theirs. Equal sets with equal vertices are equal values.
 ///
-/// Input vertices on the boundary are kept, even in the middle of a straight edge. Coordinates may be in any unit, and areas
+/// Input vertices on the boundary are kept, even in the middle of a straight edge, but for tips of needles that are narrower than a
+/// rounding. Coordinates may be in any unit, and areas
 /// are in its square. The default is the empty set.
 ///
 /// ```
