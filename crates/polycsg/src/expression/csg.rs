@@ -205,7 +205,8 @@ impl<'a> Csg<'a> {
     }
 
     fn then(self, operator: Operator, other: Csg<'a>) -> Csg<'a> {
-        let before = other.behind(self.behind(VecDeque::new()));
+        let room = if self.before.is_empty() { 2 } else { 0 };
+        let before = other.behind(self.behind(VecDeque::with_capacity(room)));
         Csg { before, last: Token::Operator(operator, 2) }
     }
 

@@ -26,7 +26,10 @@ impl Rings {
         let mut read = Rings::default();
         for (ring, points) in rings.into_iter().enumerate() {
             let points = points.as_ref();
-            read.points.reserve(points.len() + 1);
+            match read.end {
+                0 => read.points = Vec::with_capacity(points.len() + 1),
+                _ => read.points.reserve(points.len() + 1),
+            }
             read.points.extend(points.iter().map(|&point| point.into() + DVec2::ZERO));
             if let Some(vertex) = read.points[read.end..].iter().position(|point| !point.is_finite()) {
                 return Err(Error::NonFinite { ring, vertex });
