@@ -72,7 +72,7 @@ impl Edges {
             sort_by_place(all);
         }
         for &place in &*all {
-            if let Some(rings) = csg.postfix()[place.token as usize].rings() {
+            if let Some(rings) = csg.token(place.token as usize).rings() {
                 self.add_ring(rings, place, winding, bounds);
             }
         }

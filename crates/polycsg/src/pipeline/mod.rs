@@ -77,7 +77,7 @@ fn collect<'s>(
     EdgeBuffers { edges, keys, .. }: &mut EdgeBuffers,
 ) -> &'s mut WindingNumbers {
     winding.compile(csg);
-    bounds.find(csg, winding);
+    bounds.find(csg);
     edges.collect(csg, winding, bounds, keys);
     winding
 }
@@ -105,7 +105,7 @@ fn arrange<'s>(
 /// The set, where by the boxes one region alone matters: all of it, or nothing.
 fn untouched(csg: &Csg<'_>, winding: &WindingNumbers, edges: &Edges) -> Option<Region> {
     let operand = edges.only_operand()? as usize;
-    let leaf = csg.postfix().iter().filter(|token| token.rings().is_some()).nth(operand)?;
+    let leaf = csg.postfix().filter(|token| token.rings().is_some()).nth(operand)?;
     let Token::Region(region) = leaf else { return None };
     let counter = winding.counter(operand)?;
     Some(if winding.would_hold(counter, 1) { (*region).clone() } else { Region::default() })
