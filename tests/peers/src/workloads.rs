@@ -1,87 +1,99 @@
-//! Which inputs are run, in which sizes, and what ratio each row asks for.
+//! Which inputs are run, in which sizes and by which routes, and what ratio each row asks for.
 
-/// A row of the table.
+/// A kind of input.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// Its name.
+    pub(crate) family: &'static str,
+    /// The ways to give polycsg its operands that the ratio is asked of.
+    pub(crate) routes: &'static [&'static str],
+    /// The ways that are shown beside them.
+    pub(crate) shown: &'static [&'static str],
+    /// Sizes, and the ratio to the fastest peer that is aimed at.
+    sizes: &'static [(usize, f64)],
+    /// How many of the sizes a quick run does.
+    quick: usize,
+}
+
+/// A kind of input in one size.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Workload {
-    /// The kind of input.
-    pub(crate) family: &'static str,
-    /// Its size.
+    /// The kind.
+    pub(crate) plan: &'static Plan,
+    /// The size.
     pub(crate) size: usize,
-    /// Whether polycsg stops at the boundary.
-    pub(crate) boundary: bool,
-    /// The ratio to the fastest rival that is aimed at.
-    pub(crate) limit: Option<f64>,
-    /// The peers that the ratio is taken to; all when empty.
-    pub(crate) rivals: &'static [&'static str],
+    /// The ratio that is aimed at.
+    pub(crate) limit: f64,
 }
 
 impl Workload {
     /// Kind and size.
     pub(crate) fn name(&self) -> String {
-        match self.family {
-            "square-triangle" => self.family.to_owned(),
-            "land" | "countries" | "counties" => format!("{}-{}m", self.family, self.size),
+        match self.plan.family {
+            "square-triangle" => self.plan.family.to_owned(),
+            "land" | "countries" | "counties" => format!("{}-{}m", self.plan.family, self.size),
             family => format!("{family}-{}", self.size),
         }
     }
 }
 
-/// i_overlay and what is built on it.
-const GRID_SWEEPS: &[&str] = &["i_overlay-i32", "i_overlay-i64", "geo"];
-
-/// A kind of input with its sizes: always, and in a full run alone.
-struct Plan {
-    family: &'static str,
-    limit: f64,
-    rivals: &'static [&'static str],
-    quick: &'static [usize],
-    full: &'static [usize],
+/// From raw rings, and beside it from regions.
+const fn plan(family: &'static str, sizes: &'static [(usize, f64)], quick: usize) -> Plan {
+    Plan { family, routes: &["rings"], shown: &["regions"], sizes, quick }
 }
 
+/// Small pairs.
+const SMALL: &[(usize, f64)] =
+    &[(8, 0.5), (16, 0.5), (32, 0.5), (64, 0.5), (128, 0.5), (256, 0.5), (512, 0.5), (1_024, 0.5)];
+
+/// Vertices of a clip.
+const CLIPS: &[(usize, f64)] = &[(100, 0.5), (1_000, 0.5), (10_000, 0.5), (100_000, 0.5)];
+
+const STREET: &[(usize, f64)] = &[(1_000, 1.0), (3_000, 1.0), (10_000, 1.0)];
+
 const GENERATED: &[Plan] = &[
-    Plan { family: "square-triangle", limit: 0.5, rivals: &[], quick: &[0], full: &[] },
-    Plan { family: "square-rectangles", limit: 0.5, rivals: &[], quick: &[10, 100, 1_000], full: &[10_000] },
-    Plan { family: "octagons", limit: 0.4, rivals: &[], quick: &[1_000, 10_000], full: &[100_000, 125_000] },
-    Plan { family: "stars", limit: 0.5, rivals: &[], quick: &[1_000, 10_000], full: &[100_000, 500_000] },
-    Plan { family: "blobs", limit: 0.7, rivals: GRID_SWEEPS, quick: &[10_000, 100_000], full: &[500_000] },
-    Plan { family: "grid", limit: 1.0, rivals: &[], quick: &[100], full: &[300, 500] },
-    Plan { family: "checkers-shifted", limit: 1.0, rivals: &[], quick: &[100], full: &[300] },
-    Plan { family: "checkers-complement", limit: 1.0, rivals: &[], quick: &[100], full: &[300, 500] },
-    Plan { family: "annuli", limit: 0.5, rivals: &[], quick: &[100, 1_000], full: &[10_000] },
-    Plan { family: "holes", limit: 0.5, rivals: &[], quick: &[1_000, 10_000], full: &[100_000] },
+    plan("square-triangle", &[(0, 0.5)], 1),
     Plan {
-        family: "combs",
-        limit: f64::NAN,
-        rivals: &[],
-        quick: &[4_000, 16_000],
-        full: &[100_000, 400_000],
+        shown: &["regions", "rings-boundary"],
+        ..plan("square-rectangles", &[(10, 0.5), (100, 0.5), (1_000, 0.4), (10_000, 0.3)], 3)
     },
+    plan("smooth-intersection", SMALL, SMALL.len()),
+    plan("smooth-union", SMALL, SMALL.len()),
+    plan("ragged-intersection", SMALL, SMALL.len()),
+    plan("tiles", SMALL, SMALL.len()),
+    plan("neighbours", SMALL, SMALL.len()),
+    plan("checkers-shifted", &[(100, 0.7), (300, 0.7)], 1),
+    plan("checkers-complement", &[(100, 0.5), (300, 0.5)], 1),
+    plan("grid", &[(100, 0.5), (300, 0.5)], 1),
+    plan("stars", &[(1_000, 0.5), (10_000, 0.35), (100_000, 0.3)], 2),
+    plan("annuli", &[(100, 0.5), (1_000, 0.4), (10_000, 0.3)], 2),
+    plan("combs", &[(4_000, 0.8), (16_000, 0.8), (100_000, 0.8), (400_000, 0.8)], 2),
+    plan("holes", &[(1_000, 0.5), (10_000, 0.4), (100_000, 0.4)], 2),
+    plan("blobs", &[(10_000, 0.4), (100_000, 0.4), (500_000, 0.4)], 2),
+    plan("octagons", &[(1_000, 0.3), (10_000, 0.3), (100_000, 0.3)], 2),
+    Plan {
+        routes: &["operands", "regions", "geo-types", "rings"],
+        shown: &[],
+        ..plan("parcels", &[(10_000, 0.5), (90_000, 0.5)], 1)
+    },
+    Plan { routes: &["clips"], shown: &[], ..plan("clips-smooth", CLIPS, 3) },
+    Plan { routes: &["clips"], shown: &[], ..plan("clips-spiky", CLIPS, 2) },
+    Plan { routes: &["rings", "regions"], shown: &[], ..plan("skyline", STREET, 2) },
+    Plan { routes: &["rings", "regions"], shown: &[], ..plan("baseline-random", STREET, 1) },
 ];
 
 const MAPS: &[Plan] = &[
-    Plan { family: "land", limit: 0.7, rivals: GRID_SWEEPS, quick: &[50], full: &[10] },
-    Plan { family: "countries", limit: 0.7, rivals: GRID_SWEEPS, quick: &[50], full: &[10] },
-    Plan { family: "counties", limit: 0.7, rivals: GRID_SWEEPS, quick: &[10], full: &[] },
+    plan("land", &[(50, 0.4), (10, 0.4)], 1),
+    plan("countries", &[(50, 0.4), (10, 0.6)], 1),
+    plan("counties", &[(10, 0.4)], 1),
 ];
 
 /// The rows, smaller inputs of a kind before larger ones.
 pub(crate) fn workloads(quick: bool, maps: bool) -> Vec<Workload> {
     let plans = GENERATED.iter().chain(if maps { MAPS } else { &[] });
-    plans.flat_map(|plan| rows(plan, quick)).collect()
-}
-
-fn rows(plan: &Plan, quick: bool) -> Vec<Workload> {
-    let sizes = plan.quick.iter().chain(if quick { &[] } else { plan.full });
-    let row = |size, boundary, limit| Workload {
-        family: plan.family,
-        size,
-        boundary,
-        limit: Some(limit).filter(|limit: &f64| limit.is_finite()),
-        rivals: plan.rivals,
+    let rows = |plan: &'static Plan| {
+        let sizes = if quick { &plan.sizes[..plan.quick] } else { plan.sizes };
+        sizes.iter().map(move |&(size, limit)| Workload { plan, size, limit })
     };
-    let both = |&size: &usize| {
-        let boundary = (plan.family == "square-rectangles").then(|| row(size, true, 0.3));
-        boundary.into_iter().chain([row(size, false, plan.limit)])
-    };
-    sizes.flat_map(both).collect()
+    plans.flat_map(rows).collect()
 }
