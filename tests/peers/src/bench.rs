@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// How much time a run takes.
 #[derive(Clone, Copy)]
 pub(crate) struct Effort {
-    /// What one call of a peer may take at most; polycsg three times that.
+    /// What one call may take at most; of polycsg, and of the peer that the aim is about, six times that.
     call: Duration,
     /// What the rounds of a row may take together.
     row: Duration,
@@ -138,9 +138,9 @@ impl Bench {
     }
 
     /// What one call of an engine may take.
-    fn limit(&self, engine: &Engine) -> Duration {
+    fn limit(&self, engine: &Engine, workload: &Workload) -> Duration {
         let is_peer = PEERS.iter().any(|peer| peer.name == engine.name);
-        self.effort.call * if is_peer { 1 } else { 3 }
+        self.effort.call * if is_peer && workload.plan.rival != Some(engine.name) { 1 } else { 6 }
     }
 
     /// Starts an engine and lets it make its first call, unless a smaller input was too much for it.
@@ -156,7 +156,7 @@ impl Bench {
         if self.slow.contains(&(engine.name, workload.plan.family)) {
             return Ok(failed(Failure::Slow));
         }
-        let limit = self.limit(&engine);
+        let limit = self.limit(&engine, workload);
         let mut child = Child::start(engine.name, workload.plan.family, workload.size, false)?;
         let answer = child.wait(LOADING).and_then(|_| child.ask("outcome", limit * 3 / 2));
         Ok(match answer {
@@ -188,7 +188,7 @@ impl Bench {
         trimmed: bool,
     ) -> Result<Result<Reply, Failure>, String> {
         let mut child = Child::start(engine.name, workload.plan.family, workload.size, trimmed)?;
-        Ok(child.wait(LOADING).and_then(|_| child.ask(question, self.limit(&engine))))
+        Ok(child.wait(LOADING).and_then(|_| child.ask(question, self.limit(&engine, workload))))
     }
 
     /// A B C A B C …, until the time is over; at least once, so that all have a figure. polycsg comes first, `ours` times.

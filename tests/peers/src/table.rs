@@ -37,6 +37,12 @@ impl Row {
         Some(route.seconds.clone().ok()? / self.fastest()?.1)
     }
 
+    /// The same over the peer that the aim is about.
+    fn rival_ratio(&self, route: &Figures) -> Option<f64> {
+        let rival = self.peers.iter().find(|peer| Some(peer.engine) == self.workload.plan.rival)?;
+        Some(route.seconds.clone().ok()? / rival.seconds.clone().ok()?)
+    }
+
     /// The ratio that is aimed at, where the route is asked for one.
     fn limit(&self, route: &Figures) -> Option<f64> {
         self.workload.plan.routes.contains(&route.engine).then_some(self.workload.limit)
@@ -89,9 +95,10 @@ fn json_line(row: &Row) -> Value {
     let named = |tell: fn(&Figures) -> Option<Value>| -> Map<String, Value> {
         row.all().filter_map(|figures| Some((figures.engine.to_owned(), tell(figures)?))).collect()
     };
-    let asked = row.ours.iter().filter(|route| row.limit(route).is_some());
-    let ratios: Map<String, Value> =
-        asked.map(|route| (route.engine.to_owned(), json!(row.ratio(route)))).collect();
+    let ratios = |ratio: fn(&Row, &Figures) -> Option<f64>| -> Map<String, Value> {
+        let asked = row.ours.iter().filter(|route| row.limit(route).is_some());
+        asked.filter_map(|route| Some((route.engine.to_owned(), json!(ratio(row, route)?)))).collect()
+    };
     json!({
         "workload": row.workload.name(),
         "op": row.op,
@@ -102,7 +109,9 @@ fn json_line(row: &Row) -> Value {
         "polycsg": seconds(&row.ours),
         "peers": seconds(&row.peers),
         "fastest": row.fastest().map(|fastest| fastest.0),
-        "ratios": ratios,
+        "ratios": ratios(Row::ratio),
+        "rival": row.workload.plan.rival,
+        "rival_ratios": ratios(Row::rival_ratio),
         "at_most": row.workload.limit,
         "area_error": row.area_error(),
         "valid": is_valid(row),
@@ -134,7 +143,7 @@ fn markdown(rows: &[Row]) -> String {
     let names: Vec<&str> =
         rows.first().map_or(vec![], |row| row.peers.iter().map(|peer| peer.engine).collect());
     let head = format!(
-        "| workload | op | from | edges | crossings | polycsg | ratio | at most | fastest | {} | area error | valid |",
+        "| workload | op | from | edges | crossings | polycsg | ratio | fastest | at most | {} | area error | valid |",
         names.join(" | ")
     );
     let columns = head.matches('|').count() - 1;
@@ -188,7 +197,6 @@ fn marked(row: &Row, peer: &Figures) -> String {
 }
 
 fn markdown_line(row: &Row, route: &Figures, peers: &[String]) -> String {
-    let number = |number: Option<f64>| number.map_or("–".to_owned(), |number| format!("{number:.2}"));
     let crossings = row.crossings.map(|crossings| format!("{:.*}", usize::from(row.booleans > 1), crossings));
     let cut = row.cut.map(|cut| format!("{:.1} % cut", 100.0 * cut));
     format!(
@@ -200,12 +208,23 @@ fn markdown_line(row: &Row, route: &Figures, peers: &[String]) -> String {
         crossings.or(cut).unwrap_or("–".to_owned()),
         time(route),
         number(row.ratio(route)),
-        number(row.limit(route)),
         row.fastest().map_or("–", |fastest| fastest.0),
+        aim(row, route),
         peers.join(" | "),
         row.area_error().map_or("–".to_owned(), |error| format!("{error:.0e}")),
         is_valid(row).map_or("–", |valid| if valid { "yes" } else { "NO" }),
     )
+}
+
+/// What is aimed at; where that is about one peer, its name and the ratio to it.
+fn aim(row: &Row, route: &Figures) -> String {
+    let limit = number(row.limit(route));
+    let rival = row.workload.plan.rival.filter(|_| row.limit(route).is_some());
+    rival.map_or(limit.clone(), |rival| format!("{limit} of {rival} (is {})", number(row.rival_ratio(route))))
+}
+
+fn number(number: Option<f64>) -> String {
+    number.map_or("–".to_owned(), |number| format!("{number:.2}"))
 }
 
 /// Three digits and a unit.

@@ -9,7 +9,9 @@ pub(crate) struct Plan {
     pub(crate) routes: &'static [&'static str],
     /// The ways that are shown beside them.
     pub(crate) shown: &'static [&'static str],
-    /// Sizes, and the ratio to the fastest peer that is aimed at.
+    /// The peer that the aim is about; the fastest if none.
+    pub(crate) rival: Option<&'static str>,
+    /// Sizes, and the ratio that is aimed at.
     sizes: &'static [(usize, f64)],
     /// How many of the sizes a quick run does.
     quick: usize,
@@ -39,7 +41,7 @@ impl Workload {
 
 /// From raw rings, and beside it from regions.
 const fn plan(family: &'static str, sizes: &'static [(usize, f64)], quick: usize) -> Plan {
-    Plan { family, routes: &["rings"], shown: &["regions"], sizes, quick }
+    Plan { family, routes: &["rings"], shown: &["regions"], rival: None, sizes, quick }
 }
 
 /// Small pairs.
@@ -74,12 +76,18 @@ const GENERATED: &[Plan] = &[
     Plan {
         routes: &["operands", "regions", "geo-types", "rings"],
         shown: &[],
+        rival: Some("geo"),
         ..plan("parcels", &[(10_000, 0.5), (90_000, 0.5)], 1)
     },
-    Plan { routes: &["clips"], shown: &[], ..plan("clips-smooth", CLIPS, 3) },
-    Plan { routes: &["clips"], shown: &[], ..plan("clips-spiky", CLIPS, 2) },
-    Plan { routes: &["rings", "regions"], shown: &[], ..plan("skyline", STREET, 2) },
-    Plan { routes: &["rings", "regions"], shown: &[], ..plan("baseline-random", STREET, 1) },
+    Plan { routes: &["clips"], shown: &[], rival: Some("geos"), ..plan("clips-smooth", CLIPS, 3) },
+    Plan { routes: &["clips"], shown: &[], rival: Some("geos"), ..plan("clips-spiky", CLIPS, 2) },
+    Plan { routes: &["rings", "regions"], shown: &[], rival: Some("geos"), ..plan("skyline", STREET, 2) },
+    Plan {
+        routes: &["rings", "regions"],
+        shown: &[],
+        rival: Some("geos"),
+        ..plan("baseline-random", STREET, 1)
+    },
 ];
 
 const MAPS: &[Plan] = &[
