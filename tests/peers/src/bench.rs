@@ -21,7 +21,7 @@ pub(crate) struct Effort {
     memory_edges: usize,
 }
 
-/// Within a quarter of an hour.
+/// Within ten minutes.
 pub(crate) const QUICK: Effort =
     Effort { call: Duration::from_secs(2), row: Duration::from_secs(4), rounds: 5, memory_edges: 100_000 };
 

@@ -15,7 +15,7 @@ use std::process::ExitCode;
 /// polycsg and its peers side by side: CPU seconds per Boolean, minimum over interleaved rounds.
 #[derive(Parser)]
 struct Arguments {
-    /// Smaller inputs and fewer rounds: done within a quarter of an hour.
+    /// Smaller inputs and fewer rounds: done within ten minutes.
     #[arg(long)]
     quick: bool,
     /// Print one JSON object per row on stdout.

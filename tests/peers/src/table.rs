@@ -54,14 +54,13 @@ pub(crate) fn show(row: &Row, as_json: bool) {
     say(&if as_json { format!("{}\n", json_line(row)) } else { markdown_lines(row) });
 }
 
-/// Prints what all rows come to.
+/// Prints what all rows come to, beside JSON lines on stderr.
 pub(crate) fn conclude(rows: &[Row], as_json: bool) {
-    let (mean, count, above) = sum(rows);
-    say(&if as_json {
-        format!("{}\n", json!({ "geometric_mean": mean, "ratios": count, "above_one": above }))
+    if as_json {
+        eprint!("{}", summary(rows));
     } else {
-        summary(rows)
-    });
+        say(&summary(rows));
+    }
 }
 
 fn say(text: &str) {
@@ -106,7 +105,8 @@ fn json_line(row: &Row) -> Value {
         "edges": row.edges,
         "crossings": row.crossings,
         "cut": row.cut,
-        "polycsg": seconds(&row.ours),
+        "polycsg_s": row.ours.first().and_then(|route| route.seconds.clone().ok()),
+        "routes": seconds(&row.ours),
         "peers": seconds(&row.peers),
         "fastest": row.fastest().map(|fastest| fastest.0),
         "ratios": ratios(Row::ratio),
@@ -140,23 +140,30 @@ fn markdown(rows: &[Row]) -> String {
         "CPU time per Boolean, least of interleaved rounds, one thread. `slow`: over the time allowed for a call, or a smaller input\
          \nwas; `error`: refused or crashed; `!`: areas wrong by more than 1e-3, not counted in the ratio; `–`: not made for this.\n\n",
     );
-    let names: Vec<&str> =
-        rows.first().map_or(vec![], |row| row.peers.iter().map(|peer| peer.engine).collect());
-    let head = format!(
-        "| workload | op | from | edges | crossings | polycsg | ratio | fastest | at most | {} | area error | valid |",
-        names.join(" | ")
-    );
-    let columns = head.matches('|').count() - 1;
-    let _ = writeln!(text, "{head}\n|{}", "---|".repeat(columns));
-    rows.iter().for_each(|row| text.push_str(&markdown_lines(row)));
+    let groups = rows.chunk_by(|a, b| a.workload.group.title == b.workload.group.title);
+    groups.for_each(|rows| text.push_str(&section(rows)));
     let _ = write!(
         text,
-        "\n{}\n## Growth\n\nExponents of the time over edges plus crossings; in brackets the sizes that were done.\n\n{}\n## Memory\n\n{}",
+        "{}\n## Growth\n\nExponents of the time over edges plus crossings; in brackets the sizes that were done.\n\n{}\n## Memory\n\n{}",
         summary(rows),
         scaling::markdown(rows),
         memory::markdown(rows)
     );
     text
+}
+
+/// The rows of one group, with what selects them.
+fn section(rows: &[Row]) -> String {
+    let group = rows[0].workload.group;
+    let only: Vec<String> = group.plans.iter().map(|plan| format!("--only {}", plan.family)).collect();
+    let names: Vec<&str> = rows[0].peers.iter().map(|peer| peer.engine).collect();
+    let head = format!(
+        "| workload | op | from | edges | crossings | polycsg | ratio | fastest | at most | {} | area error | valid |",
+        names.join(" | ")
+    );
+    let rule = "---|".repeat(head.matches('|').count() - 1);
+    let lines: String = rows.iter().map(markdown_lines).collect();
+    format!("### {}\n\n`{}`\n\n{head}\n|{rule}\n{lines}\n", group.title, only.join(" "))
 }
 
 /// The geometric mean of the ratios that are asked for, how many there are, and those above 1.
