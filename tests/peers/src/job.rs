@@ -71,6 +71,16 @@ impl Job {
         Job::one(Op::UnionOfAll, subject, vec![], parts)
     }
 
+    /// Whether one operand's polygons are united.
+    pub fn is_dissolve(&self) -> bool {
+        self.op == Op::UnionOfAll
+    }
+
+    /// Whether those share their borders vertex by vertex.
+    pub fn is_coverage(&self) -> bool {
+        self.is_dissolve() && self.parts == Parts::Coverage
+    }
+
     /// Whether one clip serves many subjects.
     pub fn has_common_clip(&self) -> bool {
         self.clips.len() < self.subjects.len()

@@ -25,7 +25,7 @@ mod task;
 
 pub use task::{Outcome, Task};
 
-use crate::job::{Job, Op, Parts};
+use crate::job::Job;
 
 /// Brings a job into an engine's own format.
 pub type Load = fn(&Job) -> Result<Box<dyn Task>, String>;
@@ -52,7 +52,7 @@ pub const ROUTES: &[Engine] = &[
     for_all("operands", polycsg::from_operands),
     for_all("regions", polycsg::from_regions),
     #[cfg(feature = "geo")]
-    Engine { name: "geo-types", fits: |job| job.op == Op::UnionOfAll, load: polycsg::from_geo },
+    Engine { name: "geo-types", fits: Job::is_dissolve, load: polycsg::from_geo },
     Engine { name: "clips", fits: Job::has_common_clip, load: polycsg::clips },
 ];
 
@@ -73,11 +73,7 @@ pub const PEERS: &[Engine] = &[
     #[cfg(feature = "geos")]
     for_all("geos", geos::load),
     #[cfg(feature = "geos")]
-    Engine {
-        name: "geos-coverage",
-        fits: |job| job.op == Op::UnionOfAll && job.parts == Parts::Coverage,
-        load: geos::coverage,
-    },
+    Engine { name: "geos-coverage", fits: Job::is_coverage, load: geos::coverage },
     #[cfg(feature = "linesweeper")]
     for_all("linesweeper", linesweeper::load),
     #[cfg(feature = "polyops")]
