@@ -112,6 +112,17 @@ impl Edges {
         self.also.clear();
     }
 
+    /// Adds edges of others to a new ring.
+    pub(crate) fn add_edges(&mut self, others: &Edges, edges: Range<u32>) {
+        self.points.extend_from_slice(&others.points[edges.start as usize..edges.end as usize]);
+        if others.origins.is_empty() && !edges.is_empty() {
+            let Origin { operand, edge } = others.origin(edges.start);
+            self.origins.extend((edge..).zip(edges).map(|(edge, _)| Origin { operand, edge }));
+        } else {
+            self.origins.extend_from_slice(&others.origins[edges.start as usize..edges.end as usize]);
+        }
+    }
+
     /// Adds an edge by its start to a new ring.
     pub(crate) fn add_edge(&mut self, start: DVec2, origin: Origin) {
         self.points.push(start);

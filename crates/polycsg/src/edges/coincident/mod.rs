@@ -25,6 +25,7 @@ use intervals::Intervals;
 use lines::Lines;
 use sample::Sample;
 use table::Table;
+use std::ops::Range;
 use touched::Touched;
 
 /// What becomes of an edge.
@@ -66,8 +67,8 @@ impl CoincidentEdges {
     pub(crate) fn unite(&mut self, edges: &mut Edges) {
         if self.sample.pays(edges) {
             self.table.group(edges, &mut self.fates);
-            self.cancel(edges);
-            self.find_starts(edges);
+            self.decide(edges);
+            self.find_touched(edges);
             self.link(edges);
             std::mem::swap(edges, &mut self.united);
         }
@@ -81,7 +82,7 @@ impl CoincidentEdges {
         for &edge in self.lines.components().flatten() {
             self.fates[edge as usize] = Fate::Represented;
         }
-        self.find_starts(edges);
+        self.decide(edges);
         self.link(edges);
         for overlapping in self.lines.components() {
             self.intervals.add(edges, overlapping, &mut self.united);
@@ -89,45 +90,54 @@ impl CoincidentEdges {
         std::mem::swap(edges, &mut self.united);
     }
 
-    /// Drops the edges whose changes add up to nothing, unless finding what they touch takes too long.
-    fn cancel(&mut self, edges: &Edges) {
-        let mut any = false;
-        for edge in self.table.several() {
-            add_up(edges, &self.table, edge, &mut self.changes);
-            if self.changes.is_empty() {
-                self.fates[edge as usize] = Fate::Gone;
-                any = true;
+    /// Finds the edges whose changes add up to nothing, and those where they are not those of the edge before.
+    fn decide(&mut self, edges: &Edges) {
+        for &ring in edges.rings() {
+            let mut before = None;
+            for edge in ring.start..ring.end {
+                before = self.decide_on(edges, edge, before);
+            }
+            // Where a closed ring is all alike so far, its first edge may go on from its last one.
+            let first = ring.start as usize;
+            if let (false, Some(last), Fate::Starts) = (ring.is_open, before, self.fates[first]) {
+                add_up(edges, &self.table, last, &mut self.before);
+                self.decide_on(edges, ring.start, before);
             }
         }
+    }
+
+    /// Decides on an edge that stands for others or itself, behind another one whose changes were added up; returns the edge if
+    /// it is kept.
+    fn decide_on(&mut self, edges: &Edges, edge: u32, before: Option<u32>) -> Option<u32> {
+        let CoincidentEdges { table, fates, changes, before: changes_before, .. } = self;
+        let fate = &mut fates[edge as usize];
+        if *fate == Fate::Represented {
+            return None;
+        }
+        let alone = |edge: u32| table.is_alone(edge);
+        let goes_on = if alone(edge) {
+            before.is_some_and(alone)
+        } else {
+            add_up(edges, table, edge, changes);
+            let is_same = before.is_some_and(|before| !alone(before)) && changes == changes_before;
+            std::mem::swap(changes, changes_before);
+            is_same
+        };
+        *fate = if goes_on { Fate::GoesOn } else { Fate::Starts };
+        if !alone(edge) && changes_before.is_empty() {
+            *fate = Fate::Gone;
+            return None;
+        }
+        Some(edge)
+    }
+
+    /// Finds what the edges touch that are gone. Where that takes too long, they are kept after all, each by itself.
+    fn find_touched(&mut self, edges: &Edges) {
         self.touched.clear();
+        let any = self.fates.contains(&Fate::Gone);
         if any && !self.touched.find(edges, &self.fates, self.table.cells()) {
             self.touched.clear();
-            self.fates.iter_mut().filter(|fate| **fate == Fate::Gone).for_each(|fate| *fate = Fate::GoesOn);
-        }
-    }
-
-    /// Finds the edges where the changes are not those of the edge before.
-    fn find_starts(&mut self, edges: &Edges) {
-        for ring in edges.rings() {
-            for edge in ring.start..ring.end {
-                let is_kept = self.fates[edge as usize].is_kept();
-                let goes_on = |before| self.goes_on(edges, before, edge);
-                if is_kept && !ring.edge_before(edge).is_some_and(goes_on) {
-                    self.fates[edge as usize] = Fate::Starts;
-                }
-            }
-        }
-    }
-
-    fn goes_on(&mut self, edges: &Edges, before: u32, edge: u32) -> bool {
-        if !self.fates[before as usize].is_kept() {
-            return false;
-        }
-        let CoincidentEdges { table, changes, before: changes_before, .. } = self;
-        [before, edge].iter().all(|&edge| table.is_alone(edge)) || {
-            add_up(edges, table, before, changes_before);
-            add_up(edges, table, edge, changes);
-            changes_before == changes
+            self.fates.iter_mut().filter(|fate| **fate == Fate::Gone).for_each(|fate| *fate = Fate::Starts);
         }
     }
 
@@ -138,8 +148,8 @@ impl CoincidentEdges {
             let fate = |edge: u32| self.fates[edge as usize];
             match (ring.start..ring.end).find(|&edge| fate(edge) == Fate::Starts) {
                 Some(first) => self.add_open_rings(edges, ring, first),
-                None if fate(ring.start).is_kept() => {
-                    (ring.start..ring.end).for_each(|edge| self.add_edge(edges, edge));
+                None if fate(ring.start) == Fate::GoesOn => {
+                    self.add_edges(edges, ring.start..ring.end);
                     self.end_ring(edges, ring.start, None);
                 }
                 None => {}
@@ -150,27 +160,32 @@ impl CoincidentEdges {
     /// Goes once round a ring, from an edge that starts an open one.
     fn add_open_rings(&mut self, edges: &Edges, ring: EdgeRing, first: u32) {
         let mut start = first;
-        for edge in (first..ring.end).chain(ring.start..first) {
-            let fate = self.fates[edge as usize];
-            if !fate.is_kept() {
-                continue;
-            }
-            if fate == Fate::Starts {
-                start = edge;
-            }
-            self.add_edge(edges, edge);
-            let next = if edge + 1 == ring.end { ring.start } else { edge + 1 };
-            if self.fates[next as usize] != Fate::GoesOn || ring.is_open && edge + 1 == ring.end {
-                self.end_ring(edges, start, Some(edge + 1));
+        for mut span in [first..ring.end, ring.start..first] {
+            while span.start < span.end {
+                let fate = |edge: u32| self.fates[edge as usize];
+                let run = span.start;
+                let end = (run + 1..span.end).find(|&edge| fate(edge) != Fate::GoesOn).unwrap_or(span.end);
+                span.start = end;
+                start = if fate(run) == Fate::Starts { run } else { start };
+                if fate(run).is_kept() {
+                    let goes_on = end == ring.end && !ring.is_open && fate(ring.start) == Fate::GoesOn;
+                    self.add_edges(edges, run..end);
+                    if !goes_on {
+                        self.end_ring(edges, start, Some(end));
+                    }
+                }
             }
         }
     }
 
-    /// Adds an edge, cut at the vertices that touch it.
-    fn add_edge(&mut self, edges: &Edges, edge: u32) {
-        let origin = edges.origin(edge);
-        self.united.add_edge(edges.point(edge), origin);
-        self.touched.inside(edge).iter().for_each(|&(_, point)| self.united.add_edge(point, origin));
+    /// Adds edges, cut at the vertices that touch them.
+    fn add_edges(&mut self, edges: &Edges, mut span: Range<u32>) {
+        for &(edge, point) in self.touched.inside(span.clone()) {
+            self.united.add_edges(edges, span.start..edge + 1);
+            self.united.add_edge(point, edges.origin(edge));
+            span.start = edge + 1;
+        }
+        self.united.add_edges(edges, span);
     }
 
     /// Ends a ring that changes what an edge does.
@@ -185,8 +200,9 @@ fn add_up(edges: &Edges, table: &Table, first: u32, changes: &mut Vec<Change>) {
     changes.clear();
     for edge in table.alike(first) {
         let along = edges.point(edge) == edges.point(first);
-        let turned = |change: Change| Change { winds: if along { change.winds } else { -change.winds }, ..change };
-        changes.extend(edges.changes(edges.ring(edge)).map(turned));
+        for Change { counter, winds } in edges.changes(edges.ring(edge)) {
+            changes.push(Change { counter, winds: if along { winds } else { -winds } });
+        }
     }
     if !table.is_alone(first) {
         changes.sort_unstable();

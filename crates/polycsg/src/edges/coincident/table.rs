@@ -22,19 +22,12 @@ pub(super) struct Table {
     firsts: Vec<u32>,
     /// Per edge another one with the same ends, as a list from the first on.
     next: Vec<u32>,
-    /// The first edges that are not alone.
-    several: Vec<u32>,
 }
 
 impl Table {
     /// The cells of all points that were looked at last.
     pub(super) fn cells(&self) -> Cells {
         self.cells
-    }
-
-    /// The first of each several edges with the same ends.
-    pub(super) fn several(&self) -> impl Iterator<Item = u32> + '_ {
-        self.several.iter().copied()
     }
 
     /// Whether no other edge has the ends of one.
@@ -53,7 +46,6 @@ impl Table {
         fates.resize(edges.len(), Fate::GoesOn);
         self.next.clear();
         self.next.resize(edges.len(), NONE);
-        self.several.clear();
     }
 
     /// Groups the edges that bound something by their ends; the first of each group represents the others.
@@ -108,11 +100,7 @@ impl Table {
             self.firsts[place] = edge;
             return true;
         }
-        let next = std::mem::replace(&mut self.next[first as usize], edge);
-        self.next[edge as usize] = next;
-        if next == NONE {
-            self.several.push(first);
-        }
+        self.next[edge as usize] = std::mem::replace(&mut self.next[first as usize], edge);
         false
     }
 }

@@ -5,7 +5,7 @@ use super::{Fate, cells::Cells};
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
-use std::cmp::Ordering;
+use std::{cmp::Ordering, ops::Range};
 
 /// So many edges are in a cell on the average: maps have far more at some places.
 const EDGES_PER_CELL: usize = 2;
@@ -51,10 +51,13 @@ impl Touched {
         self.inside.clear();
     }
 
-    /// The points inside an edge, in order along it.
-    pub(super) fn inside(&self, edge: u32) -> &[(u32, DVec2)] {
-        let first = self.inside.partition_point(|inside| inside.0 < edge);
-        let count = self.inside[first..].partition_point(|inside| inside.0 == edge);
+    /// The points inside some edges, by edge and in order along each.
+    pub(super) fn inside(&self, span: Range<u32>) -> &[(u32, DVec2)] {
+        if self.inside.is_empty() {
+            return &[];
+        }
+        let first = self.inside.partition_point(|(edge, _)| *edge < span.start);
+        let count = self.inside[first..].partition_point(|(edge, _)| *edge < span.end);
         &self.inside[first..first + count]
     }
 
@@ -193,7 +196,7 @@ mod tests {
             add_square(&mut edges, DVec2::new(f64::from(cell % columns), f64::from(cell / columns)));
         }
         table.group(&edges, &mut fates);
-        table.several().for_each(|edge| fates[edge as usize] = Fate::Gone);
+        (0..).zip(&mut fates).filter(|(edge, _)| !table.is_alone(*edge)).for_each(|(_, fate)| *fate = Fate::Gone);
         touched.find(&edges, &fates, table.cells()).then_some(touched.inside)
     }
 
