@@ -1,7 +1,7 @@
 //! Where two contacts lie close together on an edge, all edges that meet there may meet once more when they are rounded.
 
-use super::close_pairs::{CloseGroups, ClosePairs, ClosePlaces, EdgePlace};
 use super::Contacts;
+use super::close_pairs::{CloseGroups, ClosePairs, ClosePlaces, EdgePlace};
 use crate::edges::Edges;
 
 impl Contacts {

@@ -105,7 +105,15 @@ impl Edges {
                 .extend(slots.clone().map(|slot| Origin { operand, edge: origin.edge + slot - start }));
         }
         self.ring.resize(self.points.len(), index(self.rings.len()));
-        self.rings.push(EdgeRing { start, end: slots.end - 1, is_open, counter, winds: 1, also: END, origin });
+        self.rings.push(EdgeRing {
+            start,
+            end: slots.end - 1,
+            is_open,
+            counter,
+            winds: 1,
+            also: END,
+            origin,
+        });
     }
 
     /// The points of a ring that differ from the next one, and the first of them again.

@@ -208,12 +208,15 @@ fn overlapping_edges_are_one() {
             [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|corner| low + corner).to_vec()
         })
         .collect();
-    for (along, seed) in [(DVec2::X, 1), (DVec2::Y, 2), (DVec2::new(3.0, 2.0), 3), (DVec2::new(-1.0, 4.0), 4)] {
+    for (along, seed) in [(DVec2::X, 1), (DVec2::Y, 2), (DVec2::new(3.0, 2.0), 3), (DVec2::new(-1.0, 4.0), 4)]
+    {
         let (a, b) = (on_a_line(150, along, seed), on_a_line(150, along, seed + 10));
         for rule in [FillRule::EvenOdd, FillRule::NonZero, FillRule::Positive] {
             let (mut cut, mut not) = (Scratch::default(), Scratch::default());
             let operand = |rings: &[Vec<DVec2>]| Csg::from_rings(rings, rule).expect("finite");
-            let both = |a: &[Vec<DVec2>]| [operand(a) ^ operand(&b), operand(a) - operand(&b), operand(a) & operand(&b)];
+            let both = |a: &[Vec<DVec2>]| {
+                [operand(a) ^ operand(&b), operand(a) - operand(&b), operand(a) & operand(&b)]
+            };
             for (alone, beside) in both(&a).into_iter().zip(both(&[&a[..], &far[..]].concat())) {
                 let alone = alone.evaluate_with(&mut cut);
                 let beside = (beside - operand(&far)).evaluate_with(&mut not);

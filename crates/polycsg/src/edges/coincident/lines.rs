@@ -18,7 +18,7 @@ const LINES: usize = 8;
 
 /// An edge, with its line as far as rounded numbers tell it.
 #[derive(Clone, Copy, Debug)]
-struct Rounded {
+struct EdgeLine {
     edge: u32,
     low: DVec2,
     high: DVec2,
@@ -27,15 +27,15 @@ struct Rounded {
     distance: f64,
 }
 
-impl Rounded {
-    fn of(edges: &Edges, edge: u32) -> Rounded {
+impl EdgeLine {
+    fn of(edges: &Edges, edge: u32) -> EdgeLine {
         let [a, b] = edges.segment(edge);
         let (low, high) = if lexicographic(a, b) == Ordering::Less { (a, b) } else { (b, a) };
         // Halves, so that no difference overflows.
         let way = high * 0.5 - low * 0.5;
         let is_steep = way.y.abs() > way.x;
         let slope = if is_steep { way.x / way.y } else { way.y / way.x };
-        Rounded { edge, low, high, is_steep, slope, distance: 0.0 }
+        EdgeLine { edge, low, high, is_steep, slope, distance: 0.0 }
     }
 
     /// Half the distance at which a line of some slope through its lower end meets an axis.
@@ -52,7 +52,7 @@ impl Rounded {
 /// The buffers of the search.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
-    rounded: Vec<Rounded>,
+    lines: Vec<EdgeLine>,
     /// The edges that overlap, component by component, and where each of these ends.
     members: Vec<u32>,
     ends: Vec<usize>,
@@ -63,21 +63,21 @@ impl Lines {
     pub(super) fn find(&mut self, edges: &Edges) {
         self.members.clear();
         self.ends.clear();
-        let mut all = std::mem::take(&mut self.rounded);
+        let mut all = std::mem::take(&mut self.lines);
         all.clear();
         let spans = edges.rings().iter().filter(|ring| ring.counter.is_some());
-        all.extend(spans.flat_map(|ring| ring.start..ring.end).map(|edge| Rounded::of(edges, edge)));
+        all.extend(spans.flat_map(|ring| ring.start..ring.end).map(|edge| EdgeLine::of(edges, edge)));
         all.sort_unstable_by(|a, b| a.is_steep.cmp(&b.is_steep).then(a.slope.total_cmp(&b.slope)));
         let size = edges.points().iter().fold(0.0, |size: f64, p| size.max(p.abs().max_element()));
-        let parallel = |a: &Rounded, b: &Rounded| a.is_steep == b.is_steep && b.slope - a.slope <= SLOPE;
+        let parallel = |a: &EdgeLine, b: &EdgeLine| a.is_steep == b.is_steep && b.slope - a.slope <= SLOPE;
         for parallel in all.chunk_by_mut(parallel) {
             let slope = parallel[0].slope;
             parallel.iter_mut().for_each(|edge| edge.distance = edge.distance(slope));
             parallel.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance));
-            let near = |a: &Rounded, b: &Rounded| b.distance - a.distance <= DISTANCE * size;
+            let near = |a: &EdgeLine, b: &EdgeLine| b.distance - a.distance <= DISTANCE * size;
             parallel.chunk_by_mut(near).for_each(|near| self.add_lines(near));
         }
-        self.rounded = all;
+        self.lines = all;
     }
 
     /// The edges of each component.
@@ -87,7 +87,7 @@ impl Lines {
     }
 
     /// Adds the components of edges that are about on one line.
-    fn add_lines(&mut self, mut near: &mut [Rounded]) {
+    fn add_lines(&mut self, mut near: &mut [EdgeLine]) {
         for _ in 0..LINES {
             let [first, _, ..] = near else { return };
             let line = [first.low, first.high];
@@ -101,11 +101,11 @@ impl Lines {
     }
 
     /// Adds the components of edges of one line, in the order of their lower ends.
-    fn add_components(&mut self, on_line: &[Rounded]) {
+    fn add_components(&mut self, on_line: &[EdgeLine]) {
         let mut rest = on_line;
         while let [first, others @ ..] = rest {
             let mut high = first.high;
-            let overlaps = |edge: &&Rounded| {
+            let overlaps = |edge: &&EdgeLine| {
                 let overlaps = lexicographic(edge.low, high) == Ordering::Less;
                 if overlaps && lexicographic(high, edge.high) == Ordering::Less {
                     high = edge.high;

@@ -23,9 +23,9 @@ mod touched;
 use crate::edges::{Change, EdgeRing, Edges};
 use intervals::Intervals;
 use lines::Lines;
-use sample::Sample;
-use table::Table;
+use sample::EdgeSample;
 use std::ops::Range;
+use table::Table;
 use touched::Touched;
 
 /// What becomes of an edge.
@@ -50,7 +50,7 @@ impl Fate {
 /// The buffers of the stage.
 #[derive(Debug, Default)]
 pub(crate) struct CoincidentEdges {
-    sample: Sample,
+    sample: EdgeSample,
     table: Table,
     fates: Vec<Fate>,
     touched: Touched,

@@ -20,13 +20,13 @@ const SHARE: usize = 16;
 
 /// The buffers of the sample.
 #[derive(Debug, Default)]
-pub(super) struct Sample {
+pub(super) struct EdgeSample {
     /// A set of keys by some of their bits.
     seen: Vec<u64>,
     keys: Vec<u64>,
 }
 
-impl Sample {
+impl EdgeSample {
     /// Whether to look for the edges that coincide.
     pub(super) fn pays(&mut self, edges: &Edges) -> bool {
         match edges.len() {

@@ -37,7 +37,9 @@ impl Table {
 
     /// The first edge of a kind, and all others with its ends.
     pub(super) fn alike(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
-        std::iter::successors(Some(first), |&edge| Some(self.next[edge as usize]).filter(|&next| next != NONE))
+        std::iter::successors(Some(first), |&edge| {
+            Some(self.next[edge as usize]).filter(|&next| next != NONE)
+        })
     }
 
     /// Leaves all edges alone.

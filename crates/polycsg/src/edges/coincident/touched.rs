@@ -196,7 +196,10 @@ mod tests {
             add_square(&mut edges, DVec2::new(f64::from(cell % columns), f64::from(cell / columns)));
         }
         table.group(&edges, &mut fates);
-        (0..).zip(&mut fates).filter(|(edge, _)| !table.is_alone(*edge)).for_each(|(_, fate)| *fate = Fate::Gone);
+        (0..)
+            .zip(&mut fates)
+            .filter(|(edge, _)| !table.is_alone(*edge))
+            .for_each(|(_, fate)| *fate = Fate::Gone);
         touched.find(&edges, &fates, table.cells()).then_some(touched.inside)
     }
 

@@ -199,10 +199,7 @@ impl SlabDecomposition {
         let comes_in = |clipped: &ClippedSegment| {
             self.ends[clipped.segment.ranks[0] as usize].x < self.ends[slab[0] as usize].x
         };
-        self.reach > 0.0
-            && (e.heights[0] - f.heights[0]).abs() <= self.slack
-            && comes_in(e)
-            && comes_in(f)
+        self.reach > 0.0 && (e.heights[0] - f.heights[0]).abs() <= self.slack && comes_in(e) && comes_in(f)
     }
 
     /// Of the place where an edge enters or leaves a slab or ends in it, the stairs that may go through it.
@@ -224,7 +221,11 @@ impl SlabDecomposition {
         match self.stairs.get(first) {
             Some(stair) if may_touch(stair) => {
                 let near = first..first + self.stairs[first..].partition_point(may_touch);
-                if near.len() > FEW && self.reach == 0.0 { self.touched(clipped.segment, rank, near) } else { near }
+                if near.len() > FEW && self.reach == 0.0 {
+                    self.touched(clipped.segment, rank, near)
+                } else {
+                    near
+                }
             }
             _ => first..first,
         }
