@@ -95,7 +95,9 @@ pub(crate) fn nest(
     match cycles.about() {
         [] => return Ok(Region::default()),
         // A single ring has nothing around it and nothing in it.
-        [single] => return if single.counter_clockwise { Ok(nest_single(rings, single)) } else { Err(Misnested) },
+        [single] => {
+            return if single.counter_clockwise { Ok(nest_single(rings, single)) } else { Err(Misnested) };
+        }
         _ => {}
     }
     nesting.start(cycles)?;

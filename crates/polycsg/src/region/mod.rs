@@ -97,9 +97,11 @@ impl Region {
     pub fn polygons(&self) -> impl Iterator<Item = Polygon<'_>> {
         let first = (!self.is_empty()).then_some(PolygonSpan { first: 0, depth: 0 });
         let ends = self.later.iter().map(|next| next.first).chain([self.rings.len()]);
-        first.into_iter().chain(self.later.iter().copied()).zip(ends).map(|(PolygonSpan { first, depth }, end)| {
-            Polygon { rings: &self.rings, first, end, depth }
-        })
+        first
+            .into_iter()
+            .chain(self.later.iter().copied())
+            .zip(ends)
+            .map(|(PolygonSpan { first, depth }, end)| Polygon { rings: &self.rings, first, end, depth })
     }
 
     /// All rings, each polygon's outer ring followed by its holes; the interior is on the left of each.
