@@ -7,7 +7,7 @@ use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names,
 use std::{fs, path::Path};
 
 /// The folders and files of `src` from the top down: each imports only from itself and from those below it.
-const ORDER: [&str; 32] = [
+const ORDER: [&str; 33] = [
     "fuzzing",
     "batch",
     "serde",
@@ -32,6 +32,7 @@ const ORDER: [&str; 32] = [
     "edges",
     "expression/bounds",
     "expression/winding",
+    "expression/simple_ring",
     "expression/circuit",
     "expression",
     "spatial/ray_shooting",

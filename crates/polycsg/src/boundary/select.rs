@@ -155,7 +155,7 @@ impl Selection {
         }
         let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));
         Threads::for_edges(edges.len()).for_each(parts, |(points, nodes)| {
-            for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| point.x == WANTED.x) {
+            for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| **point == WANTED) {
                 if let Place::Crossing(e, f) = Place::of(node) {
                     *point = crossing_point(edges.segment(e), edges.segment(f));
                 }

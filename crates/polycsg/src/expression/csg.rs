@@ -178,6 +178,11 @@ impl<'a> Csg<'a> {
         self.before.iter().chain([&self.last])
     }
 
+    /// The number of tokens.
+    pub(crate) fn len(&self) -> usize {
+        self.before.len() + 1
+    }
+
     /// The token at a place of the postfix.
     pub(crate) fn token(&self, place: usize) -> &Token<'a> {
         self.before.get(place).unwrap_or(&self.last)
@@ -215,7 +220,7 @@ impl<'a> Csg<'a> {
         if others.len() < self.before.len() {
             others.into_iter().rev().for_each(|token| self.before.push_front(token));
             others = self.before;
-        } else {
+        } else if !self.before.is_empty() {
             others.append(&mut self.before);
         }
         others.push_back(self.last);

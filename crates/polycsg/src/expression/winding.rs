@@ -1,13 +1,14 @@
 //! The state of a walk over the arrangement: the winding number of each operand at the walk's place, and whether the whole
 //! expression holds there.
 //!
-//! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions) and stand
-//! under one union, intersection or symmetric difference share one counter: the number of operands that contain the
-//! place decides.
+//! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions and, among many
+//! operands, simple rings) and stand under one union, intersection or symmetric difference share one counter: the number of
+//! operands that contain the place decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
 
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
-use crate::base::id::index;
+use super::simple_ring;
+use crate::{base::id::index, region::rings::Rings};
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
 /// ask it at each crossing.
@@ -20,9 +21,10 @@ struct Rule {
 
 impl Rule {
     const NON_ZERO: Rule = Rule { mask: !0, low: 1, width: u32::MAX };
+    const NEGATIVE: Rule = Rule { mask: !0, low: i32::MIN, width: 1 << 31 };
     const POSITIVE: Rule = Rule { mask: !0, low: 1, width: i32::MAX.unsigned_abs() };
     const ODD: Rule = Rule { mask: 1, low: 1, width: 1 };
-    /// So many: none yet of so many regions.
+    /// So many: `low` of so many operands.
     const EQUAL: Rule = Rule { mask: !0, low: 0, width: 1 };
 
     #[inline]
@@ -60,8 +62,8 @@ pub(crate) struct WindingNumbers {
     holding: u32,
     table: Option<u64>,
     gates: Circuit,
-    /// Per gate the counter that its regions share.
-    shared: Vec<Option<u32>>,
+    /// Per gate the counters that its members share that wind once, clockwise and counter-clockwise.
+    shared: Vec<[Option<u32>; 2]>,
     /// The counter of each operand; an open edge has none.
     operands: Vec<Option<u32>>,
     open: Vec<Open>,
@@ -87,6 +89,7 @@ impl WindingNumbers {
             _ => Kind::Any,
         };
         self.add_gate(root, None);
+        let is_among_many = csg.len() > 2 * FEW;
         self.open.clear();
         self.open.push(Open { remaining: 1, first: 0, rest: 0 });
         for token in csg.postfix().rev() {
@@ -101,8 +104,13 @@ impl WindingNumbers {
                     let gate = self.gate_for(*operator, *count, gate);
                     self.open.push(gate);
                 }
-                Token::Region(_) => self.add_region(gate),
-                Token::Rings(_, rule) => self.add_rings(*rule, gate),
+                Token::Region(_) => self.add_once(1, gate),
+                Token::Rings(rings, rule) => {
+                    match is_among_many.then(|| winds_once(rings, *rule)).flatten() {
+                        Some(winds) => self.add_once(winds, gate),
+                        None => self.add_rings(*rule, gate),
+                    }
+                }
                 Token::Edge(_) => self.operands.push(None),
             }
         }
@@ -128,7 +136,7 @@ impl WindingNumbers {
     }
 
     fn add_gate(&mut self, kind: Kind, above: Option<(u32, bool)>) -> u32 {
-        self.shared.push(None);
+        self.shared.push([None; 2]);
         self.gates.add(kind, above)
     }
 
@@ -138,19 +146,23 @@ impl WindingNumbers {
         index(self.counters.len() - 1)
     }
 
-    fn add_region(&mut self, gate: u32) {
-        let rule = match self.gates.kind(gate) {
+    /// Adds an operand whose winding number is 0 or `winds`, 1 or -1.
+    fn add_once(&mut self, winds: i32, gate: u32) {
+        let kind = self.gates.kind(gate);
+        let rule = match kind {
+            Kind::Any if winds < 0 => Rule::NEGATIVE,
             Kind::Any => Rule::POSITIVE,
             Kind::All => Rule::EQUAL,
             Kind::Odd => Rule::ODD,
         };
-        let counter = match self.shared[gate as usize] {
+        let direction = usize::from(winds > 0);
+        let counter = match self.shared[gate as usize][direction] {
             Some(counter) => counter,
             None => self.add_counter(rule, gate),
         };
-        self.shared[gate as usize] = Some(counter);
-        if self.gates.kind(gate) == Kind::All {
-            self.counters[counter as usize].rule.low += 1;
+        self.shared[gate as usize][direction] = Some(counter);
+        if kind == Kind::All {
+            self.counters[counter as usize].rule.low += winds;
         }
         self.operands.push(Some(counter));
     }
@@ -217,4 +229,10 @@ fn kind_of(operator: Operator) -> Kind {
         Operator::Intersection | Operator::Difference => Kind::All,
         Operator::SymmetricDifference => Kind::Odd,
     }
+}
+
+/// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold.
+fn winds_once(rings: &Rings, rule: FillRule) -> Option<i32> {
+    let winds = if rings.len() == 1 { simple_ring::winds_once(rings.closed(0)) } else { None };
+    winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)
 }

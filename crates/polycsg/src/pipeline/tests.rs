@@ -71,8 +71,39 @@ proptest! {
     }
 }
 
+/// Of many operands, those that are simple rings share counters; with a point as a second ring they do not.
+fn check_sharing(rings: &[Vec<DVec2>], rule: FillRule) {
+    let alone = |ring: &Vec<DVec2>| Csg::from_rings([ring], rule).expect("finite");
+    let accompanied = |ring: &Vec<DVec2>| Csg::from_rings([&ring[..], &ring[..1]], rule).expect("finite");
+    let (a, b) = rings.split_at(rings.len() / 2);
+    let shared = |rings: &[Vec<DVec2>]| rings.iter().map(alone).collect::<Vec<_>>();
+    let apart = |rings: &[Vec<DVec2>]| rings.iter().map(accompanied).collect::<Vec<_>>();
+    for [shared, apart] in [
+        [Csg::union(shared(rings)), Csg::union(apart(rings))],
+        [Csg::union(shared(a)) - Csg::union(shared(b)), Csg::union(apart(a)) - Csg::union(apart(b))],
+        [Csg::symmetric_difference(shared(rings)), Csg::symmetric_difference(apart(rings))],
+        [
+            Csg::union(shared(a)) & Csg::intersection(shared(&b[..2])),
+            Csg::union(apart(a)) & Csg::intersection(apart(&b[..2])),
+        ],
+    ] {
+        assert_eq!(shared.evaluate(), apart.evaluate());
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn simple_rings_agree_with_others(
+        lattice in prop::collection::vec(prop::collection::vec(whole(), 3..6), 13..24),
+        square in prop::collection::vec(prop::collection::vec((0.0..1.0, 0.0..1.0).prop_map(DVec2::from), 3..6), 13..18),
+    ) {
+        for rule in [FillRule::EvenOdd, FillRule::NonZero, FillRule::Positive] {
+            check_sharing(&lattice, rule);
+        }
+        check_sharing(&square, FillRule::NonZero);
+    }
 
     /// Corners of several rings in one point, a rounding away from an edge that cuts them off, and an edge through it.
     #[test]
