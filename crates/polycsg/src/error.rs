@@ -18,6 +18,13 @@ pub enum Error {
         /// The limit of that call.
         limit: usize,
     },
+    /// An evaluation takes more work than its [`Limits`](crate::Limits) allow.
+    TooMuchWork {
+        /// The limit of that call.
+        limit: u64,
+    },
+    /// The caller's function said so.
+    Stopped,
 }
 
 impl fmt::Display for Error {
@@ -30,6 +37,13 @@ impl fmt::Display for Error {
             Error::TooManyContacts { limit } => {
                 write!(f, "edges meet more than {limit} times; raise the limit or split the operands")
             }
+            Error::TooMuchWork { limit } => {
+                write!(
+                    f,
+                    "the evaluation takes more than {limit} units of work; raise the limit or split the operands"
+                )
+            }
+            Error::Stopped => write!(f, "the caller stopped the evaluation"),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! The operations that run the pipeline, on expressions and on regions.
 
+use crate::base::meter::Meter;
 use crate::boundary::Boundary;
 use crate::error::Error;
 use crate::expression::csg::{Csg, FillRule};
+use crate::limits::Limits;
 use crate::pipeline::{self, scratch::Scratch};
 use crate::region::Region;
 use glam::DVec2;
@@ -19,17 +21,14 @@ impl Csg<'_> {
 
     /// Like [`evaluate`](Csg::evaluate), with buffers that the caller keeps from call to call: faster for many small jobs.
     pub fn evaluate_with(&self, scratch: &mut Scratch) -> Region {
-        pipeline::region(self, scratch, usize::MAX).expect("no limit was given")
+        pipeline::region(self, scratch, &Meter::default()).expect("no limit was given")
     }
 
-    /// Like [`evaluate_with`](Csg::evaluate_with), but fails when edges meet more than `contacts` times: for untrusted input.
-    ///
-    /// n edges can have n² crossings, and each takes about 600 bytes. A crossing counts as two contacts, one on each of its
-    /// edges; a vertex that touches an edge counts as one. Where many edges lie closer to one another than floats can tell,
-    /// pairs that nearly meet may count as well. No more than the limit is ever stored.
+    /// Like [`evaluate_with`](Csg::evaluate_with), within limits: for untrusted input, and to be stopped. A number limits how often
+    /// edges meet.
     ///
     /// # Errors
-    /// [`Error::TooManyContacts`]. The scratch can be used again.
+    /// [`Error::TooManyContacts`], [`Error::TooMuchWork`] and [`Error::Stopped`]. The scratch can be used again.
     ///
     /// ```
     /// use polycsg::{Csg, Error, FillRule, Scratch};
@@ -43,8 +42,12 @@ impl Csg<'_> {
     /// assert_eq!(both.try_evaluate_with(&mut scratch, 2 * limit)?.area(), 2500.0);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn try_evaluate_with(&self, scratch: &mut Scratch, contacts: usize) -> Result<Region, Error> {
-        pipeline::region(self, scratch, contacts)
+    pub fn try_evaluate_with<'l>(
+        &self,
+        scratch: &mut Scratch,
+        limits: impl Into<Limits<'l>>,
+    ) -> Result<Region, Error> {
+        pipeline::region(self, scratch, &Meter::new(limits.into()))
     }
 
     /// The directed edges that bound the set, interior to the left, each vertex rounded once.

@@ -100,6 +100,7 @@ mod expression;
 pub mod fuzzing;
 #[cfg(feature = "geo-types")]
 mod geo;
+mod limits;
 mod pipeline;
 mod predicates;
 mod region;
@@ -114,6 +115,7 @@ pub use boundary::{Boundary, BoundaryEdge};
 pub use classify::{Interval, classify};
 pub use error::Error;
 pub use expression::csg::{Csg, FillRule};
+pub use limits::Limits;
 pub use pipeline::scratch::Scratch;
 pub use region::membership::Membership;
 pub use region::{Invalid, Location, Polygon, Region};

@@ -7,7 +7,7 @@ use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names,
 use std::{fs, path::Path};
 
 /// The folders and files of `src` from the top down: each imports only from itself and from those below it.
-const ORDER: [&str; 33] = [
+const ORDER: [&str; 34] = [
     "fuzzing",
     "batch",
     "serde",
@@ -40,6 +40,7 @@ const ORDER: [&str; 33] = [
     "region",
     "predicates",
     "base",
+    "limits",
     "error",
 ];
 

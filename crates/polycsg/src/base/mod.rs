@@ -2,5 +2,6 @@
 
 pub(crate) mod hash;
 pub(crate) mod id;
+pub(crate) mod meter;
 pub(crate) mod threads;
 pub(crate) mod union_find;

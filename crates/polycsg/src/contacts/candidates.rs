@@ -9,9 +9,10 @@
 //! A sample of the pairs of boxes decides. All three lead to one result. A sample may mislead, so boxes are given up later
 //! where they exceed their budget even so.
 
-use super::budget::WorkBudget;
 use super::pair::{Meeting, meeting, overlap};
+use super::{Request, budget::WorkBudget};
 use crate::edges::{Edges, coincident::CoincidentEdges};
+use crate::error::Error;
 use crate::predicates::Margins;
 use crate::spatial::{chains::MonotoneChains, strips::Strips};
 
@@ -52,16 +53,20 @@ pub(crate) struct Candidates<'a> {
 impl<'a> Candidates<'a> {
     /// Indexes the edges by their chains, and decides by a sample how their pairs are found. Where the sample has more pairs
     /// that overlap than there are edges, these are cut first. Expected O(n log n).
+    ///
+    /// # Errors
+    /// Those of the limits of the request.
     pub(crate) fn index(
         edges: &'a mut Edges,
         coincident: &mut CoincidentEdges,
         chains: &'a mut MonotoneChains,
         strips: &'a mut Strips,
-        budget: WorkBudget,
-    ) -> Candidates<'a> {
+        request: Request<'_>,
+    ) -> Result<Candidates<'a>, Error> {
+        let budget = request.budget;
         let mut sample = Sample::of(edges, chains, strips);
         if sample.overlaps > edges.len() {
-            coincident.cut(edges);
+            coincident.cut(edges, request.meter)?;
             sample = Sample::of(edges, chains, strips);
         }
         let phase = sample.choice(budget);
@@ -69,7 +74,7 @@ impl<'a> Candidates<'a> {
             chains.cut_to_edges(edges.points(), edges.spans());
             strips.build(chains.boxes());
         }
-        Candidates { edges, chains, strips, phase, budget: budget.doubled() }
+        Ok(Candidates { edges, chains, strips, phase, budget: budget.doubled() })
     }
 }
 

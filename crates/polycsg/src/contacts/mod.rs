@@ -15,7 +15,7 @@ mod find;
 mod meeting;
 mod pair;
 
-use crate::base::{id::index, threads::Threads, union_find::UnionFind};
+use crate::base::{id::index, meter::Meter, threads::Threads, union_find::UnionFind};
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::spatial::slabs::SlabDecomposition;
@@ -37,9 +37,9 @@ const PART: u32 = 8;
 
 /// What a caller asks for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Request {
-    /// The most contacts that there may be.
-    pub(crate) limit: usize,
+pub(crate) struct Request<'a> {
+    /// The limits of the call.
+    pub(crate) meter: &'a Meter<'a>,
     /// Whether close pairs of edges are noted.
     pub(crate) close_pairs: bool,
     /// What comparing boxes may cost.
@@ -70,28 +70,30 @@ impl Contacts {
     /// what meets, of those that [`SlabDecomposition`] finds.
     ///
     /// # Errors
-    /// [`Error::TooManyContacts`], by the limit of the request.
+    /// Those of the limits of the request.
     pub(crate) fn find(
         &mut self,
         candidates: Candidates<'_>,
         slabs: &mut SlabDecomposition,
         close_pairs: &mut ClosePairs,
-        request: Request,
+        request: Request<'_>,
     ) -> Result<(), Error> {
         let Candidates { edges, chains, phase, .. } = candidates;
-        let Request { limit: most, close_pairs: wanted, .. } = request;
+        let Request { meter, close_pairs: wanted, .. } = request;
+        let most = meter.contacts();
         let size = chains.size();
         self.start(edges);
         close_pairs.start(size, wanted);
-        let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, most);
+        let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, meter)?;
         if !is_done && self.found.len() <= most {
             self.start(edges);
             close_pairs.start(size, wanted);
-            self.find_by_slabs(edges, chains, slabs, close_pairs, most)?;
+            self.find_by_slabs(edges, chains, slabs, close_pairs, meter)?;
         }
         if self.found.len() > most {
             return Err(Error::TooManyContacts { limit: most });
         }
+        meter.spend(self.found.len())?;
         self.bucket(edges.len());
         self.sort(edges);
         self.unify(edges, close_pairs);

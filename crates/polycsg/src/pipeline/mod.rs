@@ -8,6 +8,7 @@ mod tests;
 
 use crate::arrangement::{labels::LabelledArrangement, labels::map::Map};
 use crate::assemble::nest::{Misnested, nest};
+use crate::base::meter::Meter;
 use crate::boundary::{Boundary, repair::fragments::Rounded};
 use crate::contacts::{Request, candidates::Candidates};
 use crate::edges::Edges;
@@ -23,15 +24,16 @@ use scratch::{ArrangementBuffers, ContactBuffers, EdgeBuffers, ExpressionBuffers
 /// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
 ///
 /// # Errors
-/// [`Error::TooManyContacts`] when edges meet more than `limit` times.
-pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Result<Region, Error> {
+/// Those of the limits that the meter has.
+pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) -> Result<Region, Error> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, assembly, budget } = scratch;
     boundary.repair.start();
     let winding = collect(csg, expression, edges);
+    meter.spend(edges.edges.len())?;
     if let Some(region) = untouched(csg, winding, &edges.edges) {
         return Ok(region);
     }
-    let request = Request { limit, close_pairs: true, budget: *budget };
+    let request = Request { meter, close_pairs: true, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
@@ -42,7 +44,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Resu
         Ok(region) => Ok(region),
         Err(Misnested) => {
             let (rings, repaired) = (cycles.rings().clone(), boundary.repair.vertices);
-            let region = region(&Csg::positive(rings), scratch, limit);
+            let region = region(&Csg::positive(rings), scratch, meter);
             scratch.boundary.repair.vertices += repaired;
             region
         }
@@ -53,7 +55,8 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Resu
 pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
-    let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
+    let meter = Meter::default();
+    let request = Request { meter: &meter, close_pairs: false, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     Ok(Boundary::new(selection, arranged.edges, arranged.contacts))
@@ -66,7 +69,8 @@ pub(crate) fn memberships<'s>(
 ) -> Result<LabelledArrangement<'s>, Error> {
     let Scratch { expression, edges, spatial, contacts, arrangement, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
-    let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
+    let meter = Meter::default();
+    let request = Request { meter: &meter, close_pairs: false, budget: *budget };
     arrange(edges, winding, spatial, contacts, arrangement, request)
 }
 
@@ -82,7 +86,7 @@ fn collect<'s>(
     winding
 }
 
-/// Stages 2 to 6: which edges stand for all, where they meet, how this cuts them into sub-edges, and the membership of each.
+/// The end of stage 1, which edges stand for all, and stages 2 to 5: where edges meet, how this cuts them into sub-edges, and the membership of each.
 ///
 /// All stages behind the contacts take memory in proportion to these.
 fn arrange<'s>(
@@ -91,14 +95,14 @@ fn arrange<'s>(
     SpatialBuffers { chains, strips, slabs }: &mut SpatialBuffers,
     ContactBuffers { contacts, close_pairs }: &'s mut ContactBuffers,
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
-    request: Request,
+    request: Request<'_>,
 ) -> Result<LabelledArrangement<'s>, Error> {
     coincident.unite(edges);
-    let candidates = Candidates::index(edges, coincident, chains, strips, request.budget);
+    let candidates = Candidates::index(edges, coincident, chains, strips, request)?;
     contacts.find(candidates, slabs, close_pairs, request)?;
     let (edges, chains, strips) = (&*edges, &*chains, &*strips);
     arrangement.split(edges, contacts);
-    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, winding);
+    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, winding, request.meter)?;
     Ok(LabelledArrangement { edges, contacts, close_pairs, arrangement, labels })
 }
 

@@ -21,9 +21,10 @@ mod step;
 mod walk;
 
 use crate::arrangement::{Arrangement, Node};
-use crate::base::id::index;
+use crate::base::{id::index, meter::Meter};
 use crate::contacts::{Contacts, close_pairs::ClosePairs};
 use crate::edges::Edges;
+use crate::error::Error;
 use crate::expression::winding::WindingNumbers;
 use crate::predicates::lexicographic;
 use crate::region::membership::Membership;
@@ -66,12 +67,18 @@ pub(crate) struct LabelledArrangement<'a> {
 
 impl Labels {
     /// Labels every sub-edge with the sides of it on which the expression holds.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
     pub(crate) fn classify(
         &mut self,
         map: Map<'_>,
         slabs: &mut SlabDecomposition,
         winding: &mut WindingNumbers,
-    ) {
+        meter: &Meter<'_>,
+    ) -> Result<(), Error> {
+        meter.spend(map.arrangement.len() + map.edges.rings().len())?;
+        self.steps.clear();
         self.labels.clear();
         self.labels.resize(map.arrangement.len() + map.edges.rings().len(), Label::default());
         self.seen.clear();
@@ -82,10 +89,12 @@ impl Labels {
         while let Some(vertex) = self.outermost.pop() {
             self.steps.push(Step::Component { vertex });
             while let Some(step) = self.steps.pop() {
+                meter.spend(1)?;
                 self.take(step, map, winding);
             }
             debug_assert!(winding.is_outside());
         }
+        Ok(())
     }
 
     /// The membership of a sub-edge that represents itself, in that sub-edge's direction.

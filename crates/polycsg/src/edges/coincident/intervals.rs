@@ -1,6 +1,8 @@
 //! Edges that overlap on one line, cut at all their ends: one edge for each interval, with the sum of all changes there.
 
+use crate::base::meter::Meter;
 use crate::edges::{Change, Edges};
+use crate::error::Error;
 use crate::predicates::lexicographic;
 use glam::DVec2;
 use std::cmp::{Ordering, Reverse};
@@ -27,7 +29,13 @@ pub(super) struct Intervals {
 
 impl Intervals {
     /// Adds an open ring for each interval between neighbouring ends. O(k log k) for k edges, and what the sums take.
-    pub(super) fn add(&mut self, edges: &Edges, overlapping: &[u32], united: &mut Edges) {
+    pub(super) fn add(
+        &mut self,
+        edges: &Edges,
+        overlapping: &[u32],
+        united: &mut Edges,
+        meter: &Meter<'_>,
+    ) -> Result<(), Error> {
         self.list_ends(edges, overlapping);
         self.sums.clear();
         self.over.clear();
@@ -40,11 +48,13 @@ impl Intervals {
                 self.changes.clear();
                 let changes = self.sums.iter().map(|(&counter, &winds)| Change { counter, winds });
                 self.changes.extend(changes);
+                meter.spend(self.changes.len())?;
                 united.add_edge(start, edges.origin(first));
                 united.end_ring(Some(next[0].point), &self.changes);
             }
         }
         self.ends = ends;
+        Ok(())
     }
 
     fn list_ends(&mut self, edges: &Edges, overlapping: &[u32]) {

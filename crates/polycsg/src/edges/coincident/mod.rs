@@ -20,7 +20,9 @@ mod sample;
 mod table;
 mod touched;
 
+use crate::base::meter::Meter;
 use crate::edges::{Change, EdgeRing, Edges};
+use crate::error::Error;
 use intervals::Intervals;
 use lines::Lines;
 use sample::EdgeSample;
@@ -75,7 +77,10 @@ impl CoincidentEdges {
     }
 
     /// Cuts the edges that overlap in part, and lets one edge stand for all in each interval.
-    pub(crate) fn cut(&mut self, edges: &mut Edges) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits, by the sums of all intervals.
+    pub(crate) fn cut(&mut self, edges: &mut Edges, meter: &Meter<'_>) -> Result<(), Error> {
         self.lines.find(edges);
         self.table.clear(edges, &mut self.fates);
         self.touched.clear();
@@ -85,9 +90,10 @@ impl CoincidentEdges {
         self.decide(edges);
         self.link(edges);
         for overlapping in self.lines.components() {
-            self.intervals.add(edges, overlapping, &mut self.united);
+            self.intervals.add(edges, overlapping, &mut self.united, meter)?;
         }
         std::mem::swap(edges, &mut self.united);
+        Ok(())
     }
 
     /// Finds the edges whose changes add up to nothing, and those where they are not those of the edge before.
