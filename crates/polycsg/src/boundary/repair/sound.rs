@@ -6,7 +6,7 @@ use crate::contacts::close_pairs::ClosePairs;
 use crate::predicates::lexicographic;
 use glam::DVec2;
 
-/// So many pairs of fragments for each close pair of edges are quickly compared.
+/// So many pairs for each of the fragments on edges of close pairs are quickly compared.
 const PAIRS: usize = 64;
 
 /// No class.
@@ -49,7 +49,7 @@ impl Repair {
         self.sort_by_edge();
         let Repair { fragments, .. } = &*self;
         let count = |&[e, f]: &[u32; 2]| self.on(e).len() * self.on(f).len();
-        if close_pairs.pairs().iter().map(count).sum::<usize>() > PAIRS * close_pairs.pairs().len() {
+        if close_pairs.pairs().iter().map(count).sum::<usize>() > PAIRS * fragments.len() {
             return None;
         }
         let collapsed = fragments.iter().any(|f| f.segment[0] == f.segment[1]);
