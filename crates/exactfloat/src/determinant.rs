@@ -1,8 +1,10 @@
-//! Orientation determinants: expansions (Shewchuk's adaptive predicates) where no bit of theirs is lost, else integers.
+//! Orientation determinants: expansions (Shewchuk's adaptive predicates) where no bit of theirs is lost, else
+//! numbers of 125 bits with bounds on their errors, else integers.
 
 use crate::integers::{integers, sign};
+use crate::wide::Wide;
 use dashu_int::IBig;
-use std::ops::RangeInclusive;
+use std::{cmp::Ordering, ops::RangeInclusive};
 
 /// 2 to a power of -1022 … 1023.
 const fn power(exponent: i64) -> f64 {
@@ -29,8 +31,19 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
         let [a, b, c] = [a, b, c].map(|[x, y]| robust::Coord { x, y });
         return robust::orient2d(a, b, c);
     }
-    let [[ax, ay], [bx, by], [cx, cy]] = integers([a, b, c]);
-    number((ax - &cx) * (by - &cy) - (ay - cy) * (bx - cx))
+    let by_bounds = orient2d_by_bounds([a, b, c]).map(|order| f64::from(order as i8));
+    by_bounds.unwrap_or_else(|| {
+        let [[ax, ay], [bx, by], [cx, cy]] = integers([a, b, c]);
+        number((ax - &cx) * (by - &cy) - (ay - cy) * (bx - cx))
+    })
+}
+
+/// The sign, seen from the point with the smallest abscissa: no other abscissa loses bits.
+fn orient2d_by_bounds(points: [[f64; 2]; 3]) -> Option<Ordering> {
+    let size = |i: usize| points[i][0].abs();
+    let least = if size(0) < size(1) && size(0) < size(2) { 0 } else { 2 - usize::from(size(1) < size(2)) };
+    let [p, q, o] = [1, 2, 0].map(|i| points[(least + i) % 3].map(Wide::from));
+    ((p[0] - o[0]) * (q[1] - o[1])).compare((p[1] - o[1]) * (q[0] - o[0]))
 }
 
 /// A number with the sign of `(a - d) × (b - d) · (c - d)`: negative where `a b c` run counter-clockwise seen from `d`, 0 where
@@ -66,7 +79,6 @@ mod tests {
     use num_rational::BigRational;
     use num_traits::Zero;
     use proptest::prelude::*;
-    use std::cmp::Ordering;
 
     /// Small integers, ordinary numbers, and numbers of any exponent.
     fn coordinate() -> impl Strategy<Value = f64> {

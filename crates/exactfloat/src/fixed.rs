@@ -45,7 +45,7 @@ pub fn scaled<const D: usize, const N: usize>(points: [[f64; D]; N]) -> Option<[
 
 /// The product of two numbers below 2^127 in full: its high and its low half.
 #[inline]
-fn full_product(a: u128, b: u128) -> [u128; 2] {
+pub(crate) fn full_product(a: u128, b: u128) -> [u128; 2] {
     let halves = |x: u128| [x >> 64, x & u128::from(u64::MAX)];
     let ([a1, a0], [b1, b0]) = (halves(a), halves(b));
     let middle = a1 * b0 + a0 * b1;

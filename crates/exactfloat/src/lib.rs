@@ -8,6 +8,7 @@
 //! | sums and products with 106 bits | [`DoubleDouble`] | within 2^-100 of itself, barring over- and underflow | some 10 to 30 operations |
 //! | the determinants of three points in the plane, or four in space | [`orient2d`], [`orient3d`] | always | expansions, else integers |
 //! | any polynomial of coordinates that share a scale | [`fixed`] | always, or it says that they do not | no allocation |
+//! | a polynomial of coordinates of any exponents | [`Wide`] | within its bound, 125 bits | no allocation |
 //! | any polynomial of coordinates | [`integers`], [`scaled_integers`] | always | allocates |
 //! | a quotient of polynomials | [`Ratio`] | always; rounds to the nearest `f64` | allocates |
 //!
@@ -31,9 +32,11 @@ mod double_double;
 pub mod fixed;
 mod integers;
 mod ratio;
+mod wide;
 
 pub use dashu_int::IBig as Integer;
 pub use determinant::{orient2d, orient3d};
 pub use double_double::DoubleDouble;
 pub use integers::{integers, lowest_exponent, multiple, scaled_integers, sign};
 pub use ratio::{Ratio, nearest};
+pub use wide::Wide;

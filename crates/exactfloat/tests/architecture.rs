@@ -7,7 +7,7 @@ use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names}
 use std::path::Path;
 
 /// Every file of `src` from the top down.
-const ORDER: [&str; 5] = ["determinant", "fixed", "ratio", "integers", "double_double"];
+const ORDER: [&str; 6] = ["determinant", "wide", "fixed", "ratio", "integers", "double_double"];
 
 fn package() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -9,7 +9,7 @@ mod tests;
 use crate::arrangement::{labels::LabelledArrangement, labels::map::Map};
 use crate::assemble::nest::{Misnested, nest};
 use crate::base::meter::Meter;
-use crate::boundary::{Boundary, repair::fragments::Rounded};
+use crate::boundary::{Boundary, repair::Index, repair::fragments::Rounded};
 use crate::contacts::{Request, candidates::Candidates};
 use crate::edges::Edges;
 use crate::error::Error;
@@ -38,7 +38,8 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) ->
     let selection = boundary.selection.select(arranged);
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
     let SpatialBuffers { chains, strips, slabs } = spatial;
-    let outline = boundary.repair.outline(rounded, arranged.close_pairs, slabs, &mut boundary.outline);
+    let index = Index { strips, slabs, budget: *budget };
+    let outline = boundary.repair.outline(rounded, arranged.close_pairs, index, &mut boundary.outline);
     let cycles = assembly.cycles.link(outline);
     match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting) {
         Ok(region) => Ok(region),

@@ -4,7 +4,7 @@ use super::fixed;
 use super::orient::{UNIT, side, turn};
 use super::round::{crossing_point, crossing_ratio};
 use super::segment::{Segment, Side};
-use exactfloat::{Integer, Ratio, integers};
+use exactfloat::{DoubleDouble, Integer, Ratio, Wide, integers};
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -21,11 +21,60 @@ pub(crate) fn lexicographic(a: DVec2, b: DVec2) -> Ordering {
 ///
 /// With n, m the doubled areas of (f, start of e) and (f, end of e), which have opposite signs, the crossing lies at
 /// the parameter |n| / (|n| + |m|), so that the order is the sign of |n_f| |m_g| - |n_g| |m_f|.
+///
+/// Doubles of 106 bits tell where no exponent is extreme; then integers of fixed size, numbers of 125 bits with any exponent, and
+/// integers of any size.
 #[cold]
 pub(crate) fn crossing_order(e: Segment, f: Segment, g: Segment) -> Ordering {
-    if let Some(order) = fixed::crossing_order(e, f, g) {
-        return order;
-    }
+    let is_moderate = [e, f, g].iter().flatten().all(|&p| is_moderate(p));
+    let by_double_doubles = if is_moderate { crossing_order_by_double_doubles(e, f, g) } else { None };
+    by_double_doubles
+        .or_else(|| fixed::crossing_order(e, f, g))
+        .or_else(|| {
+            let [[nf, mf], [ng, mg]] = [f, g].map(|line| e.map(|end| distance(line, end)));
+            (nf * mg).compare(ng * mf)
+        })
+        .unwrap_or_else(|| crossing_order_by_integers(e, f, g))
+}
+
+/// Where no product of four differences under- or overflows, nor a low part of one: coordinates are 0 or in 2^-100 … 2^100.
+fn is_moderate(p: DVec2) -> bool {
+    const LOW: f64 = f64::from_bits((1023 - 100) << 52);
+    const HIGH: f64 = f64::from_bits((1023 + 100) << 52);
+    p.to_array().iter().all(|&x| x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
+}
+
+/// Differences are exact, and each further operation is right to 2^-100 of itself; the bounds add these up with room to spare.
+fn crossing_order_by_double_doubles(e: Segment, f: Segment, g: Segment) -> Option<Ordering> {
+    const RELATIVE: f64 = f64::from_bits((1023 - 97) << 52);
+    let difference =
+        |a: DVec2, b: DVec2| (DoubleDouble::difference(a.x, b.x), DoubleDouble::difference(a.y, b.y));
+    let distance = |[p, q]: Segment, point: DVec2| {
+        let ((ux, uy), (vx, vy)) = (difference(p, point), difference(q, point));
+        let (l, r) = (ux * vy, uy * vx);
+        let area = l - r;
+        (if area.hi < 0.0 { -area } else { area }, RELATIVE * (l.hi.abs() + r.hi.abs()))
+    };
+    let [[nf, mf], [ng, mg]] = [f, g].map(|line| e.map(|end| distance(line, end)));
+    let product = |(a, da): (DoubleDouble, f64), (b, db): (DoubleDouble, f64)| {
+        (a * b, 2.0 * (a.hi * db + b.hi * da + da * db + RELATIVE * a.hi * b.hi))
+    };
+    let ((l, dl), (r, dr)) = (product(nf, mg), product(ng, mf));
+    let order = (l - r).hi;
+    (order.abs() > dl + dr).then(|| order.total_cmp(&0.0))
+}
+
+/// The size of the doubled area of a line and a point. Seen from the point with the smallest abscissa, no other abscissa loses bits.
+fn distance([p, q]: Segment, point: DVec2) -> Wide {
+    let smaller = |a: DVec2, b: DVec2| a.x.abs() < b.x.abs();
+    let [p, q] = if smaller(q, p) { [q, p] } else { [p, q] };
+    let [o, p] = if smaller(point, p) { [point, p] } else { [p, point] };
+    let [o, p, q] = [o, p, q].map(|p| p.to_array().map(Wide::from));
+    ((p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0])).abs()
+}
+
+#[cold]
+fn crossing_order_by_integers(e: Segment, f: Segment, g: Segment) -> Ordering {
     let [[ax, ay], [bx, by], [fax, fay], [fbx, fby], [gax, gay], [gbx, gby]] =
         integers([e[0], e[1], f[0], f[1], g[0], g[1]].map(|p| p.to_array()));
     let distance = |x: &Integer, y: &Integer, p: [&Integer; 4]| {

@@ -1,44 +1,32 @@
 //! Cuts fragments that are in conflict until none is.
 
 use super::fragment::{Class, CutAt, Fragment, in_conflict};
-use super::{Repair, fragments::Rounded, near::Near};
-use crate::base::id::index;
+use super::{Repair, fragments::Rounded, index::Index, near::Near};
+use crate::base::id;
 use crate::boundary::outline::Outline;
-use crate::contacts::close_pairs::ClosePairs;
 use crate::predicates::{Segment, lexicographic, rightward};
-use crate::spatial::slabs::SlabDecomposition;
 use glam::DVec2;
 use std::cmp::Ordering;
 
 impl Repair {
     /// Puts the pieces into an outline: no two of its edges meet but in their ends.
     ///
-    /// At first only what is near the edges of close pairs is looked at, as nothing else can be in a conflict; then only what is
-    /// near the last cuts. Fragments that rounding made vertical and that overlap are not cut at abscissae; they are cut in
-    /// the end.
-    pub(super) fn cut(
-        &mut self,
-        rounded: Rounded<'_>,
-        close_pairs: &ClosePairs,
-        slabs: &mut SlabDecomposition,
-        outline: &mut Outline,
-    ) {
-        rounded.list_parts(None, &mut self.parts);
-        rounded.round(&self.parts, &mut self.fragments);
+    /// The first conflicts are known. Then only what is near the last cuts is looked at, as nothing else can be in a new one.
+    /// Fragments that rounding made vertical and that overlap are not cut at abscissae; they are cut in the end.
+    pub(super) fn cut(&mut self, rounded: Rounded<'_>, index: &mut Index<'_>, outline: &mut Outline) {
         let (mut may_coincide, mut overlap) = (false, false);
-        let mut near = self.near_close_pairs(close_pairs);
         loop {
-            self.find_alike(&mut near);
-            self.find_conflicts(slabs);
             may_coincide |= self.classes.len() < self.alike.len();
             let affected = self.list_cuts(rounded, &mut overlap);
             if self.cuts.is_empty() {
                 break;
             }
             rounded.cut_up(&self.cuts, &mut self.fragments);
-            near = Near::to(affected.into_iter());
+            let mut near = Near::to(affected.into_iter());
+            self.find_alike(|fragment| near.meets(fragment.segment));
+            self.find_conflicts(index);
         }
-        debug_assert!(overlap || self.is_repaired(slabs));
+        debug_assert!(overlap || self.is_repaired(index));
         self.vertices = self.fragments.len() - self.parts.len();
         if overlap {
             let segments = cut_verticals(&self.fragments);
@@ -50,25 +38,15 @@ impl Repair {
         }
     }
 
-    /// What is near the fragments of the edges of close pairs.
-    fn near_close_pairs(&self, close_pairs: &ClosePairs) -> Near {
-        if close_pairs.all() {
-            return Near::everything();
-        }
-        let Repair { edges, fragments, .. } = self;
-        let is_close = |fragment: &&Fragment| edges.binary_search(&fragment.edge).is_ok();
-        Near::to(fragments.iter().filter(is_close).map(|fragment| fragment.segment))
-    }
-
-    /// Groups the fragments with the same ends, of those near some place; any that rounding shrank to a point are left out.
+    /// Groups the fragments with the same ends, of those that are wanted; any that rounding shrank to a point are left out.
     ///
     /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
-    fn find_alike(&mut self, near: &mut Near) {
+    pub(super) fn find_alike(&mut self, mut wanted: impl FnMut(&Fragment) -> bool) {
         let Repair { fragments, alike, classes, .. } = self;
         alike.clear();
-        alike.extend((0..index(fragments.len())).filter(|&i| {
-            let segment = fragments[i as usize].segment;
-            segment[0] != segment[1] && near.meets(segment)
+        alike.extend((0..id::index(fragments.len())).filter(|&i| {
+            let fragment = &fragments[i as usize];
+            fragment.segment[0] != fragment.segment[1] && wanted(fragment)
         }));
         let compare = |i: u32, j: u32| {
             let (s, t) = (rightward(fragments[i as usize].segment), rightward(fragments[j as usize].segment));
@@ -86,9 +64,9 @@ impl Repair {
     }
 
     /// Whether no fragments at all are in conflict.
-    fn is_repaired(&mut self, slabs: &mut SlabDecomposition) -> bool {
-        self.find_alike(&mut Near::everything());
-        self.find_conflicts(slabs);
+    fn is_repaired(&mut self, index: &mut Index<'_>) -> bool {
+        self.find_alike(|_| true);
+        self.find_conflicts(index);
         self.conflicts.is_empty()
     }
 
@@ -102,22 +80,27 @@ impl Repair {
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
-    fn find_conflicts(&mut self, slabs: &mut SlabDecomposition) {
+    pub(super) fn find_conflicts(&mut self, index: &mut Index<'_>) {
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
-            let classes = 0..index(self.classes.len());
-            let points = classes.clone().flat_map(|class| self.one_of(class).segment);
-            slabs.build(points, classes.map(|class| (class, [2 * class, 2 * class + 1])));
-            slabs.pairs(|i, j| {
-                let moved = self.classes[i as usize].moved || self.classes[j as usize].moved;
-                let segments = || [i, j].map(|class| self.one_of(class).segment);
-                if moved && in_conflict(segments()) {
-                    conflicts.push([i, j]);
-                }
+            let segments = (0..self.classes.len()).map(|class| self.one_of(id::index(class)).segment);
+            let is_done = index.pairs_by_boxes(segments.clone(), |i, j| {
+                conflicts.extend(self.conflict(i, j));
+                true
             });
+            if !is_done {
+                conflicts.clear();
+                index.slabs(segments).pairs(|i, j| conflicts.extend(self.conflict(i, j)));
+            }
         }
         self.conflicts = conflicts;
+    }
+
+    /// The pair of classes, if they are in conflict.
+    pub(super) fn conflict(&self, i: u32, j: u32) -> Option<[u32; 2]> {
+        let moved = [i, j].iter().any(|&class| self.classes[class as usize].moved);
+        (moved && in_conflict([i, j].map(|class| self.one_of(class).segment))).then_some([i, j])
     }
 
     /// Lists cuts of the conflicting fragments at the common ends of those that they conflict with, and notes whether there

@@ -31,14 +31,15 @@
 mod cut;
 mod fragment;
 pub(crate) mod fragments;
+mod index;
 mod near;
 mod sound;
 
 use crate::boundary::outline::Outline;
 use crate::contacts::close_pairs::ClosePairs;
-use crate::spatial::slabs::SlabDecomposition;
 use fragment::{Class, CutAt, Fragment, Part};
 use fragments::Rounded;
+pub(crate) use index::Index;
 
 /// The buffers of the stage.
 #[derive(Debug, Default)]
@@ -52,8 +53,11 @@ pub(crate) struct Repair {
     conflicts: Vec<[u32; 2]>,
     /// The cuts to be made next, sorted.
     cuts: Vec<CutAt>,
-    /// The edges of close pairs, sorted.
+    /// Per fragment its class.
+    class_of: Vec<u32>,
+    /// The edges of close pairs, and the fragments by edge, sorted.
     edges: Vec<u32>,
+    by_edge: Vec<[u32; 2]>,
     /// How many vertices were put into edges for the last region.
     pub(crate) vertices: usize,
 }
@@ -69,13 +73,13 @@ impl Repair {
         &mut self,
         rounded: Rounded<'_>,
         close_pairs: &ClosePairs,
-        slabs: &mut SlabDecomposition,
+        mut index: Index<'_>,
         outline: &'o mut Outline,
     ) -> &'o Outline {
-        if self.is_sound(rounded, close_pairs, slabs) {
+        if self.is_sound(rounded, close_pairs, &mut index) {
             outline.take(rounded.edges, rounded.contacts, rounded.selection);
         } else {
-            self.cut(rounded, close_pairs, slabs, outline);
+            self.cut(rounded, &mut index, outline);
         }
         outline
     }

@@ -17,10 +17,6 @@ pub(super) struct Near {
 }
 
 impl Near {
-    pub(super) fn everything() -> Near {
-        Near { tree: None, looked_at: 0, asked: 0 }
-    }
-
     pub(super) fn to(segments: impl Iterator<Item = Segment>) -> Near {
         let mut boxes: Vec<[DVec2; 2]> = segments.map(|[a, b]| [a.min(b), a.max(b)]).collect();
         boxes.sort_unstable_by(|a, b| a[0].x.total_cmp(&b[0].x));
