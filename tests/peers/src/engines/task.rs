@@ -54,9 +54,12 @@ pub(super) type Sink<'a, R> = &'a mut dyn FnMut(R) -> bool;
 /// fair sample.
 const ENOUGH: Duration = Duration::from_secs(1);
 
+/// It does as many at least: fewer are no sample.
+const FEW: u32 = 64;
+
 /// Whether a call is to go on after so many results; the clock is read too seldom to show in the figures.
 fn goes_on(results: u32, start: Instant) -> bool {
-    !results.is_power_of_two() || 2 * start.elapsed() < ENOUGH
+    results < FEW || !results.is_power_of_two() || 2 * start.elapsed() < ENOUGH
 }
 
 /// A loaded job made of its prepared input, the timed call and the measure of a result.
