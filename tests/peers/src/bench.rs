@@ -99,7 +99,7 @@ fn cut(job: &Job, outcome: &Outcome) -> Option<f64> {
     let area = |operand: &Operand| operand.iter().flatten().map(|ring| signed_area(ring)).sum::<f64>();
     let is_cut = |(left, whole): (&f64, f64)| *left > 1e-9 * whole && *left < (1.0 - 1e-9) * whole;
     let cut = outcome.areas.iter().zip(job.subjects.iter().map(area)).filter(|&pair| is_cut(pair)).count();
-    job.has_common_clip().then(|| cut as f64 / job.subjects.len() as f64)
+    job.has_common_clip().then(|| cut as f64 / outcome.areas.len() as f64)
 }
 
 impl Bench {

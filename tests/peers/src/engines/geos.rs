@@ -26,7 +26,12 @@ fn clips(job: &Job) -> Result<Box<dyn Task>, String> {
     let call = move |(), sink: Sink<'_, Geometry>| {
         let clip = &clips[0];
         let prepared = told(PreparedGeometry::new(clip))?;
-        subjects.iter().try_for_each(|subject| told(clipped(subject, clip, &prepared)).map(&mut *sink))
+        for subject in &subjects {
+            if !sink(told(clipped(subject, clip, &prepared))?) {
+                break;
+            }
+        }
+        Ok(())
     };
     Ok(task((), call, measure))
 }

@@ -56,7 +56,8 @@ pub(super) fn clips(job: &Job) -> Result<Box<dyn Task>, String> {
 }
 
 fn clip_each(polygons: &[Region], clip: &Region, scratch: &mut Scratch, sink: Sink<'_, Region>) {
-    polygons.iter().for_each(|polygon| sink((Csg::from(polygon) & Csg::from(clip)).evaluate_with(scratch)));
+    let clipped = |polygon| (Csg::from(polygon) & Csg::from(clip)).evaluate_with(scratch);
+    let _ = polygons.iter().map(clipped).all(sink);
 }
 
 fn raw(op: Op, subject: &[Ring], clip: &[Ring]) -> Result<Csg<'static>, String> {

@@ -4,11 +4,12 @@ use crate::job::{Job, Operand, pairs};
 use cpu_time::ProcessTime;
 use serde::{Deserialize, Serialize};
 use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 /// What results look like, to tell whether they agree.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Outcome {
-    /// The area of each result.
+    /// The area of each result; of the first results when there was no time for all.
     pub areas: Vec<f64>,
     /// The number of rings of all; 0 when only boundaries were built.
     pub rings: usize,
@@ -22,10 +23,11 @@ impl Outcome {
         Outcome { areas: vec![area], rings, valid: None }
     }
 
-    /// How far the areas are from `other`'s: the sum of differences over the sum of `other`'s areas.
+    /// How far the areas are from `other`'s: the sum of differences over the sum of `other`'s areas, of results that both have.
     pub fn error(&self, other: &Outcome) -> f64 {
-        let difference: f64 = self.areas.iter().zip(&other.areas).map(|(a, b)| (a - b).abs()).sum();
-        let total: f64 = other.areas.iter().map(|area| area.abs()).sum();
+        let both = || self.areas.iter().zip(&other.areas);
+        let difference: f64 = both().map(|(a, b)| (a - b).abs()).sum();
+        let total: f64 = both().map(|(_, area)| area.abs()).sum();
         if difference == 0.0 { 0.0 } else { difference / total }
     }
 
@@ -45,8 +47,20 @@ pub trait Task {
     fn outcome(&mut self) -> Result<Outcome, String>;
 }
 
-/// Receives the results of a call one by one.
-pub(super) type Sink<'a, R> = &'a mut dyn FnMut(R);
+/// Receives the results of a call one by one, and says whether to go on.
+pub(super) type Sink<'a, R> = &'a mut dyn FnMut(R) -> bool;
+
+/// A call of many Booleans ends after some of them when it lasts that long. Their order is such that any first ones are a
+/// fair sample.
+const ENOUGH: Duration = Duration::from_secs(1);
+
+/// It does as many at least: fewer are no sample.
+const FEW: u32 = 64;
+
+/// Whether a call is to go on after so many results; the clock is read too seldom to show in the figures.
+fn goes_on(results: u32, start: Instant) -> bool {
+    results < FEW || !results.is_power_of_two() || 2 * start.elapsed() < ENOUGH
+}
 
 /// A loaded job made of its prepared input, the timed call and the measure of a result.
 struct Call<I, R, C> {
@@ -78,7 +92,12 @@ pub(super) fn reading<T: 'static, R: 'static>(
     measure: impl Fn(&R) -> Outcome + 'static,
 ) -> Box<dyn Task> {
     let call = move |(), sink: Sink<'_, R>| {
-        pairs(&subjects, &clips).try_for_each(|(subject, clip)| boolean(subject, clip).map(&mut *sink))
+        for (subject, clip) in pairs(&subjects, &clips) {
+            if !sink(boolean(subject, clip)?) {
+                break;
+            }
+        }
+        Ok(())
     };
     task((), call, measure)
 }
@@ -94,10 +113,13 @@ pub(super) fn consuming<T: Clone + 'static, R: 'static>(
     let own = if common.is_some() { vec![] } else { clips };
     let call = move |[subjects, clips]: [Vec<T>; 2], sink: Sink<'_, R>| {
         let mut clips = clips.into_iter();
-        subjects.into_iter().try_for_each(|subject| {
+        for subject in subjects {
             let clip = clips.next().or_else(|| common.clone()).ok_or("a subject without a clip")?;
-            boolean(subject, clip).map(&mut *sink)
-        })
+            if !sink(boolean(subject, clip)?) {
+                break;
+            }
+        }
+        Ok(())
     };
     task([subjects, own], call, measure)
 }
@@ -106,19 +128,25 @@ impl<I: Clone, R, C: FnMut(I, Sink<'_, R>) -> Result<(), String>> Task for Call<
     fn seconds(&mut self, calls: usize) -> Result<f64, String> {
         let inputs = vec![self.input.clone(); calls];
         let mut results = 0_u32;
-        let start = ProcessTime::now();
+        let (clock, start) = (Instant::now(), ProcessTime::now());
         for input in inputs {
             (self.call)(black_box(input), &mut |result| {
                 drop(black_box(result));
                 results += 1;
+                goes_on(results, clock)
             })?;
         }
         Ok(start.elapsed().as_secs_f64() / f64::from(results))
     }
 
     fn outcome(&mut self) -> Result<Outcome, String> {
-        let (mut outcome, measure) = (Outcome::default(), &self.measure);
-        (self.call)(self.input.clone(), &mut |result| outcome.add(measure(&result)))?;
+        let (mut outcome, measure, clock) = (Outcome::default(), &self.measure, Instant::now());
+        let mut results = 0;
+        (self.call)(self.input.clone(), &mut |result| {
+            outcome.add(measure(&result));
+            results += 1;
+            goes_on(results, clock)
+        })?;
         Ok(outcome)
     }
 }

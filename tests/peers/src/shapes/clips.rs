@@ -7,6 +7,10 @@ use crate::random::Random;
 /// The layer is a grid of that many cells a side.
 const CELLS: usize = 100;
 
+/// From each polygon to the next, in cells: a factor that 10 000 does not share, so that all come, and any first ones from
+/// all over the layer.
+const STEP: usize = 6_181;
+
 /// Polygons of 4 to 8 vertices, half to nine tenths of a cell wide, one in each cell of a grid over the box of the clip.
 fn small(clip: &Ring) -> Vec<Operand> {
     let mut random = Random::new(5);
@@ -14,12 +18,12 @@ fn small(clip: &Ring) -> Vec<Operand> {
         clip.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p[axis].min(low), p[axis].max(high)))
     });
     let (width, height) = ((east - west) / CELLS as f64, (north - south) / CELLS as f64);
-    let polygon = |cell: usize| -> Operand {
+    let mut polygon = |cell: usize| -> Operand {
         let centre = [(cell / CELLS) as f64 + 0.5, (cell % CELLS) as f64 + 0.5];
         let around = polar(4 + cell % 5, centre, |_, _| random.within(0.25, 0.45));
         vec![vec![around.iter().map(|p| [west + width * p[0], south + height * p[1]]).collect()]]
     };
-    (0..CELLS * CELLS).map(polygon).collect()
+    (0..CELLS * CELLS).map(|i| polygon(i * STEP % (CELLS * CELLS))).collect()
 }
 
 fn clips(clip: Ring) -> Job {
