@@ -4,8 +4,8 @@
 //! right, and from part to part the order is mended: where edges cross, and where they start or end. So nothing is sorted
 //! anew, and what starts in a part is a run of all edges, sorted by their left ends.
 
-use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
 use super::SlabDecomposition;
+use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
 use crate::base::id::index;
 use std::{cmp::Ordering, ops::Range};
 
@@ -240,10 +240,8 @@ impl SlabDecomposition {
     /// Finds the pairs among a few edges that may meet in a slab.
     fn compare_all(&mut self, slab: Slab, few: &[ClippedSegment]) {
         for (i, e) in few.iter().enumerate() {
-            let [low, high] = [
-                e.heights[0].min(e.heights[1]) - self.slack,
-                e.heights[0].max(e.heights[1]) + self.slack,
-            ];
+            let [low, high] =
+                [e.heights[0].min(e.heights[1]) - self.slack, e.heights[0].max(e.heights[1]) + self.slack];
             for f in &few[..i] {
                 let is_beside = f.heights[0].max(f.heights[1]) < low || high < f.heights[0].min(f.heights[1]);
                 if !is_beside && self.may_meet(e, f, slab) {

@@ -212,10 +212,7 @@ impl SlabDecomposition {
         let comes_in = |clipped: &ClippedSegment| {
             self.ends[clipped.segment.ranks[0] as usize].x < self.ends[slab[0] as usize].x
         };
-        self.reach > 0.0
-            && (e.heights[0] - f.heights[0]).abs() <= self.slack
-            && comes_in(e)
-            && comes_in(f)
+        self.reach > 0.0 && (e.heights[0] - f.heights[0]).abs() <= self.slack && comes_in(e) && comes_in(f)
     }
 
     /// Of the place where an edge enters or leaves a slab or ends in it, the stairs that may go through it.
@@ -249,9 +246,7 @@ impl SlabDecomposition {
         };
         let first = guess.filter(fits).unwrap_or_else(|| self.stairs.partition_point(is_below));
         match self.stairs.get(first) {
-            Some(stair) if may_touch(stair) => {
-                first..first + self.stairs[first..].partition_point(may_touch)
-            }
+            Some(stair) if may_touch(stair) => first..first + self.stairs[first..].partition_point(may_touch),
             _ => first..first,
         }
     }
