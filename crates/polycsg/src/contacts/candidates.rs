@@ -18,11 +18,12 @@ use crate::spatial::{chains::MonotoneChains, strips::Strips};
 /// Fewer boxes are not worth a sample.
 const FEW: usize = 256;
 
-/// Of so many boxes one is compared with all others.
+/// Of so many boxes one at most is compared with all others, and so many at all.
 const STEP: usize = 16;
+const MOST: usize = 512;
 
-/// So many pairs and blocks of the sample for each edge are enough.
-const PAIRS: usize = 8;
+/// So many pairs and blocks for each of these are enough.
+const PAIRS: usize = 16;
 
 /// One more box costs as much as so many pairs of chains do.
 const PAIRS_PER_BOX: usize = 4;
@@ -89,7 +90,7 @@ struct Sample {
 }
 
 impl Sample {
-    /// Indexes the edges by their chains for it. The sample ends, in O(n), as soon as it tells that boxes are not quick.
+    /// Indexes the edges by their chains for it. The sample ends as soon as it tells that boxes are not quick.
     fn of(edges: &Edges, chains: &mut MonotoneChains, strips: &mut Strips) -> Sample {
         chains.build(edges.points(), edges.spans());
         strips.build(chains.boxes());
@@ -98,8 +99,9 @@ impl Sample {
             return sample;
         }
         let margins = Margins::for_size(chains.size());
-        let most = PAIRS * edges.len();
-        let (times, blocks) = strips.sample(STEP, most, |a, b| {
+        let step = STEP.max(chains.len() / MOST);
+        let most = PAIRS * MOST;
+        let (times, blocks) = strips.sample(step, 4 * most, |a, b| {
             sample.chain_pairs += 1;
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                 sample.pairs += 1;

@@ -13,7 +13,7 @@ impl SlabDecomposition {
     pub(super) fn look_into_column(&mut self, slab: Slab, base: usize, starts: Range<usize>) {
         let mut column = std::mem::take(&mut self.column);
         column.clear();
-        column.extend(self.passing[base..].iter().map(|passing| passing.segment).chain(self.starting(starts)));
+        column.extend(self.passing[base..].iter().map(|passing| passing.segment).chain(self.edges(starts)));
         let is_vertical = |segment: &RankedSegment| self.is_column(segment.ranks);
         let count = column.iter().filter(|segment| is_vertical(segment)).count();
         if count > 0 {

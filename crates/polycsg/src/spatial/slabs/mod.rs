@@ -85,6 +85,8 @@ pub(crate) struct SlabDecomposition {
     has_slopes: bool,
     /// The edges that come into the slab at hand, into its part at hand, and so on, with their places in `segments` for ids.
     passing: Vec<ClippedSegment>,
+    /// What started in the slab just left behind and goes beyond it, in its order there.
+    starting: Vec<ClippedSegment>,
     /// The segments that span the slab at hand, those of them that are its stairs, and the edges that end or start in it.
     spanning: Vec<ClippedSegment>,
     stairs: Vec<ClippedSegment>,
@@ -118,7 +120,8 @@ impl SlabDecomposition {
         };
         self.all.clear();
         self.all.extend(edges.map(segment).filter(|segment| segment.ranks[0] < segment.ranks[1]));
-        self.all.sort_unstable_by_key(|segment| (segment.ranks, segment.id));
+        let key = |ranks: [u32; 2]| u64::from(ranks[0]) << 32 | u64::from(ranks[1]);
+        self.all.sort_unstable_by_key(|segment| (key(segment.ranks), segment.id));
         self.segments.clear();
         self.segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
