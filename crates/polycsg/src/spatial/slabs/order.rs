@@ -1,6 +1,6 @@
 //! Which of two edges is the lower one: where heights do not tell, the sides of their ends do.
 
-use super::segments::{RankedSegment, Slab, ClippedSegment};
+use super::segments::{ClippedSegment, RankedSegment, Slab};
 use crate::predicates::{Segment, Side, crossing_x_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;
