@@ -74,6 +74,6 @@ impl SlabDecomposition {
         let level = keys[first..].iter().take_while(|key| to_end(key, ends[1]).is_le());
         let level = level.map(|key| &column[key.1 as usize]);
         let level = level.filter(|other| other.ranks.iter().all(|rank| !segment.ranks.contains(rank)));
-        found.add(upright.chain(level).map(|other| [segment.id, other.id]), false);
+        found.add(upright.chain(level).map(|other| ([segment.id, other.id], true)), false);
     }
 }

@@ -1,8 +1,12 @@
-//! The way from the widest slabs to the narrowest.
+//! The way from the widest slabs to the narrowest, and from left to right.
 //!
-//! The edges that come into a slab stand in their order at its left side. The parts of the slab are looked into from left to
-//! right, and from part to part the order is mended: where edges cross, and where they start or end. So nothing is sorted
-//! anew, and what starts in a part is a run of all edges, sorted by their left ends.
+//! ```text
+//!  |    |    |    |   The edges that come into a slab stand in their order at its left side. They pass through its parts
+//!  |----+----+----|   one after the other, and their order is restored at each side, where they cross and where they end.
+//!  |   _|____|____|   What starts in a part comes out of that in its order, too, and is merged with what passes. Only
+//!  |--+-+-/  | \__|   what starts in the narrowest slabs is sorted. Edges that start in a part are a run of all edges,
+//!  |    |    |    |   sorted by their left ends.
+//! ```
 
 use super::SlabDecomposition;
 use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
@@ -12,7 +16,7 @@ use std::{cmp::Ordering, ops::Range};
 /// So many sequences of stairs are taken from a slab's spanning segments, before the rest is handed on.
 const ROUNDS: usize = 3;
 
-/// So many steps for each edge an order is mended by, before it is sorted.
+/// By so many steps for each edge an order is restored; then it is sorted.
 const STEPS: usize = 16;
 
 /// So many edges are compared with one another, each with each.
@@ -96,7 +100,7 @@ impl SlabDecomposition {
             self.sort_out(slab, base, starts.clone());
             self.look_at_spanning(slab, quest);
             if slab[1] - slab[0] > 1 && !self.found.is_over() {
-                self.hand_on(slab, base);
+                self.hand_on(slab);
                 self.descend(slab, child, starts, quest);
             }
         }
@@ -143,17 +147,14 @@ impl SlabDecomposition {
     }
 
     /// Lets the edges that are left of a slab's spanning segments, and those that end in it, pass into its parts.
-    fn hand_on(&mut self, slab: Slab, base: usize) {
+    fn hand_on(&mut self, slab: Slab) {
         self.spanning.sort_unstable_by(by_height);
         let mut left = self.spanning.iter().peekable();
-        for i in base..self.passing.len() {
-            let passing = self.passing[i];
-            if passing.segment.ranks[1] < slab[1] {
-                while let Some(span) = left.next_if(|span| is_lower(span, &passing)) {
-                    self.passing.push(*span);
-                }
-                self.passing.push(passing);
+        for ending in self.partial.iter().take_while(|ending| ending.segment.ranks[0] <= slab[0]) {
+            while let Some(span) = left.next_if(|span| is_lower(span, ending)) {
+                self.passing.push(*span);
             }
+            self.passing.push(*ending);
         }
         self.passing.extend(left);
     }
@@ -245,7 +246,7 @@ impl SlabDecomposition {
             for f in &few[..i] {
                 let is_beside = f.heights[0].max(f.heights[1]) < low || high < f.heights[0].min(f.heights[1]);
                 if !is_beside && self.may_meet(e, f, slab) {
-                    self.found.add(std::iter::once([e.segment.id, f.segment.id]), false);
+                    self.found.add(std::iter::once(([e.segment.id, f.segment.id], true)), false);
                 }
             }
         }

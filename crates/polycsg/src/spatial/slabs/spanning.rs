@@ -120,7 +120,7 @@ impl SlabDecomposition {
             };
             for &(_, f) in self.coincident[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
                 if self.may_meet(&e, &f, slab) {
-                    self.found.add(std::iter::once([e.segment.id, f.segment.id]), true);
+                    self.found.add(std::iter::once(([e.segment.id, f.segment.id], true)), true);
                 }
             }
         }
@@ -184,8 +184,8 @@ impl SlabDecomposition {
     fn add_stairs(&mut self, clipped: &ClippedSegment, stairs: Range<usize>, slab: Slab, is_near: bool) {
         if stairs.start < stairs.end {
             let mut found = std::mem::take(&mut self.found);
-            let others = self.stairs[stairs].iter().filter(|other| self.meets(clipped, other, slab));
-            found.add(others.map(|other| [clipped.segment.id, other.segment.id]), is_near);
+            let others = self.stairs[stairs].iter();
+            found.add(others.filter_map(|other| self.pair(clipped, other, slab)), is_near);
             self.found = found;
         }
     }
@@ -195,15 +195,15 @@ impl SlabDecomposition {
             let mut found = std::mem::take(&mut self.found);
             let first = self.coincident.partition_point(|&(place, _)| place < stairs.start);
             let others = self.coincident[first..].iter().take_while(|&&(place, _)| place < stairs.end);
-            let others = others.map(|(_, other)| other).filter(|other| self.meets(clipped, other, slab));
-            found.add(others.map(|other| [clipped.segment.id, other.segment.id]), is_near);
+            found.add(others.filter_map(|(_, other)| self.pair(clipped, other, slab)), is_near);
             self.found = found;
         }
     }
 
-    /// Whether the boxes of two edges meet, and they were not found in the slab to the left.
-    fn meets(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> bool {
-        e.segment.meets(f.segment, &self.ends, self.reach) && !self.was_found(e, f, slab)
+    /// Two edges whose boxes meet, and whether they may be new.
+    fn pair(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> Option<([u32; 2], bool)> {
+        let meets = e.segment.meets(f.segment, &self.ends, self.reach);
+        meets.then(|| ([e.segment.id, f.segment.id], !self.was_found(e, f, slab)))
     }
 
     /// Whether two edges come near one another where both come into a slab. Then they were found in the slab to the left, where
