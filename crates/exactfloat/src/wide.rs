@@ -53,11 +53,6 @@ impl Wide {
         Wide { integer, exponent: self.exponent + bits.cast_signed(), error: error * SLACK }
     }
 
-    /// The absolute value.
-    pub fn abs(self) -> Wide {
-        Wide { integer: self.integer.abs(), ..self }
-    }
-
     /// The order, where the bounds prove it.
     #[must_use]
     pub fn compare(self, other: Wide) -> Option<Ordering> {
