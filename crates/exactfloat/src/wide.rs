@@ -49,13 +49,8 @@ impl Wide {
         }
         let integer = self.integer >> bits.min(i128::BITS - 1);
         let is_exact = self.integer == 0 || (bits < i128::BITS && integer << bits == self.integer);
-        let error = self.error * power(-bits.cast_signed()) + f64::from(u8::from(!is_exact));
-        Wide { integer, exponent: self.exponent + bits.cast_signed(), error: error * SLACK }
-    }
-
-    /// The absolute value.
-    pub fn abs(self) -> Wide {
-        Wide { integer: self.integer.abs(), ..self }
+        let error = self.error * power(-(bits as i32)) + f64::from(u8::from(!is_exact));
+        Wide { integer, exponent: self.exponent + bits as i32, error: error * SLACK }
     }
 
     /// The order, where the bounds prove it.
@@ -87,7 +82,7 @@ impl Sub for Wide {
         let up = gap.min(BITS.saturating_sub(bits(high.integer)));
         let low = low.cut(gap - up);
         let integer = (high.integer << up) - low.integer;
-        let error = (high.error * power(up.cast_signed()) + low.error) * SLACK;
+        let error = (high.error * power(up as i32) + low.error) * SLACK;
         let integer = if is_swapped { -integer } else { integer };
         Wide { integer, exponent: low.exponent, error }.cut(bits(integer).saturating_sub(BITS))
     }
@@ -99,17 +94,17 @@ impl Mul for Wide {
         let (a, b) = (bits(self.integer), bits(other.integer));
         let excess = (a + b).saturating_sub(BITS);
         let exponent = self.exponent + other.exponent;
-        let size = |bits: u32| power(bits.cast_signed());
+        let size = |bits: u32| power(bits as i32);
         let error = (size(a) * other.error + size(b) * self.error + self.error * other.error) * SLACK * SLACK;
         if excess == 0 {
             return Wide { integer: self.integer * other.integer, exponent, error };
         }
         let [high, low] = full_product(self.integer.unsigned_abs(), other.integer.unsigned_abs());
-        let magnitude = (high << (i128::BITS - excess) | low >> excess).cast_signed();
+        let magnitude = (high << (i128::BITS - excess) | low >> excess) as i128;
         let integer = if (self.integer < 0) == (other.integer < 0) { magnitude } else { -magnitude };
         let is_exact = low << (i128::BITS - excess) == 0;
-        let error = (error * power(-excess.cast_signed()) + f64::from(u8::from(!is_exact))) * SLACK;
-        Wide { integer, exponent: exponent + excess.cast_signed(), error }
+        let error = (error * power(-(excess as i32)) + f64::from(u8::from(!is_exact))) * SLACK;
+        Wide { integer, exponent: exponent + excess as i32, error }
     }
 }
 

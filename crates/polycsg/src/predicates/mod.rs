@@ -1,7 +1,7 @@
 //! The only place that decides a sign.
 //!
 //! Every predicate answers with an enum: a floating-point filter with a proven error bound first; where that cannot
-//! tell, exact integers, of fixed size if the coordinates' exponents allow. All are right for every finite `f64`, subnormal and huge ones included.
+//! tell, more bits, and in the end exact integers, of fixed size if the coordinates' exponents allow. All are right for every finite `f64`, subnormal and huge ones included.
 //!
 //! | predicate | question | degree |
 //! | --- | --- | --- |

@@ -30,10 +30,7 @@ pub(crate) fn crossing_order(e: Segment, f: Segment, g: Segment) -> Ordering {
     let by_double_doubles = if is_moderate { crossing_order_by_double_doubles(e, f, g) } else { None };
     by_double_doubles
         .or_else(|| fixed::crossing_order(e, f, g))
-        .or_else(|| {
-            let [[nf, mf], [ng, mg]] = [f, g].map(|line| e.map(|end| distance(line, end)));
-            (nf * mg).compare(ng * mf)
-        })
+        .or_else(|| crossing_order_by_bounds(e, f, g))
         .unwrap_or_else(|| crossing_order_by_integers(e, f, g))
 }
 
@@ -64,13 +61,22 @@ fn crossing_order_by_double_doubles(e: Segment, f: Segment, g: Segment) -> Optio
     (order.abs() > dl + dr).then(|| order.total_cmp(&0.0))
 }
 
-/// The size of the doubled area of a line and a point. Seen from the point with the smallest abscissa, no other abscissa loses bits.
-fn distance([p, q]: Segment, point: DVec2) -> Wide {
-    let smaller = |a: DVec2, b: DVec2| a.x.abs() < b.x.abs();
-    let [p, q] = if smaller(q, p) { [q, p] } else { [p, q] };
-    let [o, p] = if smaller(point, p) { [point, p] } else { [p, point] };
-    let [o, p, q] = [o, p, q].map(|p| p.to_array().map(Wide::from));
-    ((p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0])).abs()
+/// From the origin: with u the vector of an edge from p to q, and c = p × q, the doubled area of (f, a) is c + u × a, so that
+///
+/// n_f m_g - n_g m_f = c_f (u_g × u_e) - c_g (u_f × u_e) - (u_g × u_f) c_e
+///
+/// for any sizes of coordinates without products that only cancel. |n_f| |m_g| - |n_g| |m_f| has the same sign if the start of e
+/// lies on different sides of f and g, else the opposite one.
+fn crossing_order_by_bounds(e: Segment, f: Segment, g: Segment) -> Option<Ordering> {
+    let cross = |[a, b]: [Wide; 2], [c, d]: [Wide; 2]| a * d - b * c;
+    let parts = |edge: Segment| {
+        let [p, q] = edge.map(|p| p.to_array().map(Wide::from));
+        ([q[0] - p[0], q[1] - p[1]], cross(p, q))
+    };
+    let ((ue, ce), (uf, cf), (ug, cg)) = (parts(e), parts(f), parts(g));
+    let order = (cf * cross(ug, ue) - cg * cross(uf, ue)).compare(cross(ug, uf) * ce)?;
+    let is_same_side = side(f[0], f[1], e[0]) == side(g[0], g[1], e[0]);
+    Some(if is_same_side { order.reverse() } else { order })
 }
 
 #[cold]
