@@ -12,8 +12,9 @@
 //! An edge below whose near side is on the wrong side of the boundary means that the rings are not nested.
 
 use super::link::{Cycles, IncidentHalfEdge, SimpleRing, by_angle, neighbours};
-use crate::base::{id::index, id::span};
+use crate::base::{id::index, id::span, meter::Meter};
 use crate::boundary::outline::Outline;
+use crate::error::Error;
 use crate::predicates::lexicographic;
 use crate::region::{Region, RegionBuilder, rings::Rings};
 use crate::spatial::strips::Strips;
@@ -21,9 +22,20 @@ use crate::spatial::{chains::MonotoneChains, ray_shooting::VerticalRays, slabs::
 use glam::DVec2;
 use std::cmp::Ordering;
 
-/// The rings are no boundary: some lies on the wrong side of another, or edges around a point do not alternate.
-#[derive(Debug)]
-pub(crate) struct Misnested;
+/// Why there is no region.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Unnested {
+    /// The rings are no boundary: some lies on the wrong side of another, or edges around a point do not alternate.
+    Misnested,
+    /// By the limits of the call.
+    Refused(Error),
+}
+
+impl From<Error> for Unnested {
+    fn from(error: Error) -> Unnested {
+        Unnested::Refused(error)
+    }
+}
 
 /// No polygon.
 const NONE: u32 = u32::MAX;
@@ -87,16 +99,21 @@ pub(crate) fn nest(
     strips: &mut Strips,
     slabs: &mut SlabDecomposition,
     nesting: &mut Nesting,
-) -> Result<Region, Misnested> {
+    meter: &Meter<'_>,
+) -> Result<Region, Unnested> {
     let rings = cycles.rings();
     if !cycles.alternate {
-        return Err(Misnested);
+        return Err(Unnested::Misnested);
     }
     match cycles.about() {
         [] => return Ok(Region::default()),
         // A single ring has nothing around it and nothing in it.
         [single] => {
-            return if single.counter_clockwise { Ok(nest_single(rings, single)) } else { Err(Misnested) };
+            return if single.counter_clockwise {
+                Ok(nest_single(rings, single))
+            } else {
+                Err(Unnested::Misnested)
+            };
         }
         _ => {}
     }
@@ -106,7 +123,7 @@ pub(crate) fn nest(
     chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
     strips.build(chains.boxes());
     let Nesting { below, asked, .. } = &mut *nest.nesting;
-    below.shoot(chains, strips, slabs, rings.points(), asked);
+    below.shoot(chains, strips, slabs, rings.points(), asked, meter)?;
     for i in 0..nest.nesting.corners.len() {
         nest.place(nest.nesting.corners[i].ring)?;
     }
@@ -120,7 +137,7 @@ fn nest_single(rings: &Rings, single: &SimpleRing) -> Region {
 }
 
 impl Nesting {
-    fn start(&mut self, cycles: &Cycles) -> Result<(), Misnested> {
+    fn start(&mut self, cycles: &Cycles) -> Result<(), Unnested> {
         self.places.clear();
         self.depth.clear();
         self.asked.clear();
@@ -134,13 +151,13 @@ impl Nesting {
         Ok(())
     }
 
-    fn find_outer(&mut self, rings: &[SimpleRing]) -> Result<(), Misnested> {
+    fn find_outer(&mut self, rings: &[SimpleRing]) -> Result<(), Unnested> {
         self.outer.clear();
         self.outer.resize(rings.last().map_or(0, |ring| ring.cycle as usize + 1), NONE);
         for (i, ring) in rings.iter().enumerate().filter(|(_, r)| r.counter_clockwise) {
             let place = &mut self.outer[ring.cycle as usize];
             if *place != NONE {
-                return Err(Misnested);
+                return Err(Unnested::Misnested);
             }
             *place = index(i);
         }
@@ -201,7 +218,7 @@ impl Nest<'_> {
         if has_outer || self.nesting.leftmost[cycle as usize] != ring { Beside::Cycle } else { below }
     }
 
-    fn place(&mut self, ring: u32) -> Result<(), Misnested> {
+    fn place(&mut self, ring: u32) -> Result<(), Unnested> {
         if self.ring(ring).counter_clockwise {
             return self.place_outer(ring);
         }
@@ -210,14 +227,14 @@ impl Nest<'_> {
         let owner = if outer == NONE { self.ring_below_hole(ring)? } else { outer };
         let polygon = self.nesting.places[owner as usize].polygon;
         self.nesting.places[ring as usize].polygon = polygon;
-        if polygon == NONE { Err(Misnested) } else { Ok(()) }
+        if polygon == NONE { Err(Unnested::Misnested) } else { Ok(()) }
     }
 
-    fn place_outer(&mut self, ring: u32) -> Result<(), Misnested> {
+    fn place_outer(&mut self, ring: u32) -> Result<(), Unnested> {
         let around = match self.ring_beside_outer(ring)? {
             None => NONE,
             Some(other) => match self.nesting.places[other as usize] {
-                RingPlace { polygon: NONE, .. } => return Err(Misnested),
+                RingPlace { polygon: NONE, .. } => return Err(Unnested::Misnested),
                 RingPlace { around, .. } if self.ring(other).counter_clockwise => around,
                 RingPlace { polygon, .. } => polygon,
             },
@@ -230,16 +247,16 @@ impl Nest<'_> {
     }
 
     /// The ring that runs right below the leftmost point of a cycle of holes; its interior lies above.
-    fn ring_below_hole(&self, ring: u32) -> Result<u32, Misnested> {
+    fn ring_below_hole(&self, ring: u32) -> Result<u32, Unnested> {
         let leftmost = self.nesting.leftmost[self.ring(ring).cycle as usize];
         match self.ring_below(leftmost) {
             Some((ring, true)) => Ok(ring),
-            _ => Err(Misnested),
+            _ => Err(Unnested::Misnested),
         }
     }
 
     /// The ring that bounds the outside of an outer ring, right below its leftmost point.
-    fn ring_beside_outer(&self, ring: u32) -> Result<Option<u32>, Misnested> {
+    fn ring_beside_outer(&self, ring: u32) -> Result<Option<u32>, Unnested> {
         let (other, outside) = match self.nesting.places[ring as usize].beside {
             Beside::Ring(other, outside) => (other, outside),
             _ => match self.ring_below(ring) {
@@ -247,7 +264,7 @@ impl Nest<'_> {
                 Some((other, interior_above)) => (other, !interior_above),
             },
         };
-        if outside { Ok(Some(other)) } else { Err(Misnested) }
+        if outside { Ok(Some(other)) } else { Err(Unnested::Misnested) }
     }
 
     /// Of the chains at the leftmost point of a counter-clockwise ring, the first met turning clockwise from the one

@@ -123,7 +123,7 @@ impl Contacts {
         }
         slabs.duplicates().for_each(|[e, f]| self.meet(edges, e, f, close_pairs));
         close_pairs.find_beside(edges, slabs);
-        let are_few = slabs.find(most) || (close_pairs.give_up(slabs) && slabs.find(most));
+        let are_few = slabs.find(most, meter)? || (close_pairs.give_up(slabs) && slabs.find(most, meter)?);
         if !are_few {
             return Err(Error::TooManyContacts { limit: most });
         }

@@ -7,7 +7,7 @@ pub(crate) mod scratch;
 mod tests;
 
 use crate::arrangement::{labels::LabelledArrangement, labels::map::Map};
-use crate::assemble::nest::{Misnested, nest};
+use crate::assemble::nest::{Unnested, nest};
 use crate::base::meter::Meter;
 use crate::boundary::{Boundary, repair::Index, repair::fragments::Rounded};
 use crate::contacts::{Request, candidates::Candidates};
@@ -38,12 +38,14 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) ->
     let selection = boundary.selection.select(arranged);
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
     let SpatialBuffers { chains, strips, slabs } = spatial;
-    let index = Index { strips, slabs, budget: *budget };
-    let outline = boundary.repair.outline(rounded, arranged.close_pairs, index, &mut boundary.outline);
+    let index = Index { strips, slabs, budget: *budget, meter };
+    let outline = boundary.repair.outline(rounded, arranged.close_pairs, index, &mut boundary.outline)?;
+    meter.spend(outline.chains().len())?;
     let cycles = assembly.cycles.link(outline);
-    match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting) {
+    match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting, meter) {
         Ok(region) => Ok(region),
-        Err(Misnested) => {
+        Err(Unnested::Refused(error)) => Err(error),
+        Err(Unnested::Misnested) => {
             let (rings, repaired) = (cycles.rings().clone(), boundary.repair.vertices);
             let region = region(&Csg::positive(rings), scratch, meter);
             scratch.boundary.repair.vertices += repaired;

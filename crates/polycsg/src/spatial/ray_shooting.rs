@@ -1,6 +1,8 @@
 //! Vertical ray shooting: the edge right below a point.
 
 use super::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
+use crate::base::meter::Meter;
+use crate::error::Error;
 use crate::predicates::{Segment, Side, height_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -20,6 +22,9 @@ impl VerticalRays {
     /// The ray keeps just right of the vertex, so that an edge counts from its leftmost end to just before its rightmost
     /// one; of edges that meet below the vertex the one that is higher right of it is the nearer. Edges that start in
     /// the vertex are passed over.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
     pub(crate) fn shoot(
         &mut self,
         chains: &MonotoneChains,
@@ -27,17 +32,20 @@ impl VerticalRays {
         slabs: &mut SlabDecomposition,
         points: &[DVec2],
         vertices: &[u32],
-    ) {
+        meter: &Meter<'_>,
+    ) -> Result<(), Error> {
         let mut left = BOXES_PER_EDGE * points.len();
         self.edges.clear();
         for &vertex in vertices {
+            meter.spend(1)?;
             self.edges.push(nearest_below(chains, strips, points, points[vertex as usize], &mut left));
             if left == 0 {
                 let edges = chains.edges().map(|edge| (edge, [edge, edge + 1]));
                 slabs.build(points.iter().copied(), edges);
-                return slabs.below(vertices, &mut self.edges);
+                return slabs.below(vertices, &mut self.edges, meter);
             }
         }
+        Ok(())
     }
 
     /// The edge below the i-th vertex.

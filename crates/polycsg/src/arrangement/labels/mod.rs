@@ -85,7 +85,7 @@ impl Labels {
         self.seen.resize(map.arrangement.junction_count(), false);
         self.find_chains(map);
         self.find_leftmost(map);
-        self.find_nested(map, slabs);
+        self.find_nested(map, slabs, meter)?;
         while let Some(vertex) = self.outermost.pop() {
             self.steps.push(Step::Component { vertex });
             while let Some(step) = self.steps.pop() {
@@ -147,13 +147,19 @@ impl Labels {
     }
 
     /// Finds the sub-edge right below each component, or that there is none.
-    fn find_nested(&mut self, map: Map<'_>, slabs: &mut SlabDecomposition) {
+    fn find_nested(
+        &mut self,
+        map: Map<'_>,
+        slabs: &mut SlabDecomposition,
+        meter: &Meter<'_>,
+    ) -> Result<(), Error> {
         self.nested.clear();
         self.outermost.clear();
         if let [single] = self.leftmost[..] {
-            return self.outermost.push(single);
+            self.outermost.push(single);
+            return Ok(());
         }
-        self.below.shoot(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost);
+        self.below.shoot(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost, meter)?;
         for (i, &vertex) in self.leftmost.iter().enumerate() {
             match self.below.edge(i).map(|edge| map.sub_edge_of(edge, vertex)) {
                 None => self.outermost.push(vertex),
@@ -164,5 +170,6 @@ impl Labels {
             }
         }
         self.nested.sort_unstable();
+        Ok(())
     }
 }

@@ -4,6 +4,7 @@ use super::fragment::{Class, CutAt, Fragment, in_conflict};
 use super::{Repair, fragments::Rounded, index::Index, near::Near};
 use crate::base::id;
 use crate::boundary::outline::Outline;
+use crate::error::Error;
 use crate::predicates::{Segment, lexicographic, rightward};
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -13,9 +14,18 @@ impl Repair {
     ///
     /// The first conflicts are known. Then only what is near the last cuts is looked at, as nothing else can be in a new one.
     /// Fragments that rounding made vertical and that overlap are not cut at abscissae; they are cut in the end.
-    pub(super) fn cut(&mut self, rounded: Rounded<'_>, index: &mut Index<'_>, outline: &mut Outline) {
+    ///
+    /// # Errors
+    /// Those of the limits of the index.
+    pub(super) fn cut(
+        &mut self,
+        rounded: Rounded<'_>,
+        index: &mut Index<'_>,
+        outline: &mut Outline,
+    ) -> Result<(), Error> {
         let (mut may_coincide, mut overlap) = (false, false);
         loop {
+            index.meter.spend(self.fragments.len() + self.conflicts.len())?;
             may_coincide |= self.classes.len() < self.alike.len();
             let affected = self.list_cuts(rounded, &mut overlap);
             if self.cuts.is_empty() {
@@ -24,9 +34,9 @@ impl Repair {
             rounded.cut_up(&self.cuts, &mut self.fragments);
             let mut near = Near::to(affected.into_iter());
             self.find_alike(|fragment| near.meets(fragment.segment));
-            self.find_conflicts(index);
+            self.find_conflicts(index)?;
         }
-        debug_assert!(overlap || self.is_repaired(index));
+        debug_assert!(overlap || self.is_repaired(index)?);
         self.vertices = self.fragments.len() - self.parts.len();
         if overlap {
             let segments = cut_verticals(&self.fragments);
@@ -36,6 +46,7 @@ impl Repair {
         } else {
             outline.build(self.fragments.iter().map(|f| f.segment), may_coincide);
         }
+        Ok(())
     }
 
     /// Groups the fragments with the same ends, of those that are wanted; any that rounding shrank to a point are left out.
@@ -64,10 +75,10 @@ impl Repair {
     }
 
     /// Whether no fragments at all are in conflict.
-    fn is_repaired(&mut self, index: &mut Index<'_>) -> bool {
+    fn is_repaired(&mut self, index: &mut Index<'_>) -> Result<bool, Error> {
         self.find_alike(|_| true);
-        self.find_conflicts(index);
-        self.conflicts.is_empty()
+        self.find_conflicts(index)?;
+        Ok(self.conflicts.is_empty())
     }
 
     fn members(&self, class: u32) -> &[u32] {
@@ -80,7 +91,7 @@ impl Repair {
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
-    pub(super) fn find_conflicts(&mut self, index: &mut Index<'_>) {
+    pub(super) fn find_conflicts(&mut self, index: &mut Index<'_>) -> Result<(), Error> {
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
@@ -88,13 +99,14 @@ impl Repair {
             let is_done = index.pairs_by_boxes(segments.clone(), |i, j| {
                 conflicts.extend(self.conflict(i, j));
                 true
-            });
+            })?;
             if !is_done {
                 conflicts.clear();
-                index.slabs(segments).pairs(|i, j| conflicts.extend(self.conflict(i, j)));
+                index.pairs_by_slabs(segments, |i, j| conflicts.extend(self.conflict(i, j)))?;
             }
         }
         self.conflicts = conflicts;
+        Ok(())
     }
 
     /// The pair of classes, if they are in conflict.

@@ -37,6 +37,7 @@ mod sound;
 
 use crate::boundary::outline::Outline;
 use crate::contacts::close_pairs::ClosePairs;
+use crate::error::Error;
 use fragment::{Class, CutAt, Fragment, Part};
 use fragments::Rounded;
 pub(crate) use index::Index;
@@ -69,18 +70,21 @@ impl Repair {
     }
 
     /// Puts the pieces into an outline: as they are if rounding left them sound, else repaired.
+    ///
+    /// # Errors
+    /// Those of the limits of the index.
     pub(crate) fn outline<'o>(
         &mut self,
         rounded: Rounded<'_>,
         close_pairs: &ClosePairs,
         mut index: Index<'_>,
         outline: &'o mut Outline,
-    ) -> &'o Outline {
-        if self.is_sound(rounded, close_pairs, &mut index) {
+    ) -> Result<&'o Outline, Error> {
+        if self.is_sound(rounded, close_pairs, &mut index)? {
             outline.take(rounded.edges, rounded.contacts, rounded.selection);
         } else {
-            self.cut(rounded, &mut index, outline);
+            self.cut(rounded, &mut index, outline)?;
         }
-        outline
+        Ok(outline)
     }
 }

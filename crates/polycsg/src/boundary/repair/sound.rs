@@ -3,6 +3,7 @@
 use super::fragment::{Fragment, in_conflict};
 use super::{Repair, fragments::Rounded, index::Index};
 use crate::contacts::close_pairs::ClosePairs;
+use crate::error::Error;
 use crate::predicates::lexicographic;
 use glam::DVec2;
 
@@ -20,20 +21,21 @@ impl Repair {
         rounded: Rounded<'_>,
         close_pairs: &ClosePairs,
         index: &mut Index<'_>,
-    ) -> bool {
+    ) -> Result<bool, Error> {
         if !close_pairs.all() && close_pairs.pairs().is_empty() {
-            debug_assert!(self.is_sound_throughout(rounded, index));
-            return true;
+            debug_assert!(self.is_sound_throughout(rounded, index)?);
+            return Ok(true);
         }
+        index.meter.spend(close_pairs.pairs().len())?;
         match if close_pairs.all() { None } else { self.are_close_sound(rounded, close_pairs) } {
             None => self.is_sound_throughout(rounded, index),
             Some(true) => {
-                debug_assert!(self.is_sound_throughout(rounded, index));
-                true
+                debug_assert!(self.is_sound_throughout(rounded, index)?);
+                Ok(true)
             }
             Some(false) => {
                 self.find_close_conflicts(rounded, close_pairs);
-                false
+                Ok(false)
             }
         }
     }
@@ -106,13 +108,13 @@ impl Repair {
     }
 
     /// Whether no two fragments at all meet but in common vertices: the law behind [`is_sound`](Repair::is_sound).
-    fn is_sound_throughout(&mut self, rounded: Rounded<'_>, index: &mut Index<'_>) -> bool {
+    fn is_sound_throughout(&mut self, rounded: Rounded<'_>, index: &mut Index<'_>) -> Result<bool, Error> {
         rounded.list_parts(None, &mut self.parts);
         rounded.round(&self.parts, &mut self.fragments);
         self.find_alike(|_| true);
-        self.find_conflicts(index);
+        self.find_conflicts(index)?;
         // None collapsed, no two have both ends in common, and each point is one vertex.
-        self.classes.len() == self.fragments.len() && self.conflicts.is_empty() && self.are_distinct()
+        Ok(self.classes.len() == self.fragments.len() && self.conflicts.is_empty() && self.are_distinct())
     }
 
     /// Whether ends in one point are one vertex.

@@ -10,7 +10,7 @@
 
 use super::SlabDecomposition;
 use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
-use crate::base::id::index;
+use crate::base::{id::index, meter::Meter};
 use std::{cmp::Ordering, ops::Range};
 
 /// So many sequences of stairs are taken from a slab's spanning segments, before the rest is handed on.
@@ -31,6 +31,13 @@ pub(super) enum Quest {
     Below,
 }
 
+/// What slabs are looked into for, within which limits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search<'a> {
+    pub(super) quest: Quest,
+    pub(super) meter: &'a Meter<'a>,
+}
+
 /// By their heights at the left side.
 fn by_height(a: &ClippedSegment, b: &ClippedSegment) -> Ordering {
     a.heights[0].total_cmp(&b.heights[0])
@@ -43,14 +50,14 @@ fn is_lower(a: &ClippedSegment, b: &ClippedSegment) -> bool {
 
 impl SlabDecomposition {
     /// Looks into the slab of all ends.
-    pub(super) fn look_into_all(&mut self, quest: Quest) {
+    pub(super) fn look_into_all(&mut self, search: Search<'_>) {
         self.passing.clear();
         self.starting.clear();
         let Some(last) = self.ends.len().checked_sub(1) else { return };
         let starts = self.starting_before(0..self.segments.len(), 1);
         self.start(0, starts.clone());
         self.merge(0);
-        self.descend([0, index(last)], 0, starts.end..self.segments.len(), quest);
+        self.descend([0, index(last)], 0, starts.end..self.segments.len(), search);
     }
 
     /// Some of all edges, under their places for ids.
@@ -67,9 +74,9 @@ impl SlabDecomposition {
 
     /// Looks into a slab that the edges passing from `base` on come into, and that others start in; leaves those passing that
     /// go beyond it, in their order there.
-    fn descend(&mut self, slab: Slab, base: usize, starts: Range<usize>, quest: Quest) {
+    fn descend(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
         if self.passing.len() - base + starts.len() <= FEW_EDGES {
-            self.look_at_few(slab, base, starts.clone(), quest);
+            self.look_at_few(slab, base, starts.clone(), search.quest);
             return self.pass_all(slab[1], base, starts);
         }
         let mut rest = starts;
@@ -77,7 +84,7 @@ impl SlabDecomposition {
             let inside = self.starting_before(rest.clone(), part[1]);
             let at_end = self.starting_before(inside.end..rest.end, part[1] + 1);
             rest.start = at_end.end;
-            self.look_into(part, base, inside, quest);
+            self.look_into(part, base, inside, search);
             if self.found.is_over() {
                 break;
             }
@@ -88,7 +95,9 @@ impl SlabDecomposition {
 
     /// Finds what is asked for between the stairs of a slab and all else in it; then, of what is left, in its parts. Leaves
     /// passing what goes beyond it, and in `starting` what started in it and does so.
-    fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, quest: Quest) {
+    fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
+        let Search { quest, meter } = search;
+        self.found.allow(meter.spend(self.passing.len() - base + starts.len()));
         let is_column = quest == Quest::Pairs && self.is_column(slab);
         if is_column {
             self.look_into_column(slab, base, starts.clone());
@@ -98,10 +107,10 @@ impl SlabDecomposition {
             self.pass_all(slab[1], child, starts);
         } else {
             self.sort_out(slab, base, starts.clone());
-            self.look_at_spanning(slab, quest);
+            self.look_at_spanning(slab, search);
             if slab[1] - slab[0] > 1 && !self.found.is_over() {
                 self.hand_on(slab);
-                self.descend(slab, child, starts, quest);
+                self.descend(slab, child, starts, search);
             }
         }
         self.starting.clear();
@@ -112,11 +121,12 @@ impl SlabDecomposition {
     }
 
     /// Finds what is asked for between the stairs of a slab and all else in it.
-    fn look_at_spanning(&mut self, slab: Slab, quest: Quest) {
+    fn look_at_spanning(&mut self, slab: Slab, Search { quest, meter }: Search<'_>) {
         let is_last = slab[1] - slab[0] == 1;
         let mut round = 0;
         while !self.spanning.is_empty() && (round < ROUNDS || is_last) && !self.found.is_over() {
             round += 1;
+            self.found.allow(meter.spend(self.spanning.len()));
             self.choose_stairs(slab);
             match quest {
                 Quest::Pairs => self.compare_stairs(slab),

@@ -1,5 +1,7 @@
 //! The pairs found so far, counted before they are too many.
 
+use crate::error::Error;
+
 /// See the module's page. A pair may be found in several slabs, and is dropped when they are counted.
 #[derive(Debug, Default)]
 pub(super) struct Found {
@@ -8,6 +10,8 @@ pub(super) struct Found {
     /// How many more may only come near one another, those found twice counted twice.
     near: usize,
     is_over: bool,
+    /// That the limits of the call are met.
+    refused: Option<Error>,
 }
 
 impl Found {
@@ -17,6 +21,18 @@ impl Found {
         self.most = most;
         self.near = near;
         self.is_over = false;
+        self.refused = None;
+    }
+
+    /// Ends the search where work is more than allowed.
+    pub(super) fn allow(&mut self, allowed: Result<(), Error>) {
+        self.refused = self.refused.or(allowed.err());
+        self.is_over |= self.refused.is_some();
+    }
+
+    /// Whether all work was allowed.
+    pub(super) fn allowed(&self) -> Result<(), Error> {
+        self.refused.map_or(Ok(()), Err)
     }
 
     /// Adds pairs, each with whether it may be new, which may only come near one another; when there are too many, nothing. Those

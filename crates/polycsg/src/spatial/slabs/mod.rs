@@ -45,9 +45,10 @@ mod spanning;
 #[cfg(test)]
 mod tests;
 
-use crate::base::id::index;
+use crate::base::{id::index, meter::Meter};
+use crate::error::Error;
 use crate::predicates::{Segment, Side, lexicographic, side};
-use descent::Quest;
+use descent::{Quest, Search};
 use found::Found;
 use glam::DVec2;
 use segments::{ClippedSegment, RankedSegment, Slab};
@@ -162,7 +163,7 @@ impl SlabDecomposition {
     /// Calls `visit` once for each pair of edges that may meet but in one common end or both, by their ids; of edges with
     /// both ends in common, one stands for all against another such.
     pub(crate) fn pairs(&mut self, visit: impl FnMut(u32, u32)) {
-        self.find(usize::MAX);
+        self.find(usize::MAX, &Meter::default()).expect("no limit was given");
         self.visit(visit);
     }
 
@@ -188,11 +189,15 @@ impl SlabDecomposition {
 
     /// Finds the pairs; false, with nothing to visit, when there are more than so many, or too many that only come near one
     /// another.
-    pub(crate) fn find(&mut self, most: usize) -> bool {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn find(&mut self, most: usize, meter: &Meter<'_>) -> Result<bool, Error> {
         let near = if self.reach > 0.0 { NEAR * self.segments.len() } else { usize::MAX };
         self.found.start(most, near);
-        self.look_into_all(Quest::Pairs);
-        !self.found.count()
+        self.look_into_all(Search { quest: Quest::Pairs, meter });
+        self.found.allowed()?;
+        Ok(!self.found.count())
     }
 
     /// An edge, directed to the right.

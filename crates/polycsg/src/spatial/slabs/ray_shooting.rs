@@ -1,7 +1,10 @@
 //! What is right below a point, asked for many points at once.
 
+use super::SlabDecomposition;
+use super::descent::{Quest, Search};
 use super::segments::{ClippedSegment, NONE, RankedSegment, Slab};
-use super::{SlabDecomposition, descent::Quest};
+use crate::base::meter::Meter;
+use crate::error::Error;
 use crate::predicates::{Side, height_order, side};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range};
@@ -9,7 +12,15 @@ use std::{cmp::Ordering, ops::Range};
 impl SlabDecomposition {
     /// For each of some of the points the edge right below it, by its id: of the edges that a ray straight down from just
     /// right of the point meets the first, edges that start in the point passed over.
-    pub(crate) fn below(&mut self, points: &[u32], found: &mut Vec<Option<u32>>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn below(
+        &mut self,
+        points: &[u32],
+        found: &mut Vec<Option<u32>>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Error> {
         self.queries.clear();
         self.queries.extend((0..).zip(points).map(|(place, &point)| (self.ranks[point as usize], place)));
         self.queries.sort_unstable();
@@ -18,10 +29,12 @@ impl SlabDecomposition {
         let SlabDecomposition { segments, ends, found: pairs, .. } = self;
         pairs.start(0, 0);
         segments.retain(|segment| ends[segment.ranks[0] as usize].x < ends[segment.ranks[1] as usize].x);
-        self.look_into_all(Quest::Below);
+        self.look_into_all(Search { quest: Quest::Below, meter });
+        self.found.allowed()?;
         found.clear();
         let id = |&segment: &u32| self.segments.get(segment as usize).map(|segment| segment.id);
         found.extend(self.nearest.iter().map(id));
+        Ok(())
     }
 
     /// The queries that lie in a slab but not at its right side.

@@ -1,9 +1,14 @@
 //! Whatever meets but in a common end is found, and not much else.
 use super::SlabDecomposition;
+use crate::base::meter::Meter;
 use crate::predicates::{Segment, Side, height_order, is_inside, rightward, side};
 use glam::DVec2;
 use proptest::prelude::*;
 use std::{cmp::Ordering, collections::BTreeSet};
+
+fn find(slabs: &mut SlabDecomposition) -> bool {
+    slabs.find(usize::MAX, &Meter::default()).expect("no limit was given")
+}
 
 fn found(segments: &[Segment]) -> BTreeSet<[u32; 2]> {
     let mut slabs = SlabDecomposition::default();
@@ -63,7 +68,7 @@ fn check_below(segments: &[Segment]) {
     slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
     let mut found = Vec::new();
     let points: Vec<u32> = (0..2 * count).collect();
-    slabs.below(&points, &mut found);
+    slabs.below(&points, &mut found, &Meter::default()).expect("no limit was given");
     let covers = |s: Segment, p: DVec2| s[0].x <= p.x && p.x < s[1].x && side(s[0], s[1], p) == Side::Left;
     for (found, p) in found.iter().zip(segments.iter().flatten()) {
         let below = segments.iter().map(|&s| rightward(s)).filter(|&s| covers(s, *p));
@@ -113,7 +118,7 @@ fn check_near(segments: &[Segment]) {
     let mut slabs = SlabDecomposition::default();
     let count = u32::try_from(segments.len()).unwrap();
     slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
-    if !slabs.widen(REACH) || !slabs.find(usize::MAX) {
+    if !slabs.widen(REACH) || !find(&mut slabs) {
         return;
     }
     let mut found = BTreeSet::new();
@@ -265,7 +270,7 @@ fn bundles_are_compared_once() {
     check(&bundle);
     let mut slabs = SlabDecomposition::default();
     slabs.build(bundle.iter().flatten().copied(), (0..120).map(|i| (i, [2 * i, 2 * i + 1])));
-    assert!(slabs.find(usize::MAX));
+    assert!(find(&mut slabs));
     let room = slabs.found.room();
     assert!(room < 60_000, "{room}");
 }
@@ -295,7 +300,7 @@ fn edges_nearly_through_a_point_cost_nothing() {
             let mut slabs = SlabDecomposition::default();
             let count = u32::try_from(segments.len()).unwrap();
             slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
-            assert!(slabs.find(usize::MAX));
+            assert!(find(&mut slabs));
             let room = slabs.found.room();
             assert!(room < 20 * segments.len(), "{room} for {}", segments.len());
             check(&segments);
@@ -320,7 +325,7 @@ fn parallel_edges_a_few_roundings_apart() {
     };
     let near = edges(2e-14);
     let mut slabs = slabs_of(&near);
-    assert!(slabs.widen(4e-16) && slabs.find(usize::MAX));
+    assert!(slabs.widen(4e-16) && find(&mut slabs));
     let mut found = BTreeSet::new();
     slabs.visit(|i, j| assert!(found.insert([i.min(j), i.max(j)])));
     let closest = |i: u32| near[i as usize][0].x.max(near[i as usize + 1][0].x) < near[i as usize][1].x;
@@ -328,8 +333,8 @@ fn parallel_edges_a_few_roundings_apart() {
     assert!(slabs.found.room() < 64 * 400, "{}", slabs.found.room());
     let nearer = edges(3e-16);
     let mut slabs = slabs_of(&nearer);
-    assert!(slabs.widen(4e-16) && !slabs.find(usize::MAX));
-    assert!(slabs.narrow() && slabs.find(usize::MAX) && !slabs.narrow());
+    assert!(slabs.widen(4e-16) && !find(&mut slabs));
+    assert!(slabs.narrow() && find(&mut slabs) && !slabs.narrow());
     check(&nearer);
 }
 
