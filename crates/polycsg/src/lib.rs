@@ -85,7 +85,6 @@ mod affine;
 mod arrangement;
 mod assemble;
 mod base;
-#[cfg(feature = "rayon")]
 mod batch;
 mod boundary;
 mod classify;
@@ -102,6 +101,7 @@ mod geo;
 mod pipeline;
 mod predicates;
 mod region;
+mod relate;
 #[cfg(feature = "serde")]
 mod serde;
 mod spatial;
@@ -115,4 +115,5 @@ pub use error::Error;
 pub use expression::csg::{Csg, FillRule};
 pub use pipeline::scratch::Scratch;
 pub use region::membership::Membership;
+pub use region::prepared::PreparedRegion;
 pub use region::{Invalid, Location, Polygon, Region};

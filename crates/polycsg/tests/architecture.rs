@@ -7,9 +7,10 @@ use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names,
 use std::{fs, path::Path};
 
 /// The folders and files of `src` from the top down: each imports only from itself and from those below it.
-const ORDER: [&str; 32] = [
+const ORDER: [&str; 34] = [
     "fuzzing",
     "batch",
+    "relate",
     "serde",
     "geo",
     "affine",
@@ -34,6 +35,7 @@ const ORDER: [&str; 32] = [
     "expression/winding",
     "expression/circuit",
     "expression",
+    "region/prepared",
     "spatial/ray_shooting",
     "spatial",
     "region",

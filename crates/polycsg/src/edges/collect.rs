@@ -2,7 +2,7 @@
 
 use super::{END, EdgeRing, Edges, Origin};
 use crate::base::id::index;
-use crate::expression::{bounds::ResultBounds, csg::Csg, winding::WindingNumbers};
+use crate::expression::{bounds::ResultBounds, csg::Csg, csg::Token, winding::WindingNumbers};
 use crate::region::rings::Rings;
 use glam::DVec2;
 
@@ -19,11 +19,12 @@ pub(crate) struct RingKey {
     ring: u32,
 }
 
-/// The rings of all operands.
-fn ring_keys<'a>(csg: &'a Csg<'_>) -> impl Iterator<Item = RingKey> + 'a {
-    let leaves =
-        (0..).zip(csg.postfix()).filter_map(|(token, leaf)| leaf.rings().map(|rings| (token, rings)));
-    leaves.zip(0..).flat_map(|((token, rings), operand)| {
+/// The rings of all operands, or of those alone that are not prepared.
+fn ring_keys<'a>(csg: &'a Csg<'_>, all: bool) -> impl Iterator<Item = RingKey> + 'a {
+    let leaves = (0..).zip(csg.postfix()).filter(|(_, leaf)| leaf.rings().is_some());
+    let wanted = leaves.zip(0..).filter(move |((_, leaf), _)| all || !matches!(leaf, Token::Prepared(_)));
+    let read = wanted.filter_map(|((token, leaf), operand)| Some((token, leaf.rings()?, operand)));
+    read.flat_map(|(token, rings, operand)| {
         let place = move |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
         (0..).zip(rings.iter()).map(place)
     })
@@ -67,13 +68,22 @@ impl Edges {
     ) {
         self.clear();
         all.clear();
-        all.extend(ring_keys(csg));
+        let window = bounds.window();
+        all.extend(ring_keys(csg, window.is_none()));
         if all.len() > FEW_RINGS && !are_near(all) {
             sort_by_place(all);
         }
         for &place in &*all {
             if let Some(rings) = csg.postfix()[place.token as usize].rings() {
                 self.add_ring(rings, place, winding, bounds);
+            }
+        }
+        if let Some(window) = window {
+            let leaves = csg.postfix().iter().filter(|leaf| leaf.rings().is_some());
+            for (leaf, operand) in leaves.zip(0..) {
+                if let Token::Prepared(prepared) = leaf {
+                    self.add_prepared(prepared, operand, winding.counter(operand as usize), &window);
+                }
             }
         }
     }
@@ -106,12 +116,17 @@ impl Edges {
         self.rings.push(EdgeRing { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
     }
 
+    /// Stores the origin of each slot.
+    pub(super) fn store_origins(&mut self) {
+        if self.origins.is_empty() {
+            self.origins = (0..index(self.points.len())).map(|slot| self.origin(slot)).collect();
+        }
+    }
+
     /// The points of a ring that differ from the next one, and the first of them again.
     fn add_distinct(&mut self, points: &[DVec2], origin: Origin) {
         let start = self.points.len();
-        if self.origins.is_empty() {
-            self.origins = (0..index(start)).map(|slot| self.origin(slot)).collect();
-        }
+        self.store_origins();
         for (pair, edge) in points.windows(2).zip(origin.edge..) {
             if pair[0] != pair[1] {
                 self.points.push(pair[0]);

@@ -2,6 +2,7 @@
 
 pub(crate) mod collect;
 pub(crate) mod duplicate_rings;
+mod localise;
 pub(crate) mod opposite_edges;
 
 use crate::base::id::index;

@@ -11,6 +11,7 @@
 
 use super::csg::{Csg, Token};
 use super::{circuit::Kind, winding::WindingNumbers};
+use crate::predicates::Window;
 use glam::DVec2;
 
 /// An axis-parallel box with its sides; no point when it is turned inside out.
@@ -27,6 +28,15 @@ impl Bounds {
     fn of(points: &[DVec2]) -> Bounds {
         let grown = |b: Bounds, &p: &DVec2| Bounds { low: b.low.min(p), high: b.high.max(p) };
         points.iter().fold(Bounds::NOTHING, grown)
+    }
+
+    fn of_operand(token: &Token<'_>) -> Bounds {
+        match token {
+            Token::Prepared(prepared) => {
+                prepared.bounds().map_or(Bounds::NOTHING, |[low, high]| Bounds { low, high })
+            }
+            token => token.rings().map_or(Bounds::NOTHING, |rings| Bounds::of(rings.points())),
+        }
     }
 
     fn joined(self, other: Bounds) -> Bounds {
@@ -80,9 +90,9 @@ impl ResultBounds {
         }
         let start = |gate| if gates.kind(gate) == Kind::All { Bounds::PLANE } else { Bounds::NOTHING };
         self.bounds.extend((0..gates.len()).map(start));
-        for (operand, rings) in csg.postfix().iter().filter_map(Token::rings).enumerate() {
+        for (operand, token) in csg.postfix().iter().filter(|token| token.rings().is_some()).enumerate() {
             if let Some(gate) = winding.gate_of(operand).filter(|&gate| self.tells[gate as usize]) {
-                self.bound(winding, gate, Bounds::of(rings.points()));
+                self.bound(winding, gate, Bounds::of_operand(token));
             }
         }
         for gate in (1..gates.len()).rev() {
@@ -99,6 +109,12 @@ impl ResultBounds {
             Kind::All => bounds.common(member),
             Kind::Any | Kind::Odd => bounds.joined(member),
         };
+    }
+
+    /// The box, if the result is confined to one.
+    pub(crate) fn window(&self) -> Option<Window> {
+        let result = self.bounds.first().filter(|result| result.low.cmpgt(DVec2::NEG_INFINITY).all())?;
+        Some(Window::new(result.low, result.high))
     }
 
     /// Whether a ring may matter.

@@ -1,7 +1,7 @@
 //! Expressions of Booleans over any number of operands, evaluated in one arrangement.
 
 use crate::error::Error;
-use crate::region::{Region, rings::Rings};
+use crate::region::{Region, prepared::PreparedRegion, rings::Rings};
 use glam::DVec2;
 use std::collections::VecDeque;
 use std::ops::{BitAnd, BitOr, BitXor, Sub};
@@ -53,6 +53,7 @@ pub(crate) enum Operator {
 #[derive(Clone, Debug)]
 pub(crate) enum Token<'a> {
     Region(&'a Region),
+    Prepared(&'a PreparedRegion),
     Rings(Rings, FillRule),
     /// An open edge as a ring, there and back. It bounds nothing; the arrangement tells what lies beside it.
     Edge(Rings),
@@ -65,6 +66,7 @@ impl Token<'_> {
     pub(crate) fn rings(&self) -> Option<&Rings> {
         match self {
             Token::Region(region) => Some(region.rings_of()),
+            Token::Prepared(prepared) => Some(prepared.rings()),
             Token::Rings(rings, _) | Token::Edge(rings) => Some(rings),
             Token::Operator(..) => None,
         }
@@ -110,6 +112,12 @@ pub struct Csg<'a> {
 impl<'a> From<&'a Region> for Csg<'a> {
     fn from(region: &'a Region) -> Self {
         Csg::leaf(Token::Region(region))
+    }
+}
+
+impl<'a> From<&'a PreparedRegion> for Csg<'a> {
+    fn from(prepared: &'a PreparedRegion) -> Self {
+        Csg::leaf(Token::Prepared(prepared))
     }
 }
 

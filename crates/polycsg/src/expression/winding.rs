@@ -85,6 +85,8 @@ impl WindingNumbers {
                     self.open.push(gate);
                 }
                 Token::Region(_) => self.add_region(gate),
+                // What is read of it winds once at most near the result alone: it shares no counter.
+                Token::Prepared(_) => self.add_rings(FillRule::Positive, gate),
                 Token::Rings(_, rule) => self.add_rings(*rule, gate),
                 Token::Edge(_) => self.operands.push(None),
             }

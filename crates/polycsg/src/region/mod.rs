@@ -2,6 +2,7 @@
 
 pub(crate) mod area;
 pub(crate) mod membership;
+pub(crate) mod prepared;
 pub(crate) mod rings;
 
 use crate::predicates::{Segment, Side, is_inside, lexicographic, rightward, side};
