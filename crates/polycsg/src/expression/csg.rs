@@ -136,7 +136,7 @@ impl<'a> Csg<'a> {
         R::Item: AsRef<[P]>,
         P: Copy + Into<DVec2>,
     {
-        Ok(Csg::leaf(Token::Rings(Rings::read(rings)?, rule)))
+        Ok(Csg::of_rings(Rings::read(rings)?, rule))
     }
 
     /// The union of any number of operands: all points in at least one of them. Without operands, the empty set.
@@ -179,7 +179,12 @@ impl<'a> Csg<'a> {
 
     /// Positively wound rings, already read.
     pub(crate) fn positive(rings: Rings) -> Csg<'static> {
-        Csg::leaf(Token::Rings(rings, FillRule::Positive))
+        Csg::of_rings(rings, FillRule::Positive)
+    }
+
+    /// Rings that were read already.
+    pub(crate) fn of_rings(rings: Rings, rule: FillRule) -> Csg<'a> {
+        Csg::leaf(Token::Rings(rings, rule))
     }
 
     /// The operands, and each operator behind its operands.

@@ -1,6 +1,7 @@
 //! Regions: polygons with holes, islands in the holes, and so on.
 
 pub(crate) mod area;
+mod collinear;
 pub(crate) mod membership;
 pub(crate) mod prepared;
 pub(crate) mod rings;

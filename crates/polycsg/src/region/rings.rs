@@ -23,18 +23,26 @@ impl Rings {
     {
         let mut read = Rings::default();
         for (ring, points) in rings.into_iter().enumerate() {
-            let points = points.as_ref();
-            read.points.reserve(points.len() + 1);
-            for (vertex, &point) in points.iter().enumerate() {
-                let point: DVec2 = point.into();
-                if !point.is_finite() {
-                    return Err(Error::NonFinite { ring, vertex });
-                }
-                read.points.push(point + DVec2::ZERO);
-            }
-            read.close();
+            read.read_ring(ring, points.as_ref().iter().map(|&point| point.into()))?;
         }
         Ok(read)
+    }
+
+    /// Reads one more ring; an error names it by its number.
+    pub(crate) fn read_ring(
+        &mut self,
+        ring: usize,
+        points: impl ExactSizeIterator<Item = DVec2>,
+    ) -> Result<(), Error> {
+        self.points.reserve(points.len() + 1);
+        for (vertex, point) in points.enumerate() {
+            if !point.is_finite() {
+                return Err(Error::NonFinite { ring, vertex });
+            }
+            self.points.push(point + DVec2::ZERO);
+        }
+        self.close();
+        Ok(())
     }
 
     pub(crate) fn with_capacity(points: usize, rings: usize) -> Rings {
