@@ -3,11 +3,15 @@
 use super::{END, EdgeRing, Edges, Origin};
 use crate::base::id::index;
 use crate::expression::{bounds::ResultBounds, csg::Csg, csg::Token, winding::WindingNumbers};
+use crate::predicates::Window;
 use crate::region::rings::Rings;
 use glam::DVec2;
 
 /// More rings than this are sorted, so that what lies close in the plane lies close in memory.
 const FEW_RINGS: usize = 64;
+
+/// Rings of more points are cut down to what the result's bounds see of them.
+const FEW_POINTS: usize = if cfg!(any(test, fuzzing)) { 3 } else { 64 };
 
 /// A ring by its first point.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +79,7 @@ impl Edges {
         }
         for &place in &*all {
             if let Some(rings) = csg.postfix()[place.token as usize].rings() {
-                self.add_ring(rings, place, winding, bounds);
+                self.add_ring(rings, place, winding, bounds, window.as_ref());
             }
         }
         if let Some(window) = window {
@@ -88,7 +92,14 @@ impl Edges {
         }
     }
 
-    fn add_ring(&mut self, rings: &Rings, place: RingKey, winding: &WindingNumbers, bounds: &ResultBounds) {
+    fn add_ring(
+        &mut self,
+        rings: &Rings,
+        place: RingKey,
+        winding: &WindingNumbers,
+        bounds: &ResultBounds,
+        window: Option<&Window>,
+    ) {
         let (operand, ring) = (place.operand, place.ring as usize);
         let (start, points) = (index(self.points.len()), rings.closed(ring));
         if !bounds.meets(points) {
@@ -97,7 +108,11 @@ impl Edges {
         let origin = Origin { operand, edge: index(rings.start(ring)) };
         let counter = winding.counter(operand as usize);
         let fewest = if counter.is_none() { 2 } else { 3 };
-        if points.windows(2).any(|pair| pair[0] == pair[1]) {
+        let repeats = points.windows(2).any(|pair| pair[0] == pair[1]);
+        if !repeats && window.is_some_and(|window| self.add_if_cut(points, origin, counter, window)) {
+            return;
+        }
+        if repeats {
             self.add_distinct(points, origin);
         } else {
             self.points.extend_from_slice(points);
@@ -114,6 +129,19 @@ impl Edges {
         }
         self.ring.resize(self.points.len(), index(self.rings.len()));
         self.rings.push(EdgeRing { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
+    }
+
+    /// Adds a ring of many points that leaves a window by what the window sees of it; false, if it is to be added whole.
+    fn add_if_cut(
+        &mut self,
+        points: &[DVec2],
+        origin: Origin,
+        counter: Option<u32>,
+        window: &Window,
+    ) -> bool {
+        points.len() > FEW_POINTS
+            && points.iter().any(|&p| window.outer_sides(p, p) != 0)
+            && self.add_seen(points, origin, counter, window)
     }
 
     /// Stores the origin of each slot.

@@ -7,6 +7,9 @@
 //!                     +--------+  the same.
 //! ```
 //!
+//! Of a ring that leaves the bounds only what is near them is read; the rest, which may then run anywhere outside of them, never
+//! matters: at each place outside of the bounds some operand that is needed is missing, and an operand stays in its own box.
+//!
 //! Rings that only touch the bounds stay: their vertices are put into the edges that they touch.
 
 use super::csg::{Csg, Token};

@@ -2,7 +2,7 @@
 //! expression holds there.
 //!
 //! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions) and stand
-//! under one union, intersection or symmetric difference share one counter: the number of operands that contain the
+//! under one union or symmetric difference share one counter: the number of operands that contain the
 //! place decides.
 
 use super::circuit::{Circuit, Kind};
@@ -14,8 +14,6 @@ enum Rule {
     NonZero,
     Positive,
     Odd,
-    /// So many: all of so many regions.
-    Equal(i32),
 }
 
 impl Rule {
@@ -25,7 +23,6 @@ impl Rule {
             Rule::NonZero => winding != 0,
             Rule::Positive => winding > 0,
             Rule::Odd => winding & 1 == 1,
-            Rule::Equal(count) => winding == count,
         }
     }
 }
@@ -84,9 +81,7 @@ impl WindingNumbers {
                     let gate = self.gate_for(*operator, *count, gate);
                     self.open.push(gate);
                 }
-                Token::Region(_) => self.add_region(gate),
-                // What is read of it winds once at most near the result alone: it shares no counter.
-                Token::Prepared(_) => self.add_rings(FillRule::Positive, gate),
+                Token::Region(_) | Token::Prepared(_) => self.add_region(gate),
                 Token::Rings(_, rule) => self.add_rings(*rule, gate),
                 Token::Edge(_) => self.operands.push(None),
             }
@@ -118,8 +113,9 @@ impl WindingNumbers {
 
     fn add_region(&mut self, gate: u32) {
         let rule = match self.gates.kind(gate) {
+            // What the result's bounds see of a region winds once at most within them alone: others must not make up for it.
+            Kind::All => return self.add_rings(FillRule::Positive, gate),
             Kind::Any => Rule::Positive,
-            Kind::All => Rule::Equal(0),
             Kind::Odd => Rule::Odd,
         };
         let counter = match self.shared[gate as usize] {
@@ -127,9 +123,6 @@ impl WindingNumbers {
             None => self.add_counter(rule, gate),
         };
         self.shared[gate as usize] = Some(counter);
-        if let Rule::Equal(count) = &mut self.counters[counter as usize].rule {
-            *count += 1;
-        }
         self.operands.push(Some(counter));
     }
 
