@@ -91,3 +91,76 @@ impl Band {
         product(leftmost) + window.error < self.from || product(rightmost) - window.error > self.to
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use proptest::prelude::*;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).expect("a finite number")
+    }
+
+    fn product(a: DVec2, b: DVec2) -> BigRational {
+        exact(a.x) * exact(b.x) + exact(a.y) * exact(b.y)
+    }
+
+    fn corners(window: &Window) -> [DVec2; 4] {
+        let Window { low, high, .. } = *window;
+        [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
+    }
+
+    fn check(points: &[DVec2], [a, b]: [DVec2; 2]) -> Result<(), TestCaseError> {
+        let window = Window::new(a.min(b), a.max(b));
+        let direction = points[points.len() - 1] - points[0];
+        let band = Band::along(direction, points);
+        if band.misses(&window) {
+            let normal = band.normal;
+            let of_points: Vec<_> = points.iter().map(|&p| product(normal, p)).collect();
+            let of_window = corners(&window).map(|p| product(normal, p));
+            let (low, high) = (of_points.iter().min(), of_points.iter().max());
+            prop_assert!(
+                of_window.iter().max() < low || of_window.iter().min() > high,
+                "{band:?} {window:?}"
+            );
+        }
+        let [p, q] = [points[0], points[1]];
+        let cross = |c: DVec2| {
+            (exact(q.x) - exact(p.x)) * (exact(c.y) - exact(p.y))
+                - (exact(q.y) - exact(p.y)) * (exact(c.x) - exact(p.x))
+        };
+        let zero = exact(0.0);
+        let sides = corners(&window).map(|c| cross(c).cmp(&zero));
+        let beside = sides.iter().all(|side| side.is_lt()) || sides.iter().all(|side| side.is_gt());
+        prop_assert_eq!(window.is_beside([p, q]), beside, "{:?} {:?}", [p, q], window);
+        Ok(())
+    }
+
+    fn near() -> impl Strategy<Value = DVec2> {
+        // On a line but for some last bits, so that rounding decides.
+        (-40..40_i32, -3..4_i64, -3..4_i64).prop_map(|(t, x, y)| {
+            let ulps = |v: f64, n: i64| f64::from_bits(v.to_bits().wrapping_add_signed(n));
+            DVec2::new(ulps(1.0 + f64::from(t) / 64.0, x), ulps(1.5 + f64::from(t) / 192.0, y))
+        })
+    }
+
+    fn anywhere() -> impl Strategy<Value = DVec2> {
+        let number = prop_oneof![prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL, Just(0.0), -4.0..4.0];
+        prop::array::uniform2(number).prop_map(DVec2::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn what_is_told_is_so_over_the_whole_range(points in prop::collection::vec(anywhere(), 2..6), ends in prop::array::uniform2(anywhere())) {
+            check(&points, ends)?;
+        }
+
+        #[test]
+        fn what_is_told_is_so_near_a_line(points in prop::collection::vec(near(), 2..6), ends in prop::array::uniform2(near())) {
+            check(&points, ends)?;
+        }
+    }
+}

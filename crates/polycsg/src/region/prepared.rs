@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 /// A [`Region`] with an index over its edges, for many questions about one region.
 ///
 /// Built once in O(n log n) for n edges, immutable, and shared by any number of threads. Beside the region's own 16 bytes for
-/// each point, the index takes 20 to 40 bytes for each edge of a long ring, and 160 bytes for each ring at least.
+/// each point, the index takes at most 20 bytes for each edge and 160 bytes for each ring.
 ///
 /// As an operand of an expression it is the same set as its region, bit for bit in every result. Where the other operands confine
 /// the result to a box, as in `small & prepared` and `small - prepared`, only the edges near that box are read: O(k + log n) for k of

@@ -48,7 +48,7 @@ pub(crate) enum Sight {
     Chord([u32; 2], u8),
 }
 
-/// See the module's page. 80 bytes a node; a ring of m edges takes m / 4 nodes at most, but one at least.
+/// See the module's page. 80 bytes a node; a ring of m edges takes 2 ⌈m / 8⌉ nodes with those above it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ChordTree {
     /// Each node before those below it.
