@@ -41,13 +41,16 @@ impl Fingerprint {
         self.add(region.area().to_bits());
     }
 
+    /// Its edges stand in no particular order, and of edges that coincide any is named.
     fn add_boundary(&mut self, expression: &Csg<'_>, scratch: &mut Scratch) {
+        let mut sum = 0_u64;
         for edge in expression.boundary(scratch).edges() {
-            self.add_point(edge.start);
-            self.add_point(edge.end);
-            self.add(edge.operand as u64);
-            self.add(edge.edge as u64);
+            let mut f = Fingerprint::new();
+            f.add_point(edge.start);
+            f.add_point(edge.end);
+            sum = sum.wrapping_add(f.0);
         }
+        self.add(sum);
     }
 
     /// All four operations on two operands, by either exit, and how a diagonal of the plane lies in the union.

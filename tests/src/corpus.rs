@@ -55,6 +55,15 @@ pub fn read_pair(path: &Path) -> Result<Pair, String> {
     value(path).and_then(|value| pair(&value)).map_err(|e| format!("{}: {e}", path.display()))
 }
 
+/// The named inputs of one file: a list of operands each.
+pub fn read_inputs(path: &Path) -> Result<Vec<(String, Vec<Operand>)>, String> {
+    let input = |value: &Value| {
+        let operands = list(&value["operands"])?.iter().map(operand).collect::<Result<_, _>>()?;
+        Ok((text_of(value, "name")?, operands))
+    };
+    list(&value(path)?)?.iter().map(input).collect()
+}
+
 fn value(path: &Path) -> Result<Value, String> {
     let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
     serde_json::from_str(&text).map_err(|e| e.to_string())

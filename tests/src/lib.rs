@@ -3,7 +3,7 @@
 //! Nothing here uses `polycsg`'s code: [`oracle`] is the plain algorithm over exact integers and rationals,
 //! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
 //! cases of `tests/corpus`, [`company`] sends them down every path. [`against`] sets a result of `polycsg` beside the oracle's, [`shrink`] makes a failing case small, [`survey`] counts how a kind of
-//! input fares, [`trees`] makes expressions, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
+//! input fares, [`trees`] makes expressions, [`retelling`] tells them in other words, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
 //! factors, which uses nothing of `formfactor`.
 pub mod against;
 pub mod company;
@@ -13,6 +13,7 @@ pub mod exact;
 pub mod generators;
 pub mod oracle;
 pub mod random;
+pub mod retelling;
 pub mod shrink;
 pub mod survey;
 pub mod sweep;

@@ -1,6 +1,7 @@
 //! Expressions of any shape: as `polycsg` evaluates them, and as Table 3.1 does.
 use crate::against::leaf;
 use crate::oracle::{Class, Operand};
+use crate::retelling::shuffle;
 use polycsg::{Csg, Region};
 
 /// An expression over numbered operands.
@@ -38,14 +39,45 @@ impl Tree {
 
     /// The expression with leaves of two kinds: raw rings, and regions (every other operand).
     pub fn csg<'a>(&self, operands: &[Operand], regions: &'a [Region]) -> Csg<'a> {
-        let all = |trees: &[Tree]| trees.iter().map(|tree| tree.csg(operands, regions)).collect::<Vec<_>>();
+        self.of(&|i| if i % 2 == 0 { leaf(&operands[i]) } else { Csg::from(&regions[i]) })
+    }
+
+    /// The expression, by the leaf that each operand is.
+    pub fn of<'a>(&self, leaf: &impl Fn(usize) -> Csg<'a>) -> Csg<'a> {
+        let all = |trees: &[Tree]| trees.iter().map(|tree| tree.of(leaf)).collect::<Vec<_>>();
         match self {
-            Tree::Operand(i) if i % 2 == 0 => leaf(&operands[*i]),
-            Tree::Operand(i) => Csg::from(&regions[*i]),
+            Tree::Operand(i) => leaf(*i),
             Tree::Union(trees) => Csg::union(all(trees)),
             Tree::Intersection(trees) => Csg::intersection(all(trees)),
             Tree::SymmetricDifference(trees) => Csg::symmetric_difference(all(trees)),
-            Tree::Difference(pair) => pair[0].csg(operands, regions) - pair[1].csg(operands, regions),
+            Tree::Difference(pair) => pair[0].of(leaf) - pair[1].of(leaf),
+        }
+    }
+
+    /// The operands in the order of appearance.
+    pub fn operands(&self) -> Vec<usize> {
+        match self {
+            Tree::Operand(i) => vec![*i],
+            Tree::Union(trees) | Tree::Intersection(trees) | Tree::SymmetricDifference(trees) => {
+                trees.iter().flat_map(Tree::operands).collect()
+            }
+            Tree::Difference(pair) => pair.iter().flat_map(Tree::operands).collect(),
+        }
+    }
+
+    /// The same set: what commutes may come in another order; `choose(n)` decides by a number below n.
+    pub fn retold(&self, choose: &mut impl FnMut(usize) -> usize) -> Tree {
+        let mut all = |trees: &[Tree]| {
+            let mut trees: Vec<Tree> = trees.iter().map(|tree| tree.retold(choose)).collect();
+            shuffle(&mut trees, choose);
+            trees
+        };
+        match self {
+            Tree::Operand(i) => Tree::Operand(*i),
+            Tree::Union(trees) => Tree::Union(all(trees)),
+            Tree::Intersection(trees) => Tree::Intersection(all(trees)),
+            Tree::SymmetricDifference(trees) => Tree::SymmetricDifference(all(trees)),
+            Tree::Difference(pair) => Tree::Difference(Box::new([0, 1].map(|i| pair[i].retold(choose)))),
         }
     }
 

@@ -54,10 +54,10 @@ pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, E
         Place::Vertex(vertex) => edges.point(vertex),
         Place::Crossing(e, f) => crossing_point(edges.segment(e), edges.segment(f)),
     };
-    // The segment is the first operand: the first edge of its ring runs along it, the second one back.
+    // The segment is the first operand. What is counted last is its end.
     let ring = edges.rings().iter().position(|ring| ring.origin.operand == 0).map_or(0, index);
-    let along = edges.rings()[ring as usize].start;
-    let sub_edges = arrangement.of_ring(ring).filter(|&sub_edge| arrangement.edge(sub_edge) == along);
+    let sub_edges = arrangement.of_ring(ring);
+    let sub_edges = sub_edges.start..sub_edges.end - 1;
     let intervals = sub_edges.map(|sub_edge| {
         let representative = arrangement.representative(sub_edge);
         let along = arrangement.is_along(edges, representative, sub_edge);

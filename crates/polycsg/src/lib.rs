@@ -18,9 +18,10 @@
 //! - *A result is always valid*: rings are simple and meet one another in common vertices only, outer rings run
 //!   counter-clockwise and holes clockwise, and holes and islands are nested correctly. So every operation takes every result.
 //! - *Input vertices that survive come back bit for bit* (`-0.0` as `0.0`). A crossing is rounded once, to nearest. Where
-//!   that would make edges meet, they are repaired, by moves of the size of that rounding.
-//! - *Results do not depend on* the order of operands and rings, on the ring's direction under the even-odd rule, or on where a
-//!   ring starts.
+//!   that would make edges meet, they are repaired, by moves of the size of that rounding. This may close a needle that is
+//!   narrower than the move, and a tip of it then vanishes with the area around it: an input vertex is kept or gone, never moved.
+//! - *Results do not depend on* the order of operands and rings, on where a ring starts, or on directions that the rule does not
+//!   read: of any ring under the even-odd rule, of all rings of an operand together under the non-zero rule.
 //! - NaN and infinity are the only errors, apart from a limit that the caller may set.
 //!
 //! ```

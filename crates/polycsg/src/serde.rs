@@ -41,10 +41,10 @@ impl<'de> Deserialize<'de> for Region {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Region, D::Error> {
         let polygons = Vec::<Vec<Vec<[f64; 2]>>>::deserialize(deserializer)?;
         let rings = Rings::read(polygons.iter().flatten()).map_err(de::Error::custom)?;
-        let given = Region::as_given(rings, polygons.iter().map(Vec::len));
+        let given = Region::as_given(rings);
         // The rings of a region bound it by their direction: read so, they yield it, or they are none.
         let region = given.evaluated_again();
-        if region.has_rings_of(&given) {
+        if region.has_rings_of(&given, polygons.iter().map(Vec::len)) {
             return Ok(region);
         }
         let invalid = given.validate().err().unwrap_or(Invalid::Structure);

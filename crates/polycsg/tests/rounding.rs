@@ -109,3 +109,19 @@ fn areas_are_right_where_their_terms_cancel() {
         assert!((region.area() - expected).abs() <= 2e-16 * expected, "{far:e}: {:e}", region.area());
     }
 }
+
+/// A needle 1e-16 wide at its foot and nothing at its tip: two edges of a triangle cross it, and where these crossings are
+/// rounded both sides of the needle become one.
+#[test]
+fn the_tip_of_a_needle_may_vanish() {
+    let tip = [1.0, 0.6];
+    let needle = [[0.0, 0.3_f64.next_up().next_up()], [0.0, 0.3], tip];
+    let triangle = [[1.0, 0.7], [0.2, 0.0], [0.9, 0.1]];
+    let region = |ring| Region::from_rings([ring], FillRule::NonZero).expect("finite");
+    let union = region(needle).union(&region(triangle));
+    assert_eq!(union.validate(), Ok(()));
+    let kept = |p: [f64; 2]| union.rings().flatten().any(|&q| q == DVec2::from(p));
+    assert!(needle[..2].iter().chain(&triangle).all(|&p| kept(p)));
+    assert!(!kept(tip));
+    assert!(region(needle).rings().flatten().any(|&q| q == DVec2::from(tip)));
+}

@@ -9,6 +9,8 @@ use std::time::Duration;
 /// Why there is no figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Failure {
+    /// It is not made for such a job.
+    Unfit,
     /// It took longer than it may.
     Slow,
     /// It refused or crashed.

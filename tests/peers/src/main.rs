@@ -2,6 +2,7 @@
 
 mod bench;
 mod child;
+mod memory;
 mod scaling;
 mod table;
 mod worker;
@@ -11,10 +12,10 @@ use clap::Parser;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// polycsg and its peers side by side: CPU seconds per call, minimum over interleaved rounds.
+/// polycsg and its peers side by side: CPU seconds per Boolean, minimum over interleaved rounds.
 #[derive(Parser)]
 struct Arguments {
-    /// Smaller inputs and fewer rounds: done within three minutes.
+    /// Smaller inputs and fewer rounds: done within ten minutes.
     #[arg(long)]
     quick: bool,
     /// Print one JSON object per row on stdout.
@@ -66,5 +67,6 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         // After every row, so that a run which is stopped leaves what it has.
         table::write(&rows, &output)?;
     }
+    table::conclude(&rows, arguments.json);
     Ok(())
 }

@@ -1,59 +1,57 @@
 //! How times grow with the input.
 
-use crate::bench::Row;
+use crate::bench::{Figures, Row};
 use std::fmt::Write;
 
 /// For each kind of input in several sizes: the exponent of every engine's time, over edges plus crossings.
 pub(crate) fn markdown(rows: &[Row]) -> String {
     let mut text = String::from(
-        "| workload | edges | largest: ns per edge + crossing | exponents |\n|---|---|---|---|\n",
+        "| workload | edges | polycsg, largest: ns per edge + crossing | polycsg: largest rise of ns per edge to the next size | exponents |\
+         \n|---|---|---|---|---|\n",
     );
-    let mut start = 0;
-    while start < rows.len() {
-        let same =
-            |row: &&Row| (row.workload.family, &row.op) == (rows[start].workload.family, &rows[start].op);
-        let family: Vec<&Row> = rows.iter().filter(same).collect();
-        let is_first = rows[..start].iter().all(|row| !same(&row));
-        if is_first && family.len() > 1 {
-            line(&family, &mut text);
+    for family in rows.chunk_by(|a, b| a.workload.plan.family == b.workload.plan.family) {
+        if family.len() > 1 {
+            line(family, &mut text);
         }
-        start += 1;
     }
     text
 }
 
-fn line(family: &[&Row], text: &mut String) {
-    let exponents: Vec<String> = (0..family[0].figures.len())
+fn line(family: &[Row], text: &mut String) {
+    let (first, last) = (&family[0], &family[family.len() - 1]);
+    let exponents: Vec<String> = (0..first.all().count())
         .filter_map(|engine| {
             let points: Vec<(f64, f64)> = family.iter().filter_map(|row| point(row, engine)).collect();
-            let name = family[0].figures[engine].engine;
+            let name = first.all().nth(engine)?.engine;
             exponent(&points).map(|exponent| format!("{name} {exponent:.2} ({})", points.len()))
         })
         .collect();
-    let [first, last] = [family[0], family[family.len() - 1]];
-    let each = per_contact(last).map_or("–".to_owned(), |each| format!("{each:.0}"));
+    let each = last.ours.first().and_then(seconds).zip(last.size()).map(|(time, size)| 1e9 * time / size);
     // Writing to a string does not fail.
     let _ = writeln!(
         text,
-        "| {} {} | {} … {} | {each} | {} |",
-        first.workload.family,
-        first.op,
+        "| {} | {} … {} | {} | {} | {} |",
+        first.workload.plan.family,
         first.edges,
         last.edges,
+        each.map_or("–".to_owned(), |each| format!("{each:.0}")),
+        rise(family).map_or("–".to_owned(), |rise| format!("{rise:.2}")),
         exponents.join(", ")
     );
 }
 
-fn point(row: &Row, engine: usize) -> Option<(f64, f64)> {
-    let size = row.edges + row.crossings?;
-    let seconds = row.figures[engine].seconds.clone().ok()?;
-    Some(((size as f64).ln(), seconds.ln()))
+fn seconds(figures: &Figures) -> Option<f64> {
+    figures.seconds.clone().ok()
 }
 
-/// Nanoseconds of polycsg per edge and crossing.
-pub(crate) fn per_contact(row: &Row) -> Option<f64> {
-    let seconds = row.figures.first()?.seconds.clone().ok()?;
-    Some(seconds * 1e9 / (row.edges + row.crossings?) as f64)
+/// By how much polycsg's time per edge rises at most from one size to the next.
+fn rise(family: &[Row]) -> Option<f64> {
+    let each = |row: &Row| Some(seconds(row.ours.first()?)? / row.edges as f64);
+    family.windows(2).filter_map(|pair| Some(each(&pair[1])? / each(&pair[0])?)).reduce(f64::max)
+}
+
+fn point(row: &Row, engine: usize) -> Option<(f64, f64)> {
+    Some((row.size()?.ln(), seconds(row.all().nth(engine)?)?.ln()))
 }
 
 /// The slope of the straight line of least squares.

@@ -2,62 +2,70 @@
 
 use crate::bench::{Figures, Row};
 use crate::child::Failure;
-use crate::scaling;
+use crate::{memory, scaling};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
-/// A peer's area further off than that share is wrong: its time does not count.
+/// A peer's areas further off than that share are wrong: its time does not count.
 const GROSS: f64 = 1e-3;
 
 impl Row {
-    fn polycsg(&self) -> &Figures {
-        &self.figures[0]
-    }
-
-    fn regions(&self) -> &Figures {
-        &self.figures[1]
-    }
-
-    fn peers(&self) -> &[Figures] {
-        &self.figures[2..]
-    }
-
-    /// The area's relative difference from that of i_overlay on its 64 bit grid, or of the first peer that has one.
+    /// How far polycsg's areas are from those of i_overlay on its 64 bit grid, or of the first peer that has some.
     fn area_error(&self) -> Option<f64> {
-        let area = |figures: &Figures| figures.outcome.as_ref().map(|outcome| outcome.area);
-        let fine = self.peers().iter().find(|peer| peer.engine == "i_overlay-i64").and_then(area);
-        let reference = fine.or_else(|| self.peers().iter().find_map(area))?;
-        let difference = (area(self.polycsg())? - reference).abs();
-        Some(if difference == 0.0 { 0.0 } else { difference / reference.abs() })
+        let fine = self.peers.iter().find(|peer| peer.engine == "i_overlay-i64");
+        let outcomes = |figures: &'_ Figures| figures.outcome.clone();
+        let reference = fine.and_then(outcomes).or_else(|| self.peers.iter().find_map(outcomes))?;
+        Some(self.ours.iter().find_map(outcomes)?.error(&reference))
     }
 
     fn is_gross(&self, peer: &Figures) -> bool {
-        let areas = self.polycsg().outcome.as_ref().zip(peer.outcome.as_ref());
-        areas.is_some_and(|(ours, its)| {
-            (ours.area - its.area).abs() > GROSS * ours.area.abs().max(its.area.abs())
-        })
+        let ours = self.ours.iter().find_map(|figures| figures.outcome.as_ref());
+        ours.zip(peer.outcome.as_ref()).is_some_and(|(ours, its)| its.error(ours) > GROSS)
     }
 
-    /// polycsg's time over that of the fastest rival whose area is right.
-    fn ratio(&self) -> Option<f64> {
-        let rivals = self.workload.rivals;
-        let counts = |peer: &&Figures| rivals.is_empty() || rivals.contains(&peer.engine);
-        let right = self.peers().iter().filter(counts).filter(|peer| !self.is_gross(peer));
-        let fastest = right.filter_map(|peer| peer.seconds.clone().ok()).reduce(f64::min)?;
-        Some(self.polycsg().seconds.clone().ok()? / fastest)
+    /// The fastest peer whose areas are right.
+    fn fastest(&self) -> Option<(&'static str, f64)> {
+        let right = self.peers.iter().filter(|peer| !self.is_gross(peer));
+        let times = right.filter_map(|peer| Some((peer.engine, peer.seconds.clone().ok()?)));
+        times.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// polycsg's time by one route over that of the fastest peer.
+    fn ratio(&self, route: &Figures) -> Option<f64> {
+        Some(route.seconds.clone().ok()? / self.fastest()?.1)
+    }
+
+    /// The same over the peer that the aim is about.
+    fn rival_ratio(&self, route: &Figures) -> Option<f64> {
+        let rival = self.peers.iter().find(|peer| Some(peer.engine) == self.workload.plan.rival)?;
+        Some(route.seconds.clone().ok()? / rival.seconds.clone().ok()?)
+    }
+
+    /// The ratio that is aimed at, where the route is asked for one.
+    fn limit(&self, route: &Figures) -> Option<f64> {
+        self.workload.plan.routes.contains(&route.engine).then_some(self.workload.limit)
     }
 }
 
 /// Prints a row when it is done.
 pub(crate) fn show(row: &Row, as_json: bool) {
-    // A closed pipe ends the output, not the run.
+    say(&if as_json { format!("{}\n", json_line(row)) } else { markdown_lines(row) });
+}
+
+/// Prints what all rows come to, beside JSON lines on stderr.
+pub(crate) fn conclude(rows: &[Row], as_json: bool) {
     if as_json {
-        let _ = writeln!(std::io::stdout(), "{}", json_line(row));
+        eprint!("{}", summary(rows));
     } else {
-        let _ = writeln!(std::io::stdout(), "{}", markdown_line(row));
+        say(&summary(rows));
     }
+}
+
+fn say(text: &str) {
+    // A closed pipe ends the output, not the run.
+    let _ = write!(std::io::stdout(), "{text}");
 }
 
 /// Writes peers.md and peers.jsonl, each whole or not at all.
@@ -80,33 +88,48 @@ fn write_whole(path: &Path, text: &str) -> Result<(), String> {
 }
 
 fn json_line(row: &Row) -> Value {
-    let seconds = |figures: &Figures| json!(figures.seconds.clone().ok());
-    let peers: Map<String, Value> =
-        row.peers().iter().map(|peer| (peer.engine.to_owned(), seconds(peer))).collect();
+    let seconds = |all: &[Figures]| -> Map<String, Value> {
+        all.iter().map(|figures| (figures.engine.to_owned(), json!(figures.seconds.clone().ok()))).collect()
+    };
     let named = |tell: fn(&Figures) -> Option<Value>| -> Map<String, Value> {
-        row.figures.iter().filter_map(|figures| Some((figures.engine.to_owned(), tell(figures)?))).collect()
+        row.all().filter_map(|figures| Some((figures.engine.to_owned(), tell(figures)?))).collect()
+    };
+    let ratios = |ratio: fn(&Row, &Figures) -> Option<f64>| -> Map<String, Value> {
+        let asked = row.ours.iter().filter(|route| row.limit(route).is_some());
+        asked.filter_map(|route| Some((route.engine.to_owned(), json!(ratio(row, route)?)))).collect()
     };
     json!({
         "workload": row.workload.name(),
+        "op": row.op,
+        "booleans": row.booleans,
         "edges": row.edges,
         "crossings": row.crossings,
-        "op": row.op,
-        "polycsg_s": seconds(row.polycsg()),
-        "polycsg_regions_s": seconds(row.regions()),
-        "peers": peers,
-        "ratio": row.ratio(),
+        "cut": row.cut,
+        "polycsg_s": row.ours.first().and_then(|route| route.seconds.clone().ok()),
+        "routes": seconds(&row.ours),
+        "peers": seconds(&row.peers),
+        "fastest": row.fastest().map(|fastest| fastest.0),
+        "ratios": ratios(Row::ratio),
+        "rival": row.workload.plan.rival,
+        "rival_ratios": ratios(Row::rival_ratio),
         "at_most": row.workload.limit,
         "area_error": row.area_error(),
-        "valid": row.polycsg().outcome.as_ref().and_then(|outcome| outcome.valid),
+        "valid": is_valid(row),
         "peak_bytes": named(|figures| figures.bytes.map(|bytes| json!(bytes))),
-        "areas": named(|figures| figures.outcome.as_ref().map(|outcome| json!(outcome.area))),
+        "areas": named(|figures| figures.outcome.as_ref().map(|outcome| json!(outcome.areas.iter().sum::<f64>()))),
         "rings": named(|figures| figures.outcome.as_ref().map(|outcome| json!(outcome.rings))),
         "failures": named(|figures| figures.seconds.as_ref().err().map(|failure| json!(why(failure)))),
     })
 }
 
+fn is_valid(row: &Row) -> Option<bool> {
+    let checks = row.ours.iter().filter_map(|figures| figures.outcome.as_ref()?.valid);
+    checks.reduce(|a, b| a && b)
+}
+
 fn why(failure: &Failure) -> &str {
     match failure {
+        Failure::Unfit => "unfit",
         Failure::Slow => "slow",
         Failure::Error(message) => message,
     }
@@ -114,55 +137,108 @@ fn why(failure: &Failure) -> &str {
 
 fn markdown(rows: &[Row]) -> String {
     let mut text = String::from(
-        "CPU time per call, least of interleaved rounds, one thread. `slow`: over the time allowed for a call, or a smaller input was;\
-         \n`error`: refused or crashed; `!`: area wrong by more than 1e-3, not counted in the ratio.\n\n",
+        "CPU time per Boolean, least of interleaved rounds, one thread. `slow`: over the time allowed for a call, or a smaller input\
+         \nwas; `error`: refused or crashed; `!`: areas wrong by more than 1e-3, not counted in the ratio; `–`: not made for this.\n\n",
     );
-    let names: Vec<&str> =
-        rows.first().map_or(vec![], |row| row.peers().iter().map(|peer| peer.engine).collect());
-    let head = format!(
-        "| workload | op | edges | crossings | polycsg | from regions | {} | ratio | at most | area error | valid |",
-        names.join(" | ")
-    );
-    let columns = head.matches('|').count() - 1;
-    let _ = writeln!(text, "{head}\n|{}", "---|".repeat(columns));
-    rows.iter().for_each(|row| text.extend([markdown_line(row), "\n".to_owned()]));
+    let groups = rows.chunk_by(|a, b| a.workload.group.title == b.workload.group.title);
+    groups.for_each(|rows| text.push_str(&section(rows)));
     let _ = write!(
         text,
-        "\n## Growth\n\nExponents of the time over edges plus crossings; in brackets the sizes that were done.\n\n"
+        "{}\n## Growth\n\nExponents of the time over edges plus crossings; in brackets the sizes that were done.\n\n{}\n## Memory\n\n{}",
+        summary(rows),
+        scaling::markdown(rows),
+        memory::markdown(rows)
     );
-    text.push_str(&scaling::markdown(rows));
-    text.push_str(&memory(rows));
     text
 }
 
-fn markdown_line(row: &Row) -> String {
-    let peers: Vec<String> = row
-        .peers()
-        .iter()
-        .map(|peer| if row.is_gross(peer) { format!("{} !", time(peer)) } else { time(peer) })
-        .collect();
-    let number = |number: Option<f64>| number.map_or("–".to_owned(), |number| format!("{number:.2}"));
-    let valid = row.polycsg().outcome.as_ref().and_then(|outcome| outcome.valid);
+/// The rows of one group, with what selects them.
+fn section(rows: &[Row]) -> String {
+    let group = rows[0].workload.group;
+    let only: Vec<String> = group.plans.iter().map(|plan| format!("--only {}", plan.family)).collect();
+    let names: Vec<&str> = rows[0].peers.iter().map(|peer| peer.engine).collect();
+    let head = format!(
+        "| workload | op | from | edges | crossings | polycsg | ratio | fastest | at most | {} | area error | valid |",
+        names.join(" | ")
+    );
+    let rule = "---|".repeat(head.matches('|').count() - 1);
+    let lines: String = rows.iter().map(markdown_lines).collect();
+    format!("### {}\n\n`{}`\n\n{head}\n|{rule}\n{lines}\n", group.title, only.join(" "))
+}
+
+/// The geometric mean of the ratios that are asked for, how many there are, and those above 1.
+fn sum(rows: &[Row]) -> (f64, usize, Vec<String>) {
+    let asked = rows.iter().flat_map(|row| row.ours.iter().map(move |route| (row, route)));
+    let asked: Vec<_> = asked.filter(|(row, route)| row.limit(route).is_some()).collect();
+    let ratios: Vec<f64> = asked.iter().filter_map(|(row, route)| row.ratio(route)).collect();
+    let above = asked.iter().filter_map(|(row, route)| {
+        let ratio = match row.ratio(route) {
+            Some(ratio) if ratio <= 1.0 => return None,
+            Some(ratio) => format!("{ratio:.2}"),
+            None => time(route),
+        };
+        Some(format!("{} from {} {ratio}", row.workload.name(), route.engine))
+    });
+    let mean = ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / ratios.len() as f64;
+    (mean.exp(), ratios.len(), above.collect())
+}
+
+fn summary(rows: &[Row]) -> String {
+    let (mean, count, above) = sum(rows);
+    let above = if above.is_empty() { "none".to_owned() } else { above.join(", ") };
+    format!("Geometric mean of {count} ratios: {mean:.3}. Above 1, or without a ratio: {above}.\n")
+}
+
+/// A line for each route; the peers' figures stand in the first.
+fn markdown_lines(row: &Row) -> String {
+    let blank = || vec![String::new(); row.peers.len()];
+    let lines = row.ours.iter().enumerate().map(|(i, route)| {
+        let peers = if i == 0 { row.peers.iter().map(|peer| marked(row, peer)).collect() } else { blank() };
+        markdown_line(row, route, &peers)
+    });
+    lines.collect()
+}
+
+fn marked(row: &Row, peer: &Figures) -> String {
+    if row.is_gross(peer) { format!("{} !", time(peer)) } else { time(peer) }
+}
+
+fn markdown_line(row: &Row, route: &Figures, peers: &[String]) -> String {
+    let crossings = row.crossings.map(|crossings| format!("{:.*}", usize::from(row.booleans > 1), crossings));
+    let cut = row.cut.map(|cut| format!("{:.1} % cut", 100.0 * cut));
     format!(
-        "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
         row.workload.name(),
         row.op,
+        route.engine,
         row.edges,
-        row.crossings.map_or("–".to_owned(), |crossings| crossings.to_string()),
-        time(row.polycsg()),
-        time(row.regions()),
+        crossings.or(cut).unwrap_or("–".to_owned()),
+        time(route),
+        number(row.ratio(route)),
+        row.fastest().map_or("–", |fastest| fastest.0),
+        aim(row, route),
         peers.join(" | "),
-        number(row.ratio()),
-        number(row.workload.limit),
         row.area_error().map_or("–".to_owned(), |error| format!("{error:.0e}")),
-        valid.map_or("–", |valid| if valid { "yes" } else { "NO" }),
+        is_valid(row).map_or("–", |valid| if valid { "yes" } else { "NO" }),
     )
+}
+
+/// What is aimed at; where that is about one peer, its name and the ratio to it.
+fn aim(row: &Row, route: &Figures) -> String {
+    let limit = number(row.limit(route));
+    let rival = row.workload.plan.rival.filter(|_| row.limit(route).is_some());
+    rival.map_or(limit.clone(), |rival| format!("{limit} of {rival} (is {})", number(row.rival_ratio(route))))
+}
+
+fn number(number: Option<f64>) -> String {
+    number.map_or("–".to_owned(), |number| format!("{number:.2}"))
 }
 
 /// Three digits and a unit.
 fn time(figures: &Figures) -> String {
     let seconds = match &figures.seconds {
         Ok(seconds) => *seconds,
+        Err(Failure::Unfit) => return "–".to_owned(),
         Err(Failure::Slow) => return "slow".to_owned(),
         Err(Failure::Error(_)) => return "error".to_owned(),
     };
@@ -173,25 +249,4 @@ fn time(figures: &Figures) -> String {
     };
     let digits = if value < 10.0 { 2 } else { usize::from(value < 100.0) };
     format!("{value:.digits$} {unit}")
-}
-
-/// The peak of each engine against what polycsg may use.
-fn memory(rows: &[Row]) -> String {
-    let mut text = String::from(
-        "\n## Memory\n\nBytes that a call makes the process grow by; polycsg may use 250 an edge and 150 a crossing.\n\n",
-    );
-    text.push_str("| workload | op | allowed | measured |\n|---|---|---|---|\n");
-    for row in rows.iter().filter(|row| row.figures.iter().any(|figures| figures.bytes.is_some())) {
-        let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
-        let measured: Vec<String> = row
-            .figures
-            .iter()
-            .filter_map(|figures| Some(format!("{} {}", figures.engine, megabytes(figures.bytes?))))
-            .collect();
-        let allowed = row.crossings.map(|crossings| megabytes((250 * row.edges + 150 * crossings) as u64));
-        let allowed = allowed.unwrap_or("–".to_owned());
-        let _ =
-            writeln!(text, "| {} | {} | {allowed} | {} |", row.workload.name(), row.op, measured.join(", "));
-    }
-    text
 }

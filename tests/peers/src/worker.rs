@@ -3,7 +3,7 @@
 //! A process of its own for each engine bounds what a hang or a crash can spoil, and tells peak memory.
 
 use peers::engines::{Outcome, Task, engine};
-use peers::job::Job;
+use peers::job::{Job, pairs};
 use peers::shapes::family;
 use polycsg::{Csg, FillRule, Scratch};
 use serde::{Deserialize, Serialize};
@@ -17,12 +17,12 @@ pub(crate) enum Reply {
     Ready,
     /// What came out of a call.
     Outcome(Outcome),
-    /// CPU seconds per call.
+    /// CPU seconds per Boolean.
     Seconds(f64),
     /// Bytes that the process grew by during a call.
     Bytes(u64),
-    /// How often edges of the input cross.
-    Crossings(usize),
+    /// How often edges of a Boolean's input cross, on average.
+    Crossings(f64),
     /// The engine refused.
     Failed(String),
 }
@@ -83,12 +83,15 @@ fn growth(task: &mut dyn Task) -> Result<Reply, String> {
 }
 
 /// Under the even-odd rule all edges bound the set, each cut once by each crossing.
-fn crossings(job: &Job) -> usize {
-    let rings = job.subject.iter().chain(&job.clip).flatten();
+fn crossings(job: &Job) -> f64 {
     let mut scratch = Scratch::default();
-    let pieces =
-        Csg::from_rings(rings, FillRule::EvenOdd).map(|csg| csg.boundary(&mut scratch).edges().count());
-    pieces.map_or(0, |pieces| pieces.saturating_sub(job.edges()) / 2)
+    let all = pairs(&job.subjects, &job.clips).map(|(subject, clip)| {
+        let rings = subject.iter().chain(clip).flatten();
+        let edges: usize = rings.clone().map(Vec::len).sum();
+        let csg = Csg::from_rings(rings, FillRule::EvenOdd);
+        csg.map_or(0, |csg| csg.boundary(&mut scratch).edges().count().saturating_sub(edges) / 2)
+    });
+    all.sum::<usize>() as f64 / job.subjects.len() as f64
 }
 
 /// A size in bytes from the kernel's account of this process.

@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test stops at whatever is missing")]
 
-use peers::engines::{PEERS, POLYCSG, POLYCSG_BOUNDARY, POLYCSG_REGIONS, POLYCSG_REGIONS_BOUNDARY};
-use peers::job::{Job, Polygon};
+use peers::engines::{PEERS, ROUTES};
+use peers::job::{Job, Parts, Polygon, Ring};
 use peers::shapes::{family, is_fetched};
 use polycsg::{FillRule, Region};
 
@@ -21,6 +21,16 @@ fn jobs() -> Vec<(&'static str, Job)> {
         ("grid", 12),
         ("checkers-shifted", 12),
         ("checkers-complement", 12),
+        ("smooth-intersection", 512),
+        ("smooth-union", 8),
+        ("ragged-intersection", 256),
+        ("tiles", 16),
+        ("neighbours", 64),
+        ("clips-smooth", 100),
+        ("clips-spiky", 16),
+        ("parcels", 400),
+        ("skyline", 100),
+        ("baseline-random", 50),
     ];
     sizes.into_iter().map(|(name, size)| (name, (family(name).unwrap().make)(size).unwrap())).collect()
 }
@@ -41,14 +51,14 @@ fn assert_rules_agree(name: &str, polygon: &Polygon) {
 #[test]
 fn polygons_are_valid() {
     for (name, job) in jobs() {
-        job.subject.iter().chain(&job.clip).for_each(|polygon| assert_rules_agree(name, polygon));
+        job.subjects.iter().chain(&job.clips).flatten().for_each(|polygon| assert_rules_agree(name, polygon));
     }
 }
 
 #[test]
 fn disjoint_polygons_fill_the_sum_of_their_areas() {
-    for (name, job) in jobs().into_iter().filter(|(_, job)| job.disjoint) {
-        for operand in [&job.subject, &job.clip] {
+    for (name, job) in jobs().into_iter().filter(|(_, job)| job.parts != Parts::Overlapping) {
+        for operand in job.subjects.iter().chain(&job.clips) {
             let sum: f64 = operand.iter().map(|polygon| region(polygon, FillRule::NonZero).area()).sum();
             let all = region(&operand.concat(), FillRule::NonZero).area();
             assert!((sum - all).abs() <= 1e-12 * sum, "{name}: {sum} {all}");
@@ -59,13 +69,32 @@ fn disjoint_polygons_fill_the_sum_of_their_areas() {
 #[test]
 fn engines_agree() {
     for (name, job) in jobs() {
-        let area = (POLYCSG.load)(&job).unwrap().outcome().unwrap().area;
-        let ours = [POLYCSG_BOUNDARY, POLYCSG_REGIONS, POLYCSG_REGIONS_BOUNDARY];
-        for engine in ours.iter().chain(PEERS) {
+        let first = (ROUTES[0].load)(&job).unwrap().outcome().unwrap();
+        assert_eq!(first.areas.len(), job.subjects.len(), "{name}");
+        for engine in ROUTES.iter().chain(PEERS).filter(|engine| (engine.fits)(&job)) {
             let outcome = (engine.load)(&job).unwrap().outcome().unwrap();
-            let error = (outcome.area - area).abs();
-            assert!(error <= 1e-6 * area, "{name}, {}: {} for {area}", engine.name, outcome.area);
+            assert_eq!(outcome.areas.len(), first.areas.len(), "{name}, {}", engine.name);
+            let error = outcome.error(&first);
+            assert!(error <= 1e-6, "{name}, {}: {error}", engine.name);
         }
+    }
+}
+
+/// A coverage has no edge that more than two polygons share, and those of two run opposite ways.
+#[test]
+fn coverages_share_their_borders() {
+    for (name, job) in jobs().into_iter().filter(|(_, job)| job.parts == Parts::Coverage) {
+        let mut edges: Vec<[[u64; 2]; 2]> = Vec::new();
+        let bits = |p: [f64; 2]| p.map(f64::to_bits);
+        for ring in job.subjects.iter().flatten().flatten() {
+            edges.extend(ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| [bits(*a), bits(*b)]));
+        }
+        edges.sort_unstable();
+        assert!(edges.windows(2).all(|pair| pair[0] != pair[1]), "{name}");
+        let shared = edges.iter().filter(|[a, b]| edges.binary_search(&[*b, *a]).is_ok()).count();
+        let all: Vec<Ring> = job.subjects.concat().concat();
+        let outline: usize = region(&all, FillRule::NonZero).rings().map(<[_]>::len).sum();
+        assert_eq!(edges.len() - shared, outline, "{name}");
     }
 }
 
@@ -85,7 +114,7 @@ fn maps_cover_what_they_show() {
     // 9.37 of 510 million square kilometres.
     for (name, scale, share) in [("land", 50, 0.292), ("countries", 50, 0.292), ("counties", 10, 0.0184)] {
         let job = (family(name).unwrap().make)(scale).unwrap();
-        let found = share_of_the_globe(&job.subject);
+        let found = share_of_the_globe(&job.subjects[0]);
         assert!((found / share - 1.0).abs() < 0.03, "{name}: {found}");
     }
 }

@@ -2,10 +2,12 @@
 mod crowd;
 mod lattice;
 mod nasty;
+mod small;
 
 pub use crowd::crowd;
 pub use lattice::lattice;
 pub use nasty::{KINDS, nasty};
+pub use small::{FAMILIES, Small, small};
 
 use crate::Ring;
 use crate::oracle::Operand;

@@ -55,7 +55,7 @@ fn near(random: &mut Random) -> DVec2 {
     DVec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0))
 }
 
-fn ulps(random: &mut Random, value: f64, most: i32) -> f64 {
+pub(super) fn ulps(random: &mut Random, value: f64, most: i32) -> f64 {
     let mut moved = value;
     for _ in 0..random.between(0, most) {
         moved = if random.one_in(2) { moved.next_up() } else { moved.next_down() };
@@ -63,7 +63,7 @@ fn ulps(random: &mut Random, value: f64, most: i32) -> f64 {
     moved
 }
 
-fn jittered(random: &mut Random, p: DVec2, most: i32) -> DVec2 {
+pub(super) fn jittered(random: &mut Random, p: DVec2, most: i32) -> DVec2 {
     DVec2::new(ulps(random, p.x, most), ulps(random, p.y, most))
 }
 

@@ -9,6 +9,8 @@
 //!               h3               of h[0].
 //! ```
 //!
+//! The end of an open ring counts as one more sub-edge, which has no half-edges.
+//!
 //! A node where just two edges cross needs no list: the two sub-edges that start there tell everything. All other nodes are
 //! junctions. Overlapping sub-edges leave a junction in one direction. The one with the smallest id is their representative:
 //! only this one is walked and labelled.
@@ -60,6 +62,13 @@ struct SubEdge {
     partner: Partner,
 }
 
+impl SubEdge {
+    /// How many half-edges of its ring there are where it starts.
+    fn half_edges(self) -> u32 {
+        if matches!(self.partner.kind(), PartnerKind::First | PartnerKind::End) { 1 } else { 2 }
+    }
+}
+
 impl Arrangement {
     /// Cuts all rings at their contacts.
     pub(crate) fn split(&mut self, edges: &Edges, contacts: &Contacts) {
@@ -80,7 +89,8 @@ impl Arrangement {
         let mut sub_edge = 0;
         for ring in edges.rings() {
             self.first.push(index(sub_edge));
-            sub_edge += self.sub_edges[sub_edge..].partition_point(|sub_edge| sub_edge.edge < ring.end);
+            let end = ring.end + u32::from(ring.is_open);
+            sub_edge += self.sub_edges[sub_edge..].partition_point(|sub_edge| sub_edge.edge < end);
         }
         self.first.push(index(sub_edge));
     }
@@ -94,7 +104,7 @@ impl Arrangement {
             let starting = &mut self.starting[sub_edge.node as usize];
             match *starting {
                 [NONE, NONE] => starting[0] = i,
-                [NONE, junction] => self.starts[junction as usize + 2] += 2,
+                [NONE, junction] => self.starts[junction as usize + 2] += sub_edge.half_edges(),
                 [_, _] => starting[1] = i,
             }
         }
@@ -155,10 +165,14 @@ impl Arrangement {
         for sub_edge in 0..index(self.sub_edges.len()) {
             if let [NONE, junction] = self.starting[self.node(sub_edge) as usize] {
                 let previous = self.previous(edges, sub_edge);
-                let at = &mut self.starts[junction as usize + 1];
-                around[*at as usize] = 2 * sub_edge;
-                around[*at as usize + 1] = 2 * previous + 1;
-                *at += 2;
+                let kind = self.sub_edges[sub_edge as usize].partner.kind();
+                let leaving = (kind != PartnerKind::End).then_some(2 * sub_edge);
+                let arriving = (kind != PartnerKind::First).then_some(2 * previous + 1);
+                for half_edge in leaving.into_iter().chain(arriving) {
+                    let at = &mut self.starts[junction as usize + 1];
+                    around[*at as usize] = half_edge;
+                    *at += 1;
+                }
             }
         }
         self.starts.pop();
@@ -214,7 +228,7 @@ impl Arrangement {
     /// Whether a sub-edge starts in the start of its edge.
     #[inline]
     pub(crate) fn starts_edge(&self, sub_edge: u32) -> bool {
-        self.sub_edges[sub_edge as usize].partner.kind() == PartnerKind::Start
+        self.sub_edges[sub_edge as usize].partner.is_end()
     }
 
     /// Whether the edge that crosses where a sub-edge starts comes from the left.

@@ -10,7 +10,7 @@
 //! A cycle that visits a node twice (a hole that touches its outer ring, two holes that touch) is cut there.
 
 use crate::base::id::index;
-use crate::boundary::outline::Outline;
+use crate::boundary::outline::{BoundaryChain, Outline};
 use crate::predicates::{Side, lexicographic, side};
 use crate::region::rings::Rings;
 use glam::DVec2;
@@ -30,10 +30,11 @@ pub(crate) struct SimpleRing {
     pub(crate) chain: u32,
 }
 
-/// A half-edge at a node where several leave: the end of a chain, and whether the chain leaves there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A half-edge at a node where several chains leave: the end of a chain, and whether the chain leaves there.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct IncidentHalfEdge {
-    pub(crate) node: u32,
+    /// The point next to the node.
+    pub(crate) end: DVec2,
     pub(crate) chain: u32,
     pub(crate) leaves: bool,
 }
@@ -47,12 +48,16 @@ pub(crate) struct Cycles {
     ring_of_chain: Vec<u32>,
     /// Whether around each node chains arrive and leave in turn, as those of a boundary do.
     pub(crate) alternate: bool,
-    /// The chains at nodes where several leave, by node and angle.
-    half_edges: Vec<IncidentHalfEdge>,
     /// Per node a chain that leaves it.
     leaving: Vec<u32>,
+    /// The nodes where several leave, and per node its number among them; empty where there are none.
+    crowded: Vec<u32>,
+    crowd: Vec<u32>,
+    /// The chains at those nodes, by node and angle, and where those of each start.
+    half_edges: Vec<IncidentHalfEdge>,
+    starts: Vec<u32>,
+    /// Per chain the one behind it; none once it was walked.
     next: Vec<u32>,
-    walked: Vec<bool>,
     cut: Cut,
 }
 
@@ -91,97 +96,117 @@ impl Cycles {
 
     /// The chains at the start of a chain, by angle; none where only one leaves.
     pub(crate) fn half_edges_at_start(&self, outline: &Outline, chain: u32) -> &[IncidentHalfEdge] {
-        let node = outline.chains()[chain as usize].start;
-        let start = self.half_edges.partition_point(|half_edge| half_edge.node < node);
-        let count = self.half_edges[start..].partition_point(|half_edge| half_edge.node == node);
-        &self.half_edges[start..start + count]
+        match self.crowd.get(outline.chains()[chain as usize].start as usize) {
+            None | Some(&NONE) => &[],
+            Some(&crowd) => &self.half_edges[self.span(crowd as usize)],
+        }
+    }
+
+    fn span(&self, crowd: usize) -> Range<usize> {
+        self.starts[crowd] as usize..self.starts[crowd + 1] as usize
     }
 
     /// Walks all chains and cuts the walks into rings.
     pub(crate) fn link(&mut self, outline: &Outline) -> &Cycles {
-        self.reset(outline);
+        self.rings.clear();
+        self.about.clear();
+        self.ring_of_chain.clear();
+        self.ring_of_chain.resize(outline.chains().len(), NONE);
         self.find_successors(outline);
+        self.cut.depth.clear();
+        self.cut.depth.resize(outline.node_count(), NONE);
         let mut cycle = 0;
-        for first in 0..index(outline.chains().len()) {
-            if self.walked[first as usize] {
+        for first in 0..outline.chains().len() {
+            if self.next[first] == NONE {
                 continue;
             }
-            let mut chain = first;
-            while !self.walked[chain as usize] {
-                self.walked[chain as usize] = true;
+            let mut chain = index(first);
+            while self.next[chain as usize] != NONE {
                 if let Some(depth) = self.cut.visit(outline, chain) {
                     self.close_ring(outline, depth, cycle);
                 }
-                chain = self.next[chain as usize];
+                chain = std::mem::replace(&mut self.next[chain as usize], NONE);
             }
             cycle += 1;
         }
         self
     }
 
-    fn reset(&mut self, outline: &Outline) {
-        let (chains, nodes) = (outline.chains().len(), outline.node_count());
-        self.rings.clear();
-        self.about.clear();
-        self.ring_of_chain.clear();
-        self.ring_of_chain.resize(chains, NONE);
-        self.next.clear();
-        self.next.resize(chains, NONE);
-        self.walked.clear();
-        self.walked.resize(chains, false);
-        self.leaving.clear();
-        self.leaving.resize(nodes, NONE);
-        self.cut.path.clear();
-        self.cut.depth.clear();
-        self.cut.depth.resize(nodes, NONE);
-    }
-
     /// Finds the chain that comes after each one by the turn rule.
     fn find_successors(&mut self, outline: &Outline) {
-        self.half_edges.clear();
+        self.leaving.clear();
+        self.leaving.resize(outline.node_count(), NONE);
+        self.crowded.clear();
         for (chain, about) in (0..).zip(outline.chains()) {
-            let leaving = &mut self.leaving[about.start as usize];
-            if *leaving != NONE {
-                self.half_edges.push(IncidentHalfEdge { node: about.start, chain, leaves: true });
+            if std::mem::replace(&mut self.leaving[about.start as usize], chain) != NONE {
+                self.crowded.push(about.start);
             }
-            *leaving = chain;
         }
+        self.next.clear();
+        self.next.extend(outline.chains().iter().map(|about| self.leaving[about.end as usize]));
+        self.crowd.clear();
         self.alternate = true;
-        if !self.half_edges.is_empty() {
+        if !self.crowded.is_empty() {
             self.gather_half_edges(outline);
-        }
-        for (next, about) in self.next.iter_mut().zip(outline.chains()).filter(|(next, _)| **next == NONE) {
-            *next = self.leaving[about.end as usize];
         }
     }
 
     /// Pairs the chains where several leave a node.
     fn gather_half_edges(&mut self, outline: &Outline) {
-        let mut crowded: Vec<u32> = self.half_edges.iter().map(|half_edge| half_edge.node).collect();
-        crowded.sort_unstable();
-        crowded.dedup();
+        self.number_crowds(outline);
+        let ends = |about: &BoundaryChain| [(about.start, true), (about.end, false)];
+        let empty = IncidentHalfEdge { end: DVec2::ZERO, chain: NONE, leaves: false };
         self.half_edges.clear();
+        self.half_edges.resize(self.starts.last().copied().unwrap_or(0) as usize, empty);
         for (chain, about) in (0..).zip(outline.chains()) {
-            for (node, leaves) in [(about.start, true), (about.end, false)] {
-                if crowded.binary_search(&node).is_ok() {
-                    self.half_edges.push(IncidentHalfEdge { node, chain, leaves });
+            for (node, leaves) in ends(about) {
+                let crowd = self.crowd[node as usize];
+                if crowd != NONE {
+                    let end = self.end(outline, chain, leaves);
+                    let place = &mut self.starts[crowd as usize + 1];
+                    self.half_edges[*place as usize] = IncidentHalfEdge { end, chain, leaves };
+                    *place += 1;
                 }
             }
         }
-        self.half_edges.sort_unstable_by_key(|half_edge| half_edge.node);
         let mut half_edges = std::mem::take(&mut self.half_edges);
-        for around in half_edges.chunk_by_mut(|a, b| a.node == b.node) {
-            self.alternate &= self.pair_by_angle(outline, around);
+        for crowd in 0..self.starts.len() - 2 {
+            let pivot = outline.points(self.leaving[self.crowded[crowd] as usize])[0];
+            self.alternate &= self.pair_by_angle(pivot, &mut half_edges[self.span(crowd)]);
         }
         self.half_edges = half_edges;
     }
 
+    /// Numbers the nodes where several chains leave, and counts their half-edges: those of the one before end at
+    /// `starts[crowd + 1]`, which moves on as they are listed.
+    fn number_crowds(&mut self, outline: &Outline) {
+        let (crowd, mut count) = (&mut self.crowd, 0);
+        crowd.resize(outline.node_count(), NONE);
+        self.crowded.retain(|&node| {
+            let is_new = crowd[node as usize] == NONE;
+            if is_new {
+                crowd[node as usize] = count;
+                count += 1;
+            }
+            is_new
+        });
+        self.starts.clear();
+        self.starts.resize(count as usize + 2, 0);
+        for node in outline.chains().iter().flat_map(|about| [about.start, about.end]) {
+            let crowd = self.crowd[node as usize];
+            if crowd != NONE {
+                self.starts[crowd as usize + 2] += 1;
+            }
+        }
+        for crowd in 2..self.starts.len() {
+            self.starts[crowd] += self.starts[crowd - 1];
+        }
+    }
+
     /// Follows each arriving chain by the first leaving one clockwise; false where two in a row arrive or leave.
-    fn pair_by_angle(&mut self, outline: &Outline, around: &mut [IncidentHalfEdge]) -> bool {
-        let pivot = self.node_point(outline, around[0].node);
-        around.sort_unstable_by(|&a, &b| {
-            by_angle(pivot, self.half_edge_end(outline, a), self.half_edge_end(outline, b))
-                .then((a.chain, a.leaves).cmp(&(b.chain, b.leaves)))
+    fn pair_by_angle(&mut self, pivot: DVec2, around: &mut [IncidentHalfEdge]) -> bool {
+        around.sort_unstable_by(|a, b| {
+            by_angle(pivot, a.end, b.end).then((a.chain, a.leaves).cmp(&(b.chain, b.leaves)))
         });
         let alternate = (0..around.len()).all(|i| {
             let (half_edge, before) = (around[i], around[if i == 0 { around.len() - 1 } else { i - 1 }]);
@@ -198,43 +223,39 @@ impl Cycles {
         alternate
     }
 
-    fn node_point(&self, outline: &Outline, node: u32) -> DVec2 {
-        outline.points(self.leaving[node as usize])[0]
-    }
-
-    /// The point next to the node on a chain.
-    pub(crate) fn half_edge_end(&self, outline: &Outline, half_edge: IncidentHalfEdge) -> DVec2 {
-        let points = outline.points(half_edge.chain);
-        match (half_edge.leaves, points.len()) {
-            (true, 1) => self.node_point(outline, outline.chains()[half_edge.chain as usize].end),
-            (true, _) => points[1],
-            (false, count) => points[count - 1],
+    /// The point of a chain next to its start or to its end.
+    fn end(&self, outline: &Outline, chain: u32, at_start: bool) -> DVec2 {
+        match (at_start, outline.points(chain)) {
+            (true, &[_, next, ..]) => next,
+            (true, _) => outline.points(self.next[chain as usize])[0],
+            (false, points) => points[points.len() - 1],
         }
     }
 
     /// Moves the path's chains from `depth` on to a ring of their own.
     fn close_ring(&mut self, outline: &Outline, depth: usize, cycle: u32) {
-        let start = self.rings.points().len();
-        let mut chains = 0..0;
-        let mut smallest = (DVec2::MAX, NONE, NONE);
-        for chain in self.cut.path.drain(depth..) {
+        for &chain in &self.cut.path[depth..] {
             self.cut.depth[outline.chains()[chain as usize].start as usize] = NONE;
             self.ring_of_chain[chain as usize] = index(self.about.len());
-            let points = outline.points(chain);
-            chains = chains.end..chains.end + points.len();
-            for (i, &point) in points.iter().enumerate() {
-                if lexicographic(point, smallest.0) == Ordering::Less || smallest.1 == NONE {
-                    smallest = (point, index(start + chains.start + i), if i == 0 { chain } else { NONE });
-                }
-            }
-            self.rings.extend(points);
+            self.rings.extend(outline.points(chain));
         }
         self.rings.close();
         let ring = self.rings.slots(self.about.len());
+        let points = self.rings.points();
+        let is_left_of = |a: usize, b: usize| lexicographic(points[a], points[b]) == Ordering::Less;
+        let leftmost = (ring.start + 1..ring.end - 1)
+            .fold(ring.start, |best, slot| if is_left_of(slot, best) { slot } else { best });
+        let mut start = ring.start;
+        let starts_leftmost = |chain: &u32| {
+            let place = start;
+            start += outline.points(*chain).len();
+            place == leftmost
+        };
+        let chain = self.cut.path.drain(depth..).find(starts_leftmost).unwrap_or(NONE);
         // The turn at the lexicographically smallest point is that of the whole ring.
-        let [before, after] = neighbours(&ring, smallest.1 as usize).map(|slot| self.rings.points()[slot]);
-        let counter_clockwise = side(before, smallest.0, after) == Side::Left;
-        self.about.push(SimpleRing { cycle, counter_clockwise, leftmost: smallest.1, chain: smallest.2 });
+        let [before, after] = neighbours(&ring, leftmost).map(|slot| points[slot]);
+        let counter_clockwise = side(before, points[leftmost], after) == Side::Left;
+        self.about.push(SimpleRing { cycle, counter_clockwise, leftmost: index(leftmost), chain });
     }
 }
 

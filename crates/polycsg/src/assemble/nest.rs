@@ -15,7 +15,7 @@ use super::link::{Cycles, IncidentHalfEdge, SimpleRing, by_angle, neighbours};
 use crate::base::{id::index, id::span};
 use crate::boundary::outline::Outline;
 use crate::predicates::lexicographic;
-use crate::region::{Region, RegionBuilder};
+use crate::region::{Region, RegionBuilder, rings::Rings};
 use crate::spatial::strips::Strips;
 use crate::spatial::{chains::MonotoneChains, ray_shooting::VerticalRays, slabs::SlabDecomposition};
 use glam::DVec2;
@@ -32,20 +32,45 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
     /// The rings by leftmost point; of those that start in one point the lower first.
-    order: Vec<u32>,
+    corners: Vec<LeftmostCorner>,
     /// Per cycle its outer ring, if it has one, and the one of its rings that starts furthest left.
     outer: Vec<u32>,
     leftmost: Vec<u32>,
-    /// Per ring the polygon that it bounds from outside or inside.
-    polygon: Vec<u32>,
-    /// Per ring that is outer: the polygon around it.
-    around: Vec<u32>,
+    places: Vec<RingPlace>,
     /// Per polygon the number of polygons around it.
     depth: Vec<u32>,
-    /// The leftmost points, of which it matters what is below them, and per ring the place of its point there.
+    /// The leftmost points of which it matters what is below them.
     asked: Vec<u32>,
-    question: Vec<u32>,
     below: VerticalRays,
+}
+
+/// Where a ring lies.
+#[derive(Clone, Copy, Debug)]
+struct RingPlace {
+    /// The polygon that it bounds from outside or inside.
+    polygon: u32,
+    /// If it is outer: the polygon around it.
+    around: u32,
+    beside: Beside,
+}
+
+/// What the place of a ring depends on.
+#[derive(Clone, Copy, Debug)]
+enum Beside {
+    /// Another ring of its cycle.
+    Cycle,
+    /// A ring through its leftmost point, and whether the outside is to that one's left.
+    Ring(u32, bool),
+    /// What is below its leftmost point, as the place of the question.
+    Below(u32),
+}
+
+/// The leftmost point of a ring, and the neighbour on the lower of the two edges there.
+#[derive(Clone, Copy, Debug)]
+struct LeftmostCorner {
+    point: DVec2,
+    lower: DVec2,
+    ring: u32,
 }
 
 struct Nest<'a> {
@@ -63,50 +88,50 @@ pub(crate) fn nest(
     slabs: &mut SlabDecomposition,
     nesting: &mut Nesting,
 ) -> Result<Region, Misnested> {
+    let rings = cycles.rings();
     if !cycles.alternate {
         return Err(Misnested);
     }
-    let rings = cycles.rings();
+    match cycles.about() {
+        [] => return Ok(Region::default()),
+        // A single ring has nothing around it and nothing in it.
+        [single] => {
+            return if single.counter_clockwise { Ok(nest_single(rings, single)) } else { Err(Misnested) };
+        }
+        _ => {}
+    }
     nesting.start(cycles)?;
     let mut nest = Nest { outline, cycles, nesting };
-    // What is below a single ring's leftmost point is known: nothing.
-    if rings.len() > 1 {
-        nest.ask();
-        chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
-        strips.build(chains.boxes());
-        let Nesting { below, asked, .. } = &mut *nest.nesting;
-        below.shoot(chains, strips, slabs, rings.points(), asked);
-    }
-    for i in 0..nest.nesting.order.len() {
-        nest.place(nest.nesting.order[i])?;
+    nest.ask();
+    chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
+    strips.build(chains.boxes());
+    let Nesting { below, asked, .. } = &mut *nest.nesting;
+    below.shoot(chains, strips, slabs, rings.points(), asked);
+    for i in 0..nest.nesting.corners.len() {
+        nest.place(nest.nesting.corners[i].ring)?;
     }
     Ok(nest.build())
 }
 
+fn nest_single(rings: &Rings, single: &SimpleRing) -> Region {
+    let mut builder = RegionBuilder::with_capacity(rings.point_count(), 1);
+    builder.ring(from_leftmost(rings, 0, single));
+    builder.build()
+}
+
 impl Nesting {
     fn start(&mut self, cycles: &Cycles) -> Result<(), Misnested> {
-        let rings = cycles.about();
-        self.polygon.clear();
-        self.polygon.resize(rings.len(), NONE);
-        self.around.clear();
-        self.around.resize(rings.len(), NONE);
+        self.places.clear();
         self.depth.clear();
         self.asked.clear();
-        self.question.clear();
-        self.question.resize(rings.len(), NONE);
-        self.sort_rings(cycles);
-        self.find_outer(rings)?;
+        self.corners.clear();
+        self.corners.extend((0..index(cycles.about().len())).map(|ring| LeftmostCorner::of(cycles, ring)));
+        self.corners.sort_unstable_by(|a, b| {
+            lexicographic(a.point, b.point).then_with(|| by_angle(a.point, a.lower, b.lower))
+        });
+        self.find_outer(cycles.about())?;
         self.find_leftmost(cycles);
         Ok(())
-    }
-
-    fn sort_rings(&mut self, cycles: &Cycles) {
-        self.order.clear();
-        self.order.extend(0..index(cycles.about().len()));
-        self.order.sort_unstable_by(|&a, &b| {
-            let (a, b) = (LeftmostCorner::of(cycles, a), LeftmostCorner::of(cycles, b));
-            lexicographic(a.point, b.point).then_with(|| by_angle(a.point, a.lower(), b.lower()))
-        });
     }
 
     fn find_outer(&mut self, rings: &[SimpleRing]) -> Result<(), Misnested> {
@@ -125,33 +150,26 @@ impl Nesting {
     fn find_leftmost(&mut self, cycles: &Cycles) {
         self.leftmost.clear();
         self.leftmost.resize(self.outer.len(), NONE);
-        for &ring in self.order.iter().rev() {
-            self.leftmost[cycles.about()[ring as usize].cycle as usize] = ring;
+        for corner in self.corners.iter().rev() {
+            self.leftmost[cycles.about()[corner.ring as usize].cycle as usize] = corner.ring;
         }
     }
-}
-
-/// The leftmost point of a ring, and its neighbours.
-struct LeftmostCorner {
-    point: DVec2,
-    before: DVec2,
-    after: DVec2,
-    counter_clockwise: bool,
 }
 
 impl LeftmostCorner {
     fn of(cycles: &Cycles, ring: u32) -> LeftmostCorner {
         let SimpleRing { leftmost, counter_clockwise, .. } = cycles.about()[ring as usize];
         let points = cycles.rings().points();
-        let slots = cycles.rings().slots(ring as usize);
-        let [before, after] = neighbours(&slots, leftmost as usize).map(|slot| points[slot]);
-        LeftmostCorner { point: points[leftmost as usize], before, after, counter_clockwise }
+        let [before, after] = neighbours(&cycles.rings().slots(ring as usize), leftmost as usize);
+        let lower = points[if counter_clockwise { after } else { before }];
+        LeftmostCorner { point: points[leftmost as usize], lower, ring }
     }
+}
 
-    /// The neighbour on the lower of the two edges.
-    fn lower(&self) -> DVec2 {
-        if self.counter_clockwise { self.after } else { self.before }
-    }
+/// The points of a ring from its leftmost one on, in two parts.
+fn from_leftmost<'r>(rings: &'r Rings, ring: usize, about: &SimpleRing) -> [&'r [DVec2]; 2] {
+    let (slots, leftmost) = (rings.slots(ring), about.leftmost as usize);
+    [leftmost..slots.end - 1, slots.start..leftmost].map(|part| &rings.points()[part])
 }
 
 impl Nest<'_> {
@@ -159,20 +177,28 @@ impl Nest<'_> {
         self.cycles.about()[ring as usize]
     }
 
-    /// Lists the rings whose leftmost points look for a ring below.
+    /// Finds what the place of each ring depends on.
     fn ask(&mut self) {
         for ring in 0..index(self.cycles.about().len()) {
-            let SimpleRing { cycle, counter_clockwise, .. } = self.ring(ring);
-            let asks = if counter_clockwise {
-                self.clockwise_neighbour(ring).is_none()
-            } else {
-                self.nesting.outer[cycle as usize] == NONE && self.nesting.leftmost[cycle as usize] == ring
-            };
-            if asks {
-                self.nesting.question[ring as usize] = index(self.nesting.asked.len());
+            let beside = self.beside(ring);
+            if let Beside::Below(_) = beside {
                 self.nesting.asked.push(self.ring(ring).leftmost);
             }
+            self.nesting.places.push(RingPlace { polygon: NONE, around: NONE, beside });
         }
+    }
+
+    fn beside(&self, ring: u32) -> Beside {
+        let SimpleRing { cycle, counter_clockwise, .. } = self.ring(ring);
+        let below = Beside::Below(index(self.nesting.asked.len()));
+        if counter_clockwise {
+            // A chain of the leftmost point itself: the outside lies on its left seen from the point.
+            return self.clockwise_neighbour(ring).map_or(below, |half_edge| {
+                Beside::Ring(self.cycles.ring_of_chain(half_edge.chain), !half_edge.leaves)
+            });
+        }
+        let has_outer = self.nesting.outer[cycle as usize] != NONE;
+        if has_outer || self.nesting.leftmost[cycle as usize] != ring { Beside::Cycle } else { below }
     }
 
     fn place(&mut self, ring: u32) -> Result<(), Misnested> {
@@ -182,20 +208,23 @@ impl Nest<'_> {
         let outer = self.nesting.outer[self.ring(ring).cycle as usize];
         // The outer ring of a hole's own cycle starts further left, so it is placed already.
         let owner = if outer == NONE { self.ring_below_hole(ring)? } else { outer };
-        self.nesting.polygon[ring as usize] = self.nesting.polygon[owner as usize];
-        if self.nesting.polygon[ring as usize] == NONE { Err(Misnested) } else { Ok(()) }
+        let polygon = self.nesting.places[owner as usize].polygon;
+        self.nesting.places[ring as usize].polygon = polygon;
+        if polygon == NONE { Err(Misnested) } else { Ok(()) }
     }
 
     fn place_outer(&mut self, ring: u32) -> Result<(), Misnested> {
         let around = match self.ring_beside_outer(ring)? {
             None => NONE,
-            Some(other) if self.nesting.polygon[other as usize] == NONE => return Err(Misnested),
-            Some(other) if self.ring(other).counter_clockwise => self.nesting.around[other as usize],
-            Some(hole) => self.nesting.polygon[hole as usize],
+            Some(other) => match self.nesting.places[other as usize] {
+                RingPlace { polygon: NONE, .. } => return Err(Misnested),
+                RingPlace { around, .. } if self.ring(other).counter_clockwise => around,
+                RingPlace { polygon, .. } => polygon,
+            },
         };
         let depth = if around == NONE { 0 } else { self.nesting.depth[around as usize] + 1 };
-        self.nesting.polygon[ring as usize] = index(self.nesting.depth.len());
-        self.nesting.around[ring as usize] = around;
+        let place = &mut self.nesting.places[ring as usize];
+        (place.polygon, place.around) = (index(self.nesting.depth.len()), around);
         self.nesting.depth.push(depth);
         Ok(())
     }
@@ -211,10 +240,9 @@ impl Nest<'_> {
 
     /// The ring that bounds the outside of an outer ring, right below its leftmost point.
     fn ring_beside_outer(&self, ring: u32) -> Result<Option<u32>, Misnested> {
-        let (other, outside) = match self.clockwise_neighbour(ring) {
-            // A chain of the point itself: the outside lies on its left seen from the point.
-            Some(half_edge) => (self.cycles.ring_of_chain(half_edge.chain), !half_edge.leaves),
-            None => match self.ring_below(ring) {
+        let (other, outside) = match self.nesting.places[ring as usize].beside {
+            Beside::Ring(other, outside) => (other, outside),
+            _ => match self.ring_below(ring) {
                 None => return Ok(None),
                 Some((other, interior_above)) => (other, !interior_above),
             },
@@ -230,49 +258,46 @@ impl Nest<'_> {
             return None; // inside a chain nothing meets it
         }
         let half_edges = self.cycles.half_edges_at_start(self.outline, chain);
-        let point = LeftmostCorner::of(self.cycles, ring).point;
-        let end = |half_edge: IncidentHalfEdge| self.cycles.half_edge_end(self.outline, half_edge);
-        let own = end(IncidentHalfEdge { chain, leaves: true, ..*half_edges.first()? });
-        let first =
-            half_edges.partition_point(|&half_edge| by_angle(point, end(half_edge), own) == Ordering::Less);
+        let SimpleRing { leftmost, .. } = self.ring(ring);
+        let points = self.cycles.rings().points();
+        let (point, own) = (points[leftmost as usize], points[leftmost as usize + 1]);
+        let first = half_edges.partition_point(|other| by_angle(point, other.end, own) == Ordering::Less);
         let is_own = |half_edge: &IncidentHalfEdge| half_edge.chain == chain && half_edge.leaves;
         let place = first + half_edges[first..].iter().position(is_own)?;
         match place.checked_sub(1) {
             Some(before) => Some(half_edges[before]),
-            None => half_edges
-                .last()
-                .copied()
-                .filter(|&half_edge| lexicographic(end(half_edge), point) == Ordering::Less),
+            None => {
+                half_edges.last().copied().filter(|other| lexicographic(other.end, point) == Ordering::Less)
+            }
         }
     }
 
     /// The ring that runs right below the leftmost point of a ring, and whether its interior lies above.
     fn ring_below(&self, ring: u32) -> Option<(u32, bool)> {
+        let Beside::Below(question) = self.nesting.places[ring as usize].beside else { return None };
         let rings = self.cycles.rings();
-        let question = self.nesting.question[ring as usize];
-        let edge = if question == NONE { None } else { self.nesting.below.edge(question as usize) }?;
+        let edge = self.nesting.below.edge(question as usize)?;
         let [start, end] = [edge, edge + 1].map(|slot| rings.points()[slot as usize]);
         Some((index(rings.ring_at(edge as usize)), lexicographic(start, end) == Ordering::Less))
     }
 
     /// The polygons, outermost first, then by leftmost point.
     fn build(&mut self) -> Region {
-        let Nesting { order, polygon, depth, .. } = &mut *self.nesting;
+        let Nesting { corners, places, depth, .. } = &mut *self.nesting;
         let about = self.cycles.about();
         let is_hole = |ring: u32| !about[ring as usize].counter_clockwise;
-        // Polygons are numbered by leftmost point, and `order` is too: what remains equal keeps its order.
-        order.sort_by_key(|&ring| {
-            let polygon = polygon[ring as usize];
+        // Polygons are numbered by leftmost point, and `corners` are sorted by it: what remains equal keeps its order.
+        corners.sort_by_key(|&LeftmostCorner { ring, .. }| {
+            let polygon = places[ring as usize].polygon;
             (depth[polygon as usize], polygon, is_hole(ring))
         });
         let rings = self.cycles.rings();
         let mut builder = RegionBuilder::with_capacity(rings.point_count(), rings.len());
-        for &ring in order.iter() {
+        for &LeftmostCorner { ring, .. } in corners.iter() {
             if !is_hole(ring) {
-                builder.polygon(depth[polygon[ring as usize] as usize]);
+                builder.polygon(depth[places[ring as usize].polygon as usize]);
             }
-            let (slots, leftmost) = (rings.slots(ring as usize), about[ring as usize].leftmost as usize);
-            builder.ring([leftmost..slots.end - 1, slots.start..leftmost].map(|part| &rings.points()[part]));
+            builder.ring(from_leftmost(rings, ring as usize, &about[ring as usize]));
         }
         builder.build()
     }

@@ -148,14 +148,14 @@ impl Selection {
     fn round(&mut self, edges: &Edges, contacts: &Contacts) {
         self.rounded.clear();
         self.rounded.resize(contacts.node_count(), UNUSED);
-        for node in self.pieces.iter().filter_map(|piece| piece.nodes).flatten() {
+        for &node in self.pieces.iter().flat_map(|piece| &piece.nodes).flatten() {
             if let Place::Crossing(..) = contacts.place(node) {
                 self.rounded[node as usize] = WANTED;
             }
         }
         let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));
         Threads::for_edges(edges.len()).for_each(parts, |(points, nodes)| {
-            for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| **point == WANTED) {
+            for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| point.x == WANTED.x) {
                 if let Place::Crossing(e, f) = Place::of(node) {
                     *point = crossing_point(edges.segment(e), edges.segment(f));
                 }

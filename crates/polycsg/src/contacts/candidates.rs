@@ -9,8 +9,9 @@
 //! A sample of the pairs of boxes decides. All three lead to one result. A sample may mislead, so boxes are given up later
 //! where they exceed their budget even so.
 
-use super::{budget::WorkBudget, pair::cross_clearly};
-use crate::edges::Edges;
+use super::budget::WorkBudget;
+use super::pair::{Meeting, meeting, overlap};
+use crate::edges::{Edges, coincident::CoincidentEdges};
 use crate::predicates::Margins;
 use crate::spatial::{chains::MonotoneChains, strips::Strips};
 
@@ -49,15 +50,21 @@ pub(crate) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Indexes the edges by their chains, and decides by a sample how their pairs are found. Expected O(n log n).
+    /// Indexes the edges by their chains, and decides by a sample how their pairs are found. Where the sample has more pairs
+    /// that overlap than there are edges, these are cut first. Expected O(n log n).
     pub(crate) fn index(
-        edges: &'a Edges,
+        edges: &'a mut Edges,
+        coincident: &mut CoincidentEdges,
         chains: &'a mut MonotoneChains,
         strips: &'a mut Strips,
         budget: WorkBudget,
     ) -> Candidates<'a> {
-        strips.build(chains.boxes());
-        let phase = Sample::of(edges, chains, strips).choice(budget);
+        let mut sample = Sample::of(edges, chains, strips);
+        if sample.overlaps > edges.len() {
+            coincident.cut(edges);
+            sample = Sample::of(edges, chains, strips);
+        }
+        let phase = sample.choice(budget);
         if phase == BroadPhase::Edges {
             chains.cut_to_edges(edges.points(), edges.spans());
             strips.build(chains.boxes());
@@ -75,13 +82,17 @@ struct Sample {
     chain_pairs: usize,
     pairs: usize,
     crossings: usize,
+    /// The pairs of edges that overlap.
+    overlaps: usize,
     /// The blocks of boxes to be looked at.
     blocks: usize,
 }
 
 impl Sample {
-    /// O(n): the sample ends as soon as it tells that boxes are not quick.
-    fn of(edges: &Edges, chains: &MonotoneChains, strips: &Strips) -> Sample {
+    /// Indexes the edges by their chains for it. The sample ends, in O(n), as soon as it tells that boxes are not quick.
+    fn of(edges: &Edges, chains: &mut MonotoneChains, strips: &mut Strips) -> Sample {
+        chains.build(edges.points(), edges.spans());
+        strips.build(chains.boxes());
         let mut sample = Sample { chains: chains.len(), edges: edges.len(), ..Sample::default() };
         if chains.len() < FEW {
             return sample;
@@ -92,14 +103,17 @@ impl Sample {
             sample.chain_pairs += 1;
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                 sample.pairs += 1;
-                sample.crossings += usize::from(cross_clearly(edges, [e.min(f), e.max(f)], margins));
+                match meeting(edges, [e.min(f), e.max(f)], margins) {
+                    Meeting::Apart => {}
+                    Meeting::Crossing(_) => sample.crossings += 1,
+                    Meeting::Close { .. } => sample.overlaps += usize::from(overlap(edges, [e, f])),
+                }
             });
             sample.chain_pairs + sample.pairs < most
         });
         sample.blocks = blocks;
-        for count in [&mut sample.chain_pairs, &mut sample.pairs, &mut sample.crossings, &mut sample.blocks] {
-            *count *= times;
-        }
+        let Sample { chain_pairs, pairs, crossings, overlaps, blocks, .. } = &mut sample;
+        [chain_pairs, pairs, crossings, overlaps, blocks].into_iter().for_each(|count| *count *= times);
         sample
     }
 

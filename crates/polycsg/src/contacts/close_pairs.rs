@@ -150,11 +150,11 @@ impl ClosePairs {
             self.close.push(ClosePlaces { edge, places: [node(pair[0]), node(pair[1])] });
         }
         let (first, last) = (contacts[0], contacts[contacts.len() - 1]);
-        if !far(Parameter::START, first.at()) && first.partner.kind() != PartnerKind::Start {
+        if !far(Parameter::START, first.at()) && !first.partner.is_end() {
             self.close.push(ClosePlaces { edge, places: [node(first), EdgePlace::Vertex(edge)] });
         }
         if !far(last.at(), Parameter::END) {
-            self.close.push(ClosePlaces { edge, places: [node(last), EdgePlace::Vertex(ring.next(edge))] });
+            self.close.push(ClosePlaces { edge, places: [node(last), EdgePlace::Vertex(edges.head(edge))] });
         }
         self.find_around(edges, ring, edge);
     }
@@ -172,33 +172,36 @@ impl ClosePairs {
     /// beyond, where the neighbour is too narrow to keep them away.
     fn find_around(&mut self, edges: &Edges, ring: EdgeRing, edge: u32) {
         let [a, b] = edges.segment(edge);
-        let [before, after] = [ring.previous(edge), ring.next(edge)];
-        let [start, end] = [edges.point(before), edges.point(after + 1)];
-        if self.are_flat_at(a, b, start) {
-            self.add(edge, before);
+        if let Some(before) = ring.edge_before(edge) {
+            let start = edges.point(before);
+            if self.are_flat_at(a, b, start) {
+                self.add(edge, before);
+            }
+            if (start.x - a.x).abs() <= self.margins.close {
+                self.find_beyond(edges, edge, before, |other| ring.edge_before(other));
+            }
         }
-        if self.are_flat_at(b, a, end) {
-            self.add(edge, after);
-        }
-        if (start.x - a.x).abs() <= self.margins.close {
-            self.find_beyond(edges, edge, before, |other| ring.previous(other));
-        }
-        if (end.x - b.x).abs() <= self.margins.close {
-            self.find_beyond(edges, edge, after, |other| ring.next(other));
+        if let Some(after) = ring.edge_after(edge) {
+            let end = edges.point(after + 1);
+            if self.are_flat_at(b, a, end) {
+                self.add(edge, after);
+            }
+            if (end.x - b.x).abs() <= self.margins.close {
+                self.find_beyond(edges, edge, after, |other| ring.edge_after(other));
+            }
         }
     }
 
     /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, and were not compared with it,
     /// and are not apart from it.
-    fn find_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> u32) {
+    fn find_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> Option<u32>) {
         let s = edges.segment(edge);
         let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
         if !leads_on(edges.segment(neighbour)) {
             return; // another chain, whose boxes were looked at
         }
-        let mut other = neighbour;
-        for _ in 0..LONGEST {
-            other = step(other);
+        let others = std::iter::successors(step(neighbour), |&other| step(other));
+        for other in others.take(LONGEST as usize) {
             let t = edges.segment(other);
             let gap = (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
             if gap > self.margins.close || !leads_on(t) {

@@ -1,7 +1,7 @@
 //! Where two contacts lie close together on an edge, all edges that meet there may meet once more when they are rounded.
 
+use super::Contacts;
 use super::close_pairs::{CloseGroups, ClosePairs, ClosePlaces, EdgePlace};
-use super::{Contacts, contact::PartnerKind};
 use crate::edges::Edges;
 
 impl Contacts {
@@ -38,10 +38,9 @@ impl Contacts {
         for contact in &self.found {
             let node = self.node(contact.node);
             if groups.is_close[node as usize] {
-                groups.edges.push([node, contact.edge]);
-                if contact.partner.kind() == PartnerKind::Start {
-                    groups.edges.push([node, edges.ring(contact.edge).previous(contact.edge)]);
-                }
+                let ends = contact.partner.is_end();
+                let there = if ends { edges.at(contact.edge) } else { [contact.edge; 2] };
+                groups.edges.extend(there.map(|edge| [node, edge]));
             }
         }
         groups.edges.sort_unstable();
@@ -64,7 +63,7 @@ impl Contacts {
                 group.extend(there.map(|pair| pair[1]));
             }
             (_, EdgePlace::Node(node)) => group.extend(self.nodes[node as usize]),
-            (_, EdgePlace::Vertex(vertex)) => group.extend([vertex, edges.ring(vertex).previous(vertex)]),
+            (_, EdgePlace::Vertex(vertex)) => group.extend(edges.at(vertex)),
         }
     }
 }

@@ -19,6 +19,10 @@ pub(crate) enum PartnerKind {
     Vertex(u32),
     /// The edge's own start.
     Start,
+    /// The start of an open ring.
+    First,
+    /// The end of an open ring: no edge starts there.
+    End,
 }
 
 impl Partner {
@@ -26,6 +30,8 @@ impl Partner {
     const FROM_RIGHT: u32 = 1 << 30;
     const VERTEX: u32 = 2 << 30;
     pub(super) const START: Partner = Partner(3 << 30);
+    pub(super) const FIRST: Partner = Partner(3 << 30 | 1);
+    pub(super) const END: Partner = Partner(3 << 30 | 2);
 
     pub(super) fn crossing(edge: u32, from_left: bool) -> Partner {
         Partner(edge | if from_left { 0 } else { Partner::FROM_RIGHT })
@@ -38,12 +44,20 @@ impl Partner {
     #[inline]
     pub(crate) fn kind(self) -> PartnerKind {
         let id = self.0 & Partner::ID;
-        match self.0 >> 30 {
-            0 => PartnerKind::FromLeft(id),
-            1 => PartnerKind::FromRight(id),
-            2 => PartnerKind::Vertex(id),
-            _ => PartnerKind::Start,
+        match (self.0 >> 30, id) {
+            (0, _) => PartnerKind::FromLeft(id),
+            (1, _) => PartnerKind::FromRight(id),
+            (2, _) => PartnerKind::Vertex(id),
+            (_, 0) => PartnerKind::Start,
+            (_, 1) => PartnerKind::First,
+            _ => PartnerKind::End,
         }
+    }
+
+    /// Whether an edge's own start, or the end of its open ring, meets it, and nothing else does.
+    #[inline]
+    pub(crate) fn is_end(self) -> bool {
+        self.0 >= Partner::START.0
     }
 }
 
@@ -85,9 +99,6 @@ pub(super) fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
 fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
     let e = edges.segment(a.edge);
     match (a.partner.kind(), b.partner.kind()) {
-        (PartnerKind::Start, PartnerKind::Start) => Ordering::Equal,
-        (PartnerKind::Start, _) => Ordering::Less,
-        (_, PartnerKind::Start) => Ordering::Greater,
         (PartnerKind::Vertex(v), PartnerKind::Vertex(w)) => {
             let order = lexicographic(edges.point(v), edges.point(w));
             if lexicographic(e[0], e[1]) == Ordering::Less { order } else { order.reverse() }
@@ -102,5 +113,6 @@ fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
             PartnerKind::FromLeft(f) | PartnerKind::FromRight(f),
             PartnerKind::FromLeft(g) | PartnerKind::FromRight(g),
         ) => crossing_order(e, edges.segment(f), edges.segment(g)),
+        _ => b.partner.is_end().cmp(&a.partner.is_end()),
     }
 }

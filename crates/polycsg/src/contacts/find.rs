@@ -103,7 +103,7 @@ impl Contacts {
     ) -> Result<(), Error> {
         slabs.build(edges.points().iter().copied(), chains.edges().map(|edge| (edge, [edge, edge + 1])));
         for place in slabs.places() {
-            let mut vertices = place.filter(|&slot| edges.ring(slot).end != slot);
+            let mut vertices = place.filter(|&slot| edges.is_vertex(slot));
             let first = vertices.next();
             vertices.for_each(|vertex| first.into_iter().for_each(|first| self.join(edges, first, vertex)));
         }

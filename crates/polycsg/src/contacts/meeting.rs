@@ -122,7 +122,7 @@ impl Contacts {
         self.rings.join(edges.ring_of(v), edges.ring_of(w));
     }
 
-    fn make_node(&mut self, edges: &Edges, vertex: u32) -> u32 {
+    pub(super) fn make_node(&mut self, edges: &Edges, vertex: u32) -> u32 {
         if !self.degenerate {
             self.degenerate = true;
             self.node_of_vertex.resize(edges.len(), NONE);
@@ -131,7 +131,13 @@ impl Contacts {
             let node = self.classes.push();
             self.node_of_vertex[vertex as usize] = node;
             self.nodes.push([vertex, NONE]);
-            self.found.push(Contact::new(Parameter::START, vertex, node, Partner::START));
+            let ring = edges.ring(vertex);
+            let partner = match (ring.is_open, vertex) {
+                (true, first) if first == ring.start => Partner::FIRST,
+                (true, end) if end == ring.end => Partner::END,
+                _ => Partner::START,
+            };
+            self.found.push(Contact::new(Parameter::START, vertex, node, partner));
         }
         self.node_of_vertex[vertex as usize]
     }

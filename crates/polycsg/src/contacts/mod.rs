@@ -107,6 +107,9 @@ impl Contacts {
         self.node_of_vertex.clear();
         self.rings.reset(edges.rings().len());
         self.degenerate = false;
+        for end in edges.rings().iter().flat_map(|ring| ring.ends()) {
+            self.make_node(edges, end);
+        }
     }
 
     /// The contacts by edge and in order along it, each node once on each edge.

@@ -8,7 +8,7 @@
 //! ```
 
 use crate::edges::Edges;
-use crate::predicates::{Area, Clear, Margins, Parameter, Segment, doubled_area};
+use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, side};
 use glam::DVec2;
 
 /// How two edges meet, as far as that is clear whatever rounding does.
@@ -65,9 +65,11 @@ pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meet
     }
 }
 
-/// Whether two edges certainly cross, whatever rounding does.
-pub(crate) fn cross_clearly(edges: &Edges, pair: [u32; 2], margins: Margins) -> bool {
-    matches!(meeting(edges, pair, margins), Meeting::Crossing(_))
+/// Whether two edges whose boxes meet have more than a point in common.
+pub(super) fn overlap(edges: &Edges, pair: [u32; 2]) -> bool {
+    let [s, t] = pair.map(|edge| edges.segment(edge));
+    let lie_on = |line: Segment, ends: Segment| ends.iter().all(|&p| side(line[0], line[1], p) == Side::On);
+    lie_on(s, t) && lie_on(t, s) && !SharedEnd::of(s, t).is_some_and(|shared| shared.is_straight())
 }
 
 /// Two edges with one end in common.

@@ -25,7 +25,7 @@ pub(crate) struct RingKey {
 
 /// The rings of all operands, or of those alone that are not prepared.
 fn ring_keys<'a>(csg: &'a Csg<'_>, all: bool) -> impl Iterator<Item = RingKey> + 'a {
-    let leaves = (0..).zip(csg.postfix()).filter(|(_, leaf)| leaf.rings().is_some());
+    let leaves = (0..).zip(csg.postfix()).filter(|(_, leaf): &(u32, &Token<'_>)| leaf.rings().is_some());
     let wanted = leaves.zip(0..).filter(move |((_, leaf), _)| all || !matches!(leaf, Token::Prepared(_)));
     let read = wanted.filter_map(|((token, leaf), operand)| Some((token, leaf.rings()?, operand)));
     read.flat_map(|(token, rings, operand)| {
@@ -78,12 +78,12 @@ impl Edges {
             sort_by_place(all);
         }
         for &place in &*all {
-            if let Some(rings) = csg.postfix()[place.token as usize].rings() {
+            if let Some(rings) = csg.token(place.token as usize).rings() {
                 self.add_ring(rings, place, winding, bounds, window.as_ref());
             }
         }
         if let Some(window) = window {
-            let leaves = csg.postfix().iter().filter(|leaf| leaf.rings().is_some());
+            let leaves = csg.postfix().filter(|leaf| leaf.rings().is_some());
             for (leaf, operand) in leaves.zip(0..) {
                 if let Token::Prepared(prepared) = leaf {
                     self.add_prepared(prepared, operand, winding.counter(operand as usize), &window);
@@ -101,13 +101,15 @@ impl Edges {
         window: Option<&Window>,
     ) {
         let (operand, ring) = (place.operand, place.ring as usize);
+        let counter = winding.counter(operand as usize);
+        // What bounds nothing is an edge alone, not the way there and back.
+        let (is_open, fewest) = (counter.is_none(), if counter.is_none() { 1 } else { 3 });
         let (start, points) = (index(self.points.len()), rings.closed(ring));
+        let points = if is_open { &points[..2] } else { points };
         if !bounds.meets(points) {
             return;
         }
         let origin = Origin { operand, edge: index(rings.start(ring)) };
-        let counter = winding.counter(operand as usize);
-        let fewest = if counter.is_none() { 2 } else { 3 };
         let repeats = points.windows(2).any(|pair| pair[0] == pair[1]);
         if !repeats && window.is_some_and(|window| self.add_if_cut(points, origin, counter, window)) {
             return;
@@ -128,7 +130,15 @@ impl Edges {
                 .extend(slots.clone().map(|slot| Origin { operand, edge: origin.edge + slot - start }));
         }
         self.ring.resize(self.points.len(), index(self.rings.len()));
-        self.rings.push(EdgeRing { start, end: slots.end - 1, counter, winds: 1, also: END, origin });
+        self.rings.push(EdgeRing {
+            start,
+            end: slots.end - 1,
+            is_open,
+            counter,
+            winds: 1,
+            also: END,
+            origin,
+        });
     }
 
     /// Adds a ring of many points that leaves a window by what the window sees of it; false, if it is to be added whole.

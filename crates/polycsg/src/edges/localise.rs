@@ -4,7 +4,7 @@
 //! Within the window all winding numbers are those of the whole ring, and outside of it nothing matters: the expression holds
 //! nowhere there, whatever this ring is.
 
-use super::{Edges, Origin};
+use super::{Change, Edges, Origin};
 use crate::base::id::index;
 use crate::predicates::Window;
 use crate::region::prepared::{PreparedRegion, surrounds};
@@ -97,10 +97,15 @@ impl Edges {
     /// Closes a simple ring, or drops it where the window does not lie in it.
     fn end_simple(&mut self, ring: LocalRing, counter: Option<u32>, window: &Window) {
         if ring.near || surrounds(&self.points[ring.start..], window.low) {
-            self.close(counter);
+            self.end_local(counter);
         } else {
             ring.drop(self);
         }
+    }
+
+    fn end_local(&mut self, counter: Option<u32>) {
+        let change = counter.map(|counter| Change { counter, winds: 1 });
+        self.end_ring(None, change.as_slice());
     }
 
     /// Adds any ring as a window sees it; no point of it, the last one like the first, is the next one. False, if edges near the
@@ -128,7 +133,7 @@ impl Edges {
         }
         let is_ring = self.len() > ring.start + 2;
         if is_ring {
-            self.close(counter);
+            self.end_local(counter);
         } else {
             ring.drop(self);
         }

@@ -1,9 +1,8 @@
 //! Stage 1: all operands' rings as one array of directed edges.
 
+pub(crate) mod coincident;
 pub(crate) mod collect;
-pub(crate) mod duplicate_rings;
 mod localise;
-pub(crate) mod opposite_edges;
 
 use crate::base::id::index;
 use crate::expression::winding::WindingNumbers;
@@ -14,7 +13,7 @@ use std::ops::Range;
 /// All edges and their vertices, under one numbering: edge `e` runs from the point in slot `e` to that in slot `e + 1`.
 ///
 /// The rings lie one after the other, each with its first point once more behind the last. That last slot is neither an edge
-/// nor a vertex of its own.
+/// nor a vertex of its own. Where edges coincide, one stands for all, and rings may be open: then the last slot is a vertex.
 #[derive(Debug, Default)]
 pub(crate) struct Edges {
     points: Vec<DVec2>,
@@ -26,12 +25,14 @@ pub(crate) struct Edges {
     also: Vec<Also>,
 }
 
-/// A ring. Its edges are `start..end`; slot `end` holds its first point again.
+/// A ring, closed or open. Its edges are `start..end`; slot `end` of a closed one holds its first point again.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeRing {
     pub(crate) start: u32,
     pub(crate) end: u32,
-    /// The counter that its edges change, none for an open edge, and by how much.
+    /// Whether it ends in a vertex of its own, the slot `end`. Its two ends are nodes.
+    pub(crate) is_open: bool,
+    /// The counter that its edges change, none for an edge that bounds nothing, and by how much.
     counter: Option<u32>,
     winds: i32,
     /// The other counters that its edges change, as the place of the first in `also`.
@@ -40,37 +41,53 @@ pub(crate) struct EdgeRing {
     pub(crate) origin: Origin,
 }
 
-/// A counter that the edges of a ring change for a duplicate of it.
+/// One more counter that the edges of a ring change.
 #[derive(Clone, Copy, Debug)]
 struct Also {
-    counter: u32,
-    winds: i32,
+    change: Change,
     next: u32,
+}
+
+/// By how much a counter changes from the right of an edge to its left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Change {
+    pub(crate) counter: u32,
+    pub(crate) winds: i32,
 }
 
 /// Nothing more in a list.
 const END: u32 = u32::MAX;
 
 impl EdgeRing {
-    /// Whether it bounds anything: an open edge does not.
-    pub(crate) fn is_closed(self) -> bool {
-        self.counter.is_some()
+    /// The vertex behind another one; behind the last edge of an open ring its end.
+    #[inline]
+    pub(crate) fn next(self, vertex: u32) -> u32 {
+        if vertex + 1 == self.end && !self.is_open { self.start } else { vertex + 1 }
     }
 
-    /// The counter that its edges change, none for an open edge.
+    /// The vertex before another one, which is not the start of an open ring.
     #[inline]
-    pub(crate) fn counter(self) -> Option<u32> {
-        self.counter
+    pub(crate) fn previous(self, vertex: u32) -> u32 {
+        if vertex == self.start { self.end - 1 } else { vertex - 1 }
     }
 
+    /// The edge that ends where one starts.
     #[inline]
-    pub(crate) fn next(self, edge: u32) -> u32 {
-        if edge + 1 == self.end { self.start } else { edge + 1 }
+    pub(crate) fn edge_before(self, edge: u32) -> Option<u32> {
+        let is_first = self.is_open && edge == self.start;
+        (!is_first).then(|| self.previous(edge))
     }
 
+    /// The edge that starts where one ends.
     #[inline]
-    pub(crate) fn previous(self, edge: u32) -> u32 {
-        if edge == self.start { self.end - 1 } else { edge - 1 }
+    pub(crate) fn edge_after(self, edge: u32) -> Option<u32> {
+        let is_last = self.is_open && edge + 1 == self.end;
+        (!is_last).then(|| self.next(edge))
+    }
+
+    /// The ends of an open ring.
+    pub(crate) fn ends(self) -> impl Iterator<Item = u32> {
+        self.is_open.then_some([self.start, self.end]).into_iter().flatten()
     }
 }
 
@@ -96,27 +113,35 @@ impl Edges {
         self.also.clear();
     }
 
-    /// Adds edges of others to a new ring.
-    pub(crate) fn add_edges(&mut self, others: &Edges, edges: Range<u32>) {
-        self.points.extend_from_slice(&others.points[edges.start as usize..edges.end as usize]);
-        self.origins.extend(edges.map(|edge| others.origin(edge)));
-    }
-
-    /// Adds an edge by its start.
+    /// Adds an edge by its start to a new ring.
     pub(crate) fn add_edge(&mut self, start: DVec2, origin: Origin) {
         self.points.push(start);
         self.origins.push(origin);
     }
 
-    /// Closes the ring whose edges were added, and lets them change a counter.
-    pub(crate) fn close(&mut self, counter: Option<u32>) {
+    /// Ends the ring whose edges were added, in its start or, if it is open, in another point.
+    pub(crate) fn end_ring(&mut self, end: Option<DVec2>, changes: &[Change]) {
         let start = index(self.ring.len());
         let origin = self.origins[start as usize];
-        self.points.push(self.points[start as usize]);
+        self.points.push(end.unwrap_or(self.points[start as usize]));
         self.origins.push(origin);
         self.ring.resize(self.points.len(), index(self.rings.len()));
-        let end = index(self.points.len()) - 1;
-        self.rings.push(EdgeRing { start, end, counter, winds: 1, also: END, origin });
+        let (counter, winds) = changes.first().map_or((None, 0), |first| (Some(first.counter), first.winds));
+        let mut also = END;
+        for &change in changes.iter().skip(1).rev() {
+            self.also.push(Also { change, next: also });
+            also = index(self.also.len()) - 1;
+        }
+        let slots = [start, index(self.points.len()) - 1];
+        self.rings.push(EdgeRing {
+            start: slots[0],
+            end: slots[1],
+            is_open: end.is_some(),
+            counter,
+            winds,
+            also,
+            origin,
+        });
     }
 
     /// The number of slots: more than any edge's id.
@@ -146,11 +171,21 @@ impl Edges {
         [self.points[edge as usize], self.points[edge as usize + 1]]
     }
 
-    /// The two edges that end or start in the point of a slot.
+    /// The two edges of a ring that end or start in the point of a slot; at the ends of an open ring twice the same.
     pub(crate) fn at(&self, slot: u32) -> [u32; 2] {
         let ring = self.ring(slot);
-        let vertex = if slot == ring.end { ring.start } else { slot };
-        [ring.previous(vertex), vertex]
+        match (ring.is_open, slot) {
+            (true, end) if end == ring.end => [end - 1; 2],
+            (true, start) if start == ring.start => [start; 2],
+            (false, end) if end == ring.end => [end - 1, ring.start],
+            (_, vertex) => [ring.previous(vertex), vertex],
+        }
+    }
+
+    /// Whether a slot is a vertex, not the repeated point of a closed ring.
+    pub(crate) fn is_vertex(&self, slot: u32) -> bool {
+        let ring = self.ring(slot);
+        ring.is_open || slot != ring.end
     }
 
     #[inline]
@@ -179,6 +214,14 @@ impl Edges {
         })
     }
 
+    /// The counters that the edges of a ring change, and by how much.
+    pub(crate) fn changes(&self, ring: EdgeRing) -> impl Iterator<Item = Change> + '_ {
+        let first = ring.counter.map(|counter| Change { counter, winds: ring.winds });
+        let get = |place: u32| self.also.get(place as usize);
+        let others = std::iter::successors(get(ring.also), move |also| get(also.next));
+        first.into_iter().chain(others.map(|also| also.change))
+    }
+
     /// Moves the walk over an edge of a ring, from its right to its left, or `back`.
     #[inline]
     pub(crate) fn cross(&self, edge: u32, back: bool, winding: &mut WindingNumbers) {
@@ -187,7 +230,7 @@ impl Edges {
             winding.cross(counter, if back { -ring.winds } else { ring.winds });
         }
         if ring.also != END {
-            self.cross_also(ring.also, back, winding);
+            self.cross_also(ring, back, winding);
         }
     }
 
@@ -207,11 +250,9 @@ impl Edges {
     }
 
     #[cold]
-    fn cross_also(&self, mut place: u32, back: bool, winding: &mut WindingNumbers) {
-        while place != END {
-            let also = self.also[place as usize];
-            winding.cross(also.counter, if back { -also.winds } else { also.winds });
-            place = also.next;
+    fn cross_also(&self, ring: EdgeRing, back: bool, winding: &mut WindingNumbers) {
+        for Change { counter, winds } in self.changes(ring).skip(1) {
+            winding.cross(counter, if back { -winds } else { winds });
         }
     }
 }

@@ -12,8 +12,7 @@
 //!
 //! Rings that only touch the bounds stay: their vertices are put into the edges that they touch.
 
-use super::csg::{Csg, Token};
-use super::{circuit::Kind, winding::WindingNumbers};
+use super::csg::{Csg, Operator, Token};
 use crate::predicates::Window;
 use glam::DVec2;
 
@@ -33,13 +32,8 @@ impl Bounds {
         points.iter().fold(Bounds::NOTHING, grown)
     }
 
-    fn of_operand(token: &Token<'_>) -> Bounds {
-        match token {
-            Token::Prepared(prepared) => {
-                prepared.bounds().map_or(Bounds::NOTHING, |[low, high]| Bounds { low, high })
-            }
-            token => token.rings().map_or(Bounds::NOTHING, |rings| Bounds::of(rings.points())),
-        }
+    fn from_box(sides: Option<[DVec2; 2]>) -> Bounds {
+        sides.map_or(Bounds::NOTHING, |[low, high]| Bounds { low, high })
     }
 
     fn joined(self, other: Bounds) -> Bounds {
@@ -65,53 +59,43 @@ impl Bounds {
 /// The box that the set lies in.
 #[derive(Debug, Default)]
 pub(crate) struct ResultBounds {
-    /// Per gate the box outside of which it does not hold; none where no gate needs all of its members.
+    /// The boxes of what no operator has taken yet; in the end that of the result, or none if no operator bounds it.
     bounds: Vec<Bounds>,
-    /// Per gate whether the bounds depend on its box: not if its opposite is asked for.
-    tells: Vec<bool>,
     /// Tests compare with the arrangement of all rings.
     #[cfg(test)]
     pub(crate) off: bool,
 }
 
 impl ResultBounds {
-    /// Finds the bounds of an expression's result. O(n) for n points of operands that bound it, if any do.
-    pub(crate) fn find(&mut self, csg: &Csg<'_>, winding: &WindingNumbers) {
+    /// Finds the bounds of an expression's result. O(n) for n points, if any operator bounds it.
+    pub(crate) fn find(&mut self, csg: &Csg<'_>) {
         self.bounds.clear();
         #[cfg(test)]
         if self.off {
             return;
         }
-        let gates = winding.gates();
-        if (0..gates.len()).all(|gate| gates.kind(gate) != Kind::All) {
+        if !csg.postfix().any(bounds_its_operands) {
             return;
         }
-        self.tells.clear();
-        for gate in 0..gates.len() {
-            let above = gates.above(gate);
-            self.tells.push(above.is_none_or(|(above, opposite)| !opposite && self.tells[above as usize]));
-        }
-        let start = |gate| if gates.kind(gate) == Kind::All { Bounds::PLANE } else { Bounds::NOTHING };
-        self.bounds.extend((0..gates.len()).map(start));
-        for (operand, token) in csg.postfix().iter().filter(|token| token.rings().is_some()).enumerate() {
-            if let Some(gate) = winding.gate_of(operand).filter(|&gate| self.tells[gate as usize]) {
-                self.bound(winding, gate, Bounds::of_operand(token));
-            }
-        }
-        for gate in (1..gates.len()).rev() {
-            if let Some((above, false)) = gates.above(gate) {
-                self.bound(winding, above, self.bounds[gate as usize]);
-            }
+        for token in csg.postfix() {
+            let bounds = match token {
+                Token::Region(region) => Bounds::of(region.rings_of().points()),
+                Token::Prepared(prepared) => Bounds::from_box(prepared.bounds()),
+                Token::Rings(rings, _) | Token::Edge(rings) => Bounds::of(rings.points()),
+                Token::Operator(operator, count) => self.combined(*operator, *count),
+            };
+            self.bounds.push(bounds);
         }
     }
 
-    /// Takes up the box of one of a gate's members.
-    fn bound(&mut self, winding: &WindingNumbers, gate: u32, member: Bounds) {
-        let bounds = &mut self.bounds[gate as usize];
-        *bounds = match winding.gates().kind(gate) {
-            Kind::All => bounds.common(member),
-            Kind::Any | Kind::Odd => bounds.joined(member),
-        };
+    /// The box of what an operator makes of the last operands.
+    fn combined(&mut self, operator: Operator, count: usize) -> Bounds {
+        let mut operands = self.bounds.drain(self.bounds.len() - count..);
+        match operator {
+            Operator::Union | Operator::SymmetricDifference => operands.fold(Bounds::NOTHING, Bounds::joined),
+            Operator::Intersection => operands.fold(Bounds::PLANE, Bounds::common),
+            Operator::Difference => operands.next().unwrap_or(Bounds::NOTHING),
+        }
     }
 
     /// The box, if the result is confined to one.
@@ -126,4 +110,9 @@ impl ResultBounds {
         let result = self.bounds.first();
         result.is_none_or(|result| result.contains(ring[0]) || !result.misses(Bounds::of(ring)))
     }
+}
+
+/// Whether a token is an operator whose result may be smaller than the box around all of its operands.
+fn bounds_its_operands(token: &Token<'_>) -> bool {
+    matches!(token, Token::Operator(Operator::Intersection | Operator::Difference, _))
 }

@@ -86,6 +86,8 @@ pub(crate) struct Circuit {
     nodes: Vec<Function>,
     /// Per gate how many gates are in it.
     sizes: Vec<u32>,
+    /// Per gate its truth table.
+    columns: Vec<u64>,
 }
 
 impl Circuit {
@@ -106,17 +108,35 @@ impl Circuit {
         self.gates[gate as usize].others += 1;
     }
 
-    pub(crate) fn len(&self) -> u32 {
-        index(self.gates.len())
-    }
-
-    /// The gate that one is a member of, and whether that takes its opposite.
-    pub(crate) fn above(&self, gate: u32) -> Option<(u32, bool)> {
-        self.gates[gate as usize].above
-    }
-
     pub(crate) fn kind(&self, gate: u32) -> Kind {
         self.gates[gate as usize].kind
+    }
+
+    /// The truth table of the whole expression, from the gates of its members that are none, each with its own column.
+    pub(crate) fn table(&mut self, members: impl Iterator<Item = (u32, u64)>) -> u64 {
+        let start = |gate: &Gate| if gate.kind == Kind::All { u64::MAX } else { 0 };
+        self.columns.clear();
+        self.columns.extend(self.gates.iter().map(start));
+        for (gate, column) in members {
+            self.combine(gate, column);
+        }
+        for gate in (1..self.gates.len()).rev() {
+            if let Some((above, opposite)) = self.gates[gate].above {
+                let column = self.columns[gate];
+                self.combine(above, if opposite { !column } else { column });
+            }
+        }
+        self.columns[0]
+    }
+
+    /// Takes up the column of one of a gate's members.
+    fn combine(&mut self, gate: u32, member: u64) {
+        let column = &mut self.columns[gate as usize];
+        match self.gates[gate as usize].kind {
+            Kind::Any => *column |= member,
+            Kind::All => *column &= member,
+            Kind::Odd => *column ^= member,
+        }
     }
 
     /// Lays out the paths, once all gates and members are there; no member holds.

@@ -55,7 +55,7 @@ pub(crate) enum Token<'a> {
     Region(&'a Region),
     Prepared(&'a PreparedRegion),
     Rings(Rings, FillRule),
-    /// An open edge as a ring, there and back. It bounds nothing; the arrangement tells what lies beside it.
+    /// An edge, and the way back, as a ring. It bounds nothing; the arrangement tells what lies beside it.
     Edge(Rings),
     /// It takes that many operands: those that stand before it.
     Operator(Operator, usize),
@@ -105,8 +105,9 @@ impl Token<'_> {
 #[must_use = "an expression does nothing until it is evaluated"]
 pub struct Csg<'a> {
     // Postfix, so that neither evaluating nor dropping a deep expression recurses; open at both ends, so that it grows
-    // either way at the price of what is added.
-    postfix: VecDeque<Token<'a>>,
+    // either way at the price of what is added. The last token stands apart: a single operand takes no allocation.
+    before: VecDeque<Token<'a>>,
+    last: Token<'a>,
 }
 
 impl<'a> From<&'a Region> for Csg<'a> {
@@ -172,9 +173,7 @@ impl<'a> Csg<'a> {
         let mut there_and_back = Rings::default();
         there_and_back.extend(&edge);
         there_and_back.close();
-        let postfix =
-            [Token::Edge(there_and_back), Token::Region(region), Token::Operator(Operator::Union, 2)];
-        Csg { postfix: postfix.into() }
+        Csg::leaf(Token::Edge(there_and_back)) | Csg::from(region)
     }
 
     /// Positively wound rings, already read.
@@ -188,15 +187,17 @@ impl<'a> Csg<'a> {
     }
 
     /// The operands, and each operator behind its operands.
-    pub(crate) fn postfix(&self) -> &VecDeque<Token<'a>> {
-        &self.postfix
+    pub(crate) fn postfix(&self) -> impl DoubleEndedIterator<Item = &Token<'a>> + Clone {
+        self.before.iter().chain([&self.last])
     }
 
-    /// One operand, with room for another one and an operator.
+    /// The token at a place of the postfix.
+    pub(crate) fn token(&self, place: usize) -> &Token<'a> {
+        self.before.get(place).unwrap_or(&self.last)
+    }
+
     fn leaf(token: Token<'a>) -> Csg<'a> {
-        let mut postfix = VecDeque::with_capacity(3);
-        postfix.push_back(token);
-        Csg { postfix }
+        Csg { before: VecDeque::new(), last: token }
     }
 
     fn joined<I>(operator: Operator, operands: I) -> Csg<'a>
@@ -204,33 +205,35 @@ impl<'a> Csg<'a> {
         I: IntoIterator,
         I::Item: Into<Csg<'a>>,
     {
-        let mut postfix = VecDeque::new();
+        let operands = operands.into_iter();
+        let mut before = VecDeque::with_capacity(operands.size_hint().0);
         let mut count = 0;
         for operand in operands {
-            postfix = concatenated(postfix, operand.into().postfix);
+            before = operand.into().behind(before);
             count += 1;
         }
         // Nothing combines to the empty set, which as an operand is not the same as no operand at all.
         let operator = if count == 0 { Operator::Union } else { operator };
-        postfix.push_back(Token::Operator(operator, count));
-        Csg { postfix }
+        Csg { before, last: Token::Operator(operator, count) }
     }
 
     fn then(self, operator: Operator, other: Csg<'a>) -> Csg<'a> {
-        let mut postfix = concatenated(self.postfix, other.postfix);
-        postfix.push_back(Token::Operator(operator, 2));
-        Csg { postfix }
+        let room = if self.before.is_empty() { 2 } else { 0 };
+        let before = other.behind(self.behind(VecDeque::with_capacity(room)));
+        Csg { before, last: Token::Operator(operator, 2) }
     }
-}
 
-/// One after the other. The shorter one moves, so that n operands nested in any way take O(n log n) moves.
-fn concatenated<T>(mut first: VecDeque<T>, mut second: VecDeque<T>) -> VecDeque<T> {
-    if first.len() < second.len() {
-        first.into_iter().rev().for_each(|token| second.push_front(token));
-        return second;
+    /// All of its tokens behind others. The shorter row moves, so that n operands nested in any way take O(n log n) moves.
+    fn behind(mut self, mut others: VecDeque<Token<'a>>) -> VecDeque<Token<'a>> {
+        if others.len() < self.before.len() {
+            others.into_iter().rev().for_each(|token| self.before.push_front(token));
+            others = self.before;
+        } else {
+            others.append(&mut self.before);
+        }
+        others.push_back(self.last);
+        others
     }
-    first.append(&mut second);
-    first
 }
 
 macro_rules! operator {

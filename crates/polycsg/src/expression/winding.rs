@@ -9,21 +9,23 @@ use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
 use crate::base::id::index;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Rule {
-    NonZero,
-    Positive,
-    Odd,
+/// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
+/// ask it at each crossing.
+#[derive(Clone, Copy, Debug)]
+struct Rule {
+    mask: i32,
+    low: i32,
+    width: u32,
 }
 
 impl Rule {
+    const NON_ZERO: Rule = Rule { mask: !0, low: 1, width: u32::MAX };
+    const POSITIVE: Rule = Rule { mask: !0, low: 1, width: i32::MAX.unsigned_abs() };
+    const ODD: Rule = Rule { mask: 1, low: 1, width: 1 };
+
     #[inline]
     fn holds(self, winding: i32) -> bool {
-        match self {
-            Rule::NonZero => winding != 0,
-            Rule::Positive => winding > 0,
-            Rule::Odd => winding & 1 == 1,
-        }
+        ((winding & self.mask).wrapping_sub(self.low) as u32) < self.width
     }
 }
 
@@ -35,10 +37,26 @@ struct Counter {
     gate: u32,
 }
 
+/// Of so many counters every combination fits into a table of 64 bits.
+const FEW: usize = 6;
+
+/// In bit i whether bit k of i is set: the column of counter k in a truth table.
+const COLUMNS: [u64; FEW] = [
+    0xaaaa_aaaa_aaaa_aaaa,
+    0xcccc_cccc_cccc_cccc,
+    0xf0f0_f0f0_f0f0_f0f0,
+    0xff00_ff00_ff00_ff00,
+    0xffff_0000_ffff_0000,
+    0xffff_ffff_0000_0000,
+];
+
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct WindingNumbers {
     counters: Vec<Counter>,
+    /// Of few counters: those that hold, in bits, and for each combination of bits whether the expression holds there.
+    holding: u32,
+    table: Option<u64>,
     gates: Circuit,
     /// Per gate the counter that its regions share.
     shared: Vec<Option<u32>>,
@@ -62,14 +80,14 @@ impl WindingNumbers {
         self.gates.clear();
         self.shared.clear();
         self.operands.clear();
-        let root = match csg.postfix().back() {
+        let root = match csg.postfix().next_back() {
             Some(Token::Operator(operator, _)) => kind_of(*operator),
             _ => Kind::Any,
         };
         self.add_gate(root, None);
         self.open.clear();
         self.open.push(Open { remaining: 1, first: 0, rest: 0 });
-        for token in csg.postfix().iter().rev() {
+        for token in csg.postfix().rev() {
             while self.open.last().is_some_and(|top| top.remaining == 0) {
                 self.open.pop();
             }
@@ -87,7 +105,14 @@ impl WindingNumbers {
             }
         }
         self.operands.reverse();
-        self.gates.lay_out();
+        self.holding = 0;
+        self.table = (self.counters.len() <= FEW).then(|| {
+            let columns = self.counters.iter().zip(COLUMNS).map(|(counter, column)| (counter.gate, column));
+            self.gates.table(columns)
+        });
+        if self.table.is_none() {
+            self.gates.lay_out();
+        }
     }
 
     fn gate_for(&mut self, operator: Operator, count: usize, above: u32) -> Open {
@@ -115,8 +140,8 @@ impl WindingNumbers {
         let rule = match self.gates.kind(gate) {
             // What the result's bounds see of a region winds once at most within them alone: others must not make up for it.
             Kind::All => return self.add_rings(FillRule::Positive, gate),
-            Kind::Any => Rule::Positive,
-            Kind::Odd => Rule::Odd,
+            Kind::Any => Rule::POSITIVE,
+            Kind::Odd => Rule::ODD,
         };
         let counter = match self.shared[gate as usize] {
             Some(counter) => counter,
@@ -128,21 +153,12 @@ impl WindingNumbers {
 
     fn add_rings(&mut self, rule: FillRule, gate: u32) {
         let rule = match rule {
-            FillRule::EvenOdd => Rule::Odd,
-            FillRule::NonZero => Rule::NonZero,
-            FillRule::Positive => Rule::Positive,
+            FillRule::EvenOdd => Rule::ODD,
+            FillRule::NonZero => Rule::NON_ZERO,
+            FillRule::Positive => Rule::POSITIVE,
         };
         let counter = self.add_counter(rule, gate);
         self.operands.push(Some(counter));
-    }
-
-    pub(crate) fn gates(&self) -> &Circuit {
-        &self.gates
-    }
-
-    /// The gate that an operand is a member of; none for an open edge.
-    pub(crate) fn gate_of(&self, operand: usize) -> Option<u32> {
-        self.operands[operand].map(|counter| self.counters[counter as usize].gate)
     }
 
     /// The counter of an operand.
@@ -153,27 +169,36 @@ impl WindingNumbers {
     /// Whether the expression holds at the walk's place.
     #[inline]
     pub(crate) fn holds(&self) -> bool {
-        self.gates.holds()
+        match self.table {
+            Some(table) => table >> self.holding & 1 == 1,
+            None => self.gates.holds(),
+        }
     }
 
     /// Moves the walk over an edge: the winding number of one counter changes by `change`.
     #[inline]
     pub(crate) fn cross(&mut self, counter: u32, change: i32) {
-        let counter = &mut self.counters[counter as usize];
-        counter.winding += change;
-        let holds = counter.rule.holds(counter.winding);
-        if holds != counter.holds {
-            counter.holds = holds;
-            self.gates.change(counter.gate, holds);
+        let about = &mut self.counters[counter as usize];
+        about.winding += change;
+        let holds = about.rule.holds(about.winding);
+        let changes = holds != std::mem::replace(&mut about.holds, holds);
+        match self.table {
+            Some(_) => self.holding ^= u32::from(changes) << counter,
+            None if changes => self.gates.change(about.gate, holds),
+            None => {}
         }
     }
 
     /// Whether the expression would hold after a [`cross`](WindingNumbers::cross).
     #[inline]
     pub(crate) fn would_hold(&self, counter: u32, change: i32) -> bool {
-        let counter = &self.counters[counter as usize];
-        let holds = counter.rule.holds(counter.winding + change);
-        if holds == counter.holds { self.holds() } else { self.gates.would_hold(counter.gate, holds) }
+        let about = &self.counters[counter as usize];
+        let holds = about.rule.holds(about.winding + change);
+        match self.table {
+            Some(table) => table >> (self.holding ^ u32::from(holds != about.holds) << counter) & 1 == 1,
+            None if holds == about.holds => self.holds(),
+            None => self.gates.would_hold(about.gate, holds),
+        }
     }
 
     /// Whether the walk has come back to a place outside of everything.

@@ -15,7 +15,6 @@ use crate::error::Error;
 use crate::expression::csg::{Csg, Token};
 use crate::expression::winding::WindingNumbers;
 use crate::region::Region;
-use crate::spatial::chains::MonotoneChains;
 use scratch::{ArrangementBuffers, ContactBuffers, EdgeBuffers, ExpressionBuffers, Scratch, SpatialBuffers};
 
 /// The expression as a region.
@@ -32,11 +31,10 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Resu
     if let Some(region) = untouched(csg, winding, &edges.edges) {
         return Ok(region);
     }
-    let edges = reduce(edges, &mut spatial.chains);
     let request = Request { limit, close_pairs: true, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
-    let rounded = Rounded { edges, contacts: arranged.contacts, selection };
+    let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
     let SpatialBuffers { chains, strips, slabs } = spatial;
     let outline = boundary.repair.outline(rounded, arranged.close_pairs, slabs, &mut boundary.outline);
     let cycles = assembly.cycles.link(outline);
@@ -55,11 +53,10 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, limit: usize) -> Resu
 pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
-    let edges = reduce(edges, &mut spatial.chains);
     let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
-    Ok(Boundary::new(selection, edges, arranged.contacts))
+    Ok(Boundary::new(selection, arranged.edges, arranged.contacts))
 }
 
 /// All edges with the membership of each of their sub-edges.
@@ -70,7 +67,7 @@ pub(crate) fn memberships<'s>(
     let Scratch { expression, edges, spatial, contacts, arrangement, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
     let request = Request { limit: usize::MAX, close_pairs: false, budget: *budget };
-    arrange(reduce(edges, &mut spatial.chains), winding, spatial, contacts, arrangement, request)
+    arrange(edges, winding, spatial, contacts, arrangement, request)
 }
 
 /// Stage 1: the state of a walk, outside of everything, and the edges that matter.
@@ -80,37 +77,26 @@ fn collect<'s>(
     EdgeBuffers { edges, keys, .. }: &mut EdgeBuffers,
 ) -> &'s mut WindingNumbers {
     winding.compile(csg);
-    bounds.find(csg, winding);
+    bounds.find(csg);
     edges.collect(csg, winding, bounds, keys);
     winding
 }
 
-/// Lets opposite edges cancel where many do, and one ring represent its duplicates; what is left stands in monotone chains.
-fn reduce<'s>(
-    EdgeBuffers { edges, opposite, duplicates, .. }: &'s mut EdgeBuffers,
-    chains: &mut MonotoneChains,
-) -> &'s Edges {
-    opposite.cancel(edges);
-    chains.build(edges.points(), edges.spans());
-    if duplicates.unite(edges, chains) {
-        chains.build(edges.points(), edges.spans());
-    }
-    edges
-}
-
-/// Stages 2 to 5: where edges meet, how this cuts them into sub-edges, and the membership of each.
+/// Stages 2 to 6: which edges stand for all, where they meet, how this cuts them into sub-edges, and the membership of each.
 ///
 /// All stages behind the contacts take memory in proportion to these.
 fn arrange<'s>(
-    edges: &'s Edges,
+    EdgeBuffers { edges, coincident, .. }: &'s mut EdgeBuffers,
     winding: &mut WindingNumbers,
     SpatialBuffers { chains, strips, slabs }: &mut SpatialBuffers,
     ContactBuffers { contacts, close_pairs }: &'s mut ContactBuffers,
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
     request: Request,
 ) -> Result<LabelledArrangement<'s>, Error> {
-    let candidates = Candidates::index(edges, chains, strips, request.budget);
+    coincident.unite(edges);
+    let candidates = Candidates::index(edges, coincident, chains, strips, request.budget);
     contacts.find(candidates, slabs, close_pairs, request)?;
+    let (edges, chains, strips) = (&*edges, &*chains, &*strips);
     arrangement.split(edges, contacts);
     labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, winding);
     Ok(LabelledArrangement { edges, contacts, close_pairs, arrangement, labels })
@@ -119,7 +105,7 @@ fn arrange<'s>(
 /// The set, where by the boxes one region alone matters: all of it, or nothing.
 fn untouched(csg: &Csg<'_>, winding: &WindingNumbers, edges: &Edges) -> Option<Region> {
     let operand = edges.only_operand()? as usize;
-    let leaf = csg.postfix().iter().filter(|token| token.rings().is_some()).nth(operand)?;
+    let leaf = csg.postfix().filter(|token| token.rings().is_some()).nth(operand)?;
     let Token::Region(region) = leaf else { return None };
     let counter = winding.counter(operand)?;
     Some(if winding.would_hold(counter, 1) { (*region).clone() } else { Region::default() })

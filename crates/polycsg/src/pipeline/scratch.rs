@@ -4,7 +4,7 @@ use crate::arrangement::{Arrangement, labels::Labels};
 use crate::assemble::{link::Cycles, nest::Nesting};
 use crate::boundary::{outline::Outline, repair::Repair, select::Selection};
 use crate::contacts::{Contacts, budget::WorkBudget, close_pairs::ClosePairs};
-use crate::edges::{Edges, collect::RingKey, duplicate_rings::DuplicateRings, opposite_edges::OppositeEdges};
+use crate::edges::{Edges, coincident::CoincidentEdges, collect::RingKey};
 use crate::expression::{bounds::ResultBounds, winding::WindingNumbers};
 use crate::spatial::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
 
@@ -46,8 +46,7 @@ pub(crate) struct ExpressionBuffers {
 pub(crate) struct EdgeBuffers {
     pub(crate) edges: Edges,
     pub(crate) keys: Vec<RingKey>,
-    pub(crate) opposite: OppositeEdges,
-    pub(crate) duplicates: DuplicateRings,
+    pub(crate) coincident: CoincidentEdges,
 }
 
 /// Filled for the edges, and once more for the rings of the result.
@@ -88,7 +87,8 @@ impl Scratch {
     /// input.
     ///
     /// Each is a point of an edge with both coordinates rounded to the nearest double, which moves the edge there by at most
-    /// half a unit in the last place. All other vertices are the input's, or crossings rounded once.
+    /// half a unit in the last place. All other vertices are the input's, or crossings rounded once. Where two edges become one by
+    /// this, what lay between them is gone, and with it the tip of a needle.
     ///
     /// ```
     /// use polycsg::{Csg, FillRule, Scratch};

@@ -183,6 +183,51 @@ fn what_lies_elsewhere_is_not_arranged() {
     assert_eq!(scratch.edges.edges.rings().len(), 2);
 }
 
+/// Boxes that stand on a line and hang from it, wherever it leads: their edges on it overlap in part.
+fn on_a_line(count: u32, along: DVec2, seed: u32) -> Vec<Vec<DVec2>> {
+    let mut state = seed;
+    let mut next = |most: u32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from((state >> 16) % most)
+    };
+    let boxes = (0..count).map(|_| {
+        let (low, width, height) = (next(400), 1.0 + next(60), next(9) - 4.5);
+        let [a, b] = [low, low + width].map(|t| along * t);
+        let up = along.perp() * height;
+        vec![a, b, b + up, a + up]
+    });
+    boxes.collect()
+}
+
+/// Edges that overlap in part are cut where they are many: what stands far away, so that they are a small share, changes nothing.
+#[test]
+fn overlapping_edges_are_one() {
+    let far: Vec<Vec<DVec2>> = (0..40_000)
+        .map(|i| {
+            let low = DVec2::new(1e4 + 4.0 * f64::from(i % 200), f64::from(4 * (i / 200)));
+            [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|corner| low + corner).to_vec()
+        })
+        .collect();
+    for (along, seed) in [(DVec2::X, 1), (DVec2::Y, 2), (DVec2::new(3.0, 2.0), 3), (DVec2::new(-1.0, 4.0), 4)]
+    {
+        let (a, b) = (on_a_line(150, along, seed), on_a_line(150, along, seed + 10));
+        for rule in [FillRule::EvenOdd, FillRule::NonZero, FillRule::Positive] {
+            let (mut cut, mut not) = (Scratch::default(), Scratch::default());
+            let operand = |rings: &[Vec<DVec2>]| Csg::from_rings(rings, rule).expect("finite");
+            let both = |a: &[Vec<DVec2>]| {
+                [operand(a) ^ operand(&b), operand(a) - operand(&b), operand(a) & operand(&b)]
+            };
+            for (alone, beside) in both(&a).into_iter().zip(both(&[&a[..], &far[..]].concat())) {
+                let alone = alone.evaluate_with(&mut cut);
+                let beside = (beside - operand(&far)).evaluate_with(&mut not);
+                assert_eq!(alone, beside);
+                assert_eq!(alone.validate(), Ok(()));
+                assert!(cut.edges.edges.rings().iter().any(|ring| ring.is_open));
+            }
+        }
+    }
+}
+
 /// Uprights across levels, some of them slanted so that slabs have work: 4 n² crossings.
 fn comb(n: u32, slant: f64) -> Csg<'static> {
     let bars = || (0..n).map(|i| 2.0 * f64::from(i));

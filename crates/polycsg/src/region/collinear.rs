@@ -25,9 +25,9 @@ impl Region {
         let common = self.common_vertices();
         let is_common = |p: DVec2| common.binary_search_by(|&q| lexicographic(q, p)).is_ok();
         let mut builder = RegionBuilder::with_capacity(self.rings.point_count(), self.rings.len());
-        for (i, polygon) in self.polygons.iter().enumerate() {
+        for polygon in self.polygons() {
             builder.polygon(index(polygon.depth));
-            for ring in self.rings_of_polygon(i) {
+            for ring in polygon.first..polygon.end {
                 // A ring starts in its leftmost point, which is a corner.
                 let points = self.rings.closed(ring);
                 let turns =

@@ -10,7 +10,7 @@ use crate::predicates::{Segment, Side, is_inside, lexicographic, rightward, side
 use area::enclosed_area;
 use glam::DVec2;
 use rings::{Rings, ring_edges};
-use std::{cmp::Ordering, ops::Range};
+use std::cmp::Ordering;
 
 /// A set of points of the plane: polygons with holes, islands in the holes, to any depth.
 ///
@@ -21,7 +21,8 @@ use std::{cmp::Ordering, ops::Range};
 /// Always canonical: each ring starts at its leftmost (then lowest) vertex, polygons are sorted by depth and then by
 /// that vertex, the holes of each by theirs. Equal sets with equal vertices are equal values.
 ///
-/// Input vertices on the boundary are kept, even in the middle of a straight edge. Coordinates may be in any unit, and areas
+/// Input vertices on the boundary are kept, even in the middle of a straight edge, but for tips of needles that are narrower than a
+/// rounding. Coordinates may be in any unit, and areas
 /// are in its square. The default is the empty set.
 ///
 /// ```
@@ -40,7 +41,8 @@ use std::{cmp::Ordering, ops::Range};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Region {
     rings: Rings,
-    polygons: Vec<PolygonSpan>,
+    /// All polygons but the first, which starts with ring 0 and has depth 0.
+    later: Vec<PolygonSpan>,
 }
 
 /// A polygon's rings: from `first` to where the next polygon starts.
@@ -96,10 +98,13 @@ pub enum Location {
 impl Region {
     /// The polygons, outermost first: by depth, then from left to right.
     pub fn polygons(&self) -> impl Iterator<Item = Polygon<'_>> {
-        (0..self.polygons.len()).map(|i| {
-            let rings = self.rings_of_polygon(i);
-            Polygon { rings: &self.rings, first: rings.start, end: rings.end, depth: self.polygons[i].depth }
-        })
+        let first = (!self.is_empty()).then_some(PolygonSpan { first: 0, depth: 0 });
+        let ends = self.later.iter().map(|next| next.first).chain([self.rings.len()]);
+        first
+            .into_iter()
+            .chain(self.later.iter().copied())
+            .zip(ends)
+            .map(|(PolygonSpan { first, depth }, end)| Polygon { rings: &self.rings, first, end, depth })
     }
 
     /// All rings, each polygon's outer ring followed by its holes; the interior is on the left of each.
@@ -110,7 +115,7 @@ impl Region {
     /// Whether the set is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.polygons.is_empty()
+        self.rings.len() == 0
     }
 
     /// The area; infinite when it exceeds the largest `f64`, 0 when it is below the smallest. O(n).
@@ -153,24 +158,16 @@ impl Region {
         &self.rings
     }
 
-    fn rings_of_polygon(&self, polygon: usize) -> Range<usize> {
-        let end = self.polygons.get(polygon + 1).map_or(self.rings.len(), |next| next.first);
-        self.polygons[polygon].first..end
+    /// Rings as somebody states them to be a region's; nothing is checked.
+    #[cfg(feature = "serde")]
+    pub(crate) fn as_given(rings: Rings) -> Region {
+        Region { rings, later: Vec::new() }
     }
 
-    /// Rings as somebody states them to be a region's, polygon by polygon; nothing is checked, depths are not known.
+    /// Whether two regions have the same rings, and this one so many of them in each of its polygons.
     #[cfg(feature = "serde")]
-    pub(crate) fn as_given(rings: Rings, counts: impl Iterator<Item = usize>) -> Region {
-        let first = counts.scan(0, |end, count| Some(std::mem::replace(end, *end + count)));
-        let polygons = first.map(|first| PolygonSpan { first, depth: 0 }).collect();
-        Region { rings, polygons }
-    }
-
-    /// Whether two regions agree in everything but the depths of their polygons.
-    #[cfg(feature = "serde")]
-    pub(crate) fn has_rings_of(&self, other: &Region) -> bool {
-        let firsts = |region: &Region| region.polygons.iter().map(|span| span.first).collect::<Vec<_>>();
-        self.rings == other.rings && firsts(self) == firsts(other)
+    pub(crate) fn has_rings_of(&self, other: &Region, counts: impl Iterator<Item = usize>) -> bool {
+        self.rings == other.rings && self.polygons().map(|polygon| polygon.end - polygon.first).eq(counts)
     }
 }
 
@@ -234,12 +231,15 @@ pub(crate) struct RegionBuilder {
 
 impl RegionBuilder {
     pub(crate) fn with_capacity(points: usize, rings: usize) -> RegionBuilder {
-        RegionBuilder { region: Region { rings: Rings::with_capacity(points, rings), polygons: Vec::new() } }
+        RegionBuilder { region: Region { rings: Rings::with_capacity(points, rings), later: Vec::new() } }
     }
 
     /// Starts a polygon; its rings follow, the outer one first.
     pub(crate) fn polygon(&mut self, depth: u32) {
-        self.region.polygons.push(PolygonSpan { first: self.region.rings.len(), depth: depth as usize });
+        let first = self.region.rings.len();
+        if first > 0 {
+            self.region.later.push(PolygonSpan { first, depth: depth as usize });
+        }
     }
 
     /// Adds a ring, in two parts.

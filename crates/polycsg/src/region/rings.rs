@@ -9,8 +9,10 @@ use std::ops::Range;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Rings {
     points: Vec<DVec2>,
-    /// Per ring the place behind its repeated point.
-    ends: Vec<usize>,
+    /// Where each ring but the first starts, so that one ring takes one allocation.
+    starts: Vec<usize>,
+    /// Where the next ring starts.
+    end: usize,
 }
 
 impl Rings {
@@ -34,24 +36,27 @@ impl Rings {
         ring: usize,
         points: impl ExactSizeIterator<Item = DVec2>,
     ) -> Result<(), Error> {
-        self.points.reserve(points.len() + 1);
-        for (vertex, point) in points.enumerate() {
-            if !point.is_finite() {
-                return Err(Error::NonFinite { ring, vertex });
-            }
-            self.points.push(point + DVec2::ZERO);
+        match self.end {
+            0 => self.points = Vec::with_capacity(points.len() + 1),
+            _ => self.points.reserve(points.len() + 1),
+        }
+        self.points.extend(points.map(|point| point + DVec2::ZERO));
+        if let Some(vertex) = self.points[self.end..].iter().position(|point| !point.is_finite()) {
+            return Err(Error::NonFinite { ring, vertex });
         }
         self.close();
         Ok(())
     }
 
     pub(crate) fn with_capacity(points: usize, rings: usize) -> Rings {
-        Rings { points: Vec::with_capacity(points + rings), ends: Vec::with_capacity(rings) }
+        let starts = Vec::with_capacity(rings.saturating_sub(1));
+        Rings { points: Vec::with_capacity(points + rings), starts, end: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
         self.points.clear();
-        self.ends.clear();
+        self.starts.clear();
+        self.end = 0;
     }
 
     pub(crate) fn extend(&mut self, points: &[DVec2]) {
@@ -60,20 +65,21 @@ impl Rings {
 
     /// Ends the ring whose points were pushed since the last call.
     pub(crate) fn close(&mut self) {
-        let start = self.ends.last().copied().unwrap_or(0);
-        if let Some(&first) = self.points.get(start) {
-            self.points.push(first);
-            self.ends.push(self.points.len());
+        let Some(&first) = self.points.get(self.end) else { return };
+        self.points.push(first);
+        if self.end > 0 {
+            self.starts.push(self.end);
         }
+        self.end = self.points.len();
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.ends.len()
+        if self.end == 0 { 0 } else { self.starts.len() + 1 }
     }
 
     /// The number of points of all rings.
     pub(crate) fn point_count(&self) -> usize {
-        self.points.len() - self.ends.len()
+        self.points.len() - self.len()
     }
 
     /// The number of points of the rings before a ring.
@@ -88,13 +94,13 @@ impl Rings {
 
     /// Where a ring stands in [`points`](Rings::points), its repeated point included.
     pub(crate) fn slots(&self, ring: usize) -> Range<usize> {
-        let start = if ring == 0 { 0 } else { self.ends[ring - 1] };
-        start..self.ends[ring]
+        let start = if ring == 0 { 0 } else { self.starts[ring - 1] };
+        start..self.starts.get(ring).copied().unwrap_or(self.end)
     }
 
     /// The ring that a slot belongs to.
     pub(crate) fn ring_at(&self, slot: usize) -> usize {
-        self.ends.partition_point(|&end| end <= slot)
+        self.starts.partition_point(|&start| start <= slot)
     }
 
     pub(crate) fn ring(&self, ring: usize) -> &[DVec2] {

@@ -181,7 +181,8 @@ impl MonotoneChains {
             self.chains.push(chain);
             start = chain.last;
         }
-        self.leftmost.push(if leftmost == last { slots.start } else { leftmost });
+        let is_repeated = leftmost == last && points[last as usize] == points[slots.start as usize];
+        self.leftmost.push(if is_repeated { slots.start } else { leftmost });
     }
 }
 

@@ -1,28 +1,28 @@
 //! geo's `BooleanOps` and `unary_union` (single-threaded build).
 
-use super::task::{Outcome, Task, doubled_area, task};
-use crate::job::{Job, Op, Polygon, Ring};
+use super::task::{Outcome, Task, doubled_area, operands, reading};
+use crate::job::{Job, Op, Operand, Polygon, Ring};
 use geo::algorithm::bool_ops::{BooleanOps, FillRule, OpType, unary_union};
 use geo::{LineString, MultiPolygon};
 
 pub(super) fn load(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (subject, clip) = (multi_polygon(&job.subject), multi_polygon(&job.clip));
     let op = match job.op {
         Op::UnionOfAll => None,
+        Op::Union => Some(OpType::Union),
         Op::Intersection => Some(OpType::Intersection),
         Op::Difference => Some(OpType::Difference),
         Op::SymmetricDifference => Some(OpType::Xor),
     };
-    let call = move |()| {
+    let boolean = move |subject: &MultiPolygon, clip: &MultiPolygon| {
         Ok(match op {
-            None => unary_union(&subject),
-            Some(op) => subject.boolean_op_with_fill_rule(&clip, op, FillRule::NonZero),
+            None => unary_union(subject),
+            Some(op) => subject.boolean_op_with_fill_rule(clip, op, FillRule::NonZero),
         })
     };
-    Ok(task((), call, measure))
+    Ok(reading(operands(job, multi_polygon), boolean, measure))
 }
 
-fn multi_polygon(polygons: &[Polygon]) -> MultiPolygon {
+pub(super) fn multi_polygon(polygons: &Operand) -> MultiPolygon {
     let line = |ring: &Ring| LineString::from(ring.iter().chain(ring.first()).copied().collect::<Vec<_>>());
     let polygon = |polygon: &Polygon| {
         let mut rings = polygon.iter().map(line);

@@ -1,7 +1,7 @@
 //! i_overlay, on its 32 and 64 bit grids; its buffers are reused from call to call.
 
-use super::task::{Outcome, Task, doubled_area, task};
-use crate::job::{Job, Op};
+use super::task::{Outcome, Task, doubled_area, operands, reading};
+use crate::job::{Job, Op, Operand};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::integer::OverlayInt;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -10,20 +10,20 @@ use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 type Shapes = Vec<Vec<Vec<[f64; 2]>>>;
 
 pub(super) fn load<I: OverlayInt + 'static>(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (subject, clip) = (job.subject.clone(), job.clip.clone());
     let rule = match job.op {
         Op::UnionOfAll => OverlayRule::Subject,
+        Op::Union => OverlayRule::Union,
         Op::Intersection => OverlayRule::Intersect,
         Op::Difference => OverlayRule::Difference,
         Op::SymmetricDifference => OverlayRule::Xor,
     };
     let mut overlay: FloatOverlay<[f64; 2], I> =
         FloatOverlay::new_empty(OverlayOptions::default(), Default::default(), job.edges());
-    let call = move |()| {
-        overlay.reinit_with_subj_and_clip(&subject, &clip);
+    let boolean = move |subject: &Operand, clip: &Operand| {
+        overlay.reinit_with_subj_and_clip(subject, clip);
         Ok(overlay.overlay(rule, FillRule::NonZero))
     };
-    Ok(task((), call, measure))
+    Ok(reading(operands(job, Operand::clone), boolean, measure))
 }
 
 fn measure(shapes: &Shapes) -> Outcome {

@@ -1,24 +1,25 @@
 //! linesweeper: outlines with curves, of which the tables use straight ones.
 
-use super::task::{Outcome, Task, doubled_area, task};
-use crate::job::{Job, Op, Polygon};
+use super::task::{Outcome, Task, doubled_area, operands, reading};
+use crate::job::{Job, Op, Operand};
 use kurbo::{BezPath, Point};
 use linesweeper::topology::Contours;
 use linesweeper::{BinaryOp, FillRule, binary_op};
 
 pub(super) fn load(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (subject, clip) = (path(&job.subject), path(&job.clip));
     let op = match job.op {
-        Op::UnionOfAll => BinaryOp::Union,
+        Op::UnionOfAll | Op::Union => BinaryOp::Union,
         Op::Intersection => BinaryOp::Intersection,
         Op::Difference => BinaryOp::Difference,
         Op::SymmetricDifference => BinaryOp::Xor,
     };
-    let call = move |()| binary_op(&subject, &clip, FillRule::NonZero, op).map_err(|error| error.to_string());
-    Ok(task((), call, measure))
+    let boolean = move |subject: &BezPath, clip: &BezPath| {
+        binary_op(subject, clip, FillRule::NonZero, op).map_err(|error| error.to_string())
+    };
+    Ok(reading(operands(job, path), boolean, measure))
 }
 
-fn path(polygons: &[Polygon]) -> BezPath {
+fn path(polygons: &Operand) -> BezPath {
     let mut path = BezPath::new();
     for ring in polygons.iter().flatten() {
         path.move_to((ring[0][0], ring[0][1]));

@@ -27,54 +27,62 @@ pub use task::{Outcome, Task};
 
 use crate::job::Job;
 
+/// Brings a job into an engine's own format.
+pub type Load = fn(&Job) -> Result<Box<dyn Task>, String>;
+
 /// A library, or a way to use it.
 #[derive(Clone, Copy)]
 pub struct Engine {
     /// Its name in the tables.
     pub name: &'static str,
+    /// Whether it is made for such a job.
+    pub fits: fn(&Job) -> bool,
     /// The job in its own format, ready to be timed.
-    pub load: fn(&Job) -> Result<Box<dyn Task>, String>,
+    pub load: Load,
 }
 
-/// polycsg from raw rings; the column that the ratios are about.
-pub const POLYCSG: Engine = Engine { name: "polycsg", load: polycsg::from_rings };
+const fn for_all(name: &'static str, load: Load) -> Engine {
+    Engine { name, fits: |_| true, load }
+}
 
-/// polycsg from raw rings, stopping at the boundary.
-pub const POLYCSG_BOUNDARY: Engine = Engine { name: "polycsg-boundary", load: polycsg::boundary };
-
-/// polycsg from regions that were evaluated before.
-pub const POLYCSG_REGIONS: Engine = Engine { name: "polycsg-regions", load: polycsg::from_regions };
-
-/// polycsg from regions, stopping at the boundary.
-pub const POLYCSG_REGIONS_BOUNDARY: Engine =
-    Engine { name: "polycsg-regions-boundary", load: polycsg::boundary_of_regions };
+/// The ways to give polycsg its operands.
+pub const ROUTES: &[Engine] = &[
+    for_all("rings", polycsg::from_rings),
+    for_all("rings-boundary", polycsg::boundary),
+    for_all("operands", polycsg::from_operands),
+    for_all("regions", polycsg::from_regions),
+    #[cfg(feature = "geo")]
+    Engine { name: "geo-types", fits: Job::is_dissolve, load: polycsg::from_geo },
+    Engine { name: "clips", fits: Job::has_common_clip, load: polycsg::clips },
+];
 
 /// The other libraries that were compiled in.
 pub const PEERS: &[Engine] = &[
     #[cfg(feature = "i_overlay")]
-    Engine { name: "i_overlay-i32", load: i_overlay::load::<i32> },
+    for_all("i_overlay-i32", i_overlay::load::<i32>),
     #[cfg(feature = "i_overlay")]
-    Engine { name: "i_overlay-i64", load: i_overlay::load::<i64> },
+    for_all("i_overlay-i64", i_overlay::load::<i64>),
     #[cfg(feature = "geo")]
-    Engine { name: "geo", load: geo::load },
+    for_all("geo", geo::load),
     #[cfg(feature = "clipper2")]
-    Engine { name: "clipper2", load: clipper2::load },
+    for_all("clipper2", clipper2::load),
     #[cfg(feature = "clipper2-rust")]
-    Engine { name: "clipper2-rust", load: clipper2_rust::load },
+    for_all("clipper2-rust", clipper2_rust::load),
     #[cfg(feature = "polyclip")]
-    Engine { name: "polyclip", load: polyclip::load },
+    for_all("polyclip", polyclip::load),
     #[cfg(feature = "geos")]
-    Engine { name: "geos", load: geos::load },
+    for_all("geos", geos::load),
+    #[cfg(feature = "geos")]
+    Engine { name: "geos-coverage", fits: Job::is_coverage, load: geos::coverage },
     #[cfg(feature = "linesweeper")]
-    Engine { name: "linesweeper", load: linesweeper::load },
+    for_all("linesweeper", linesweeper::load),
     #[cfg(feature = "polyops")]
-    Engine { name: "polyops", load: polyops::load },
+    for_all("polyops", polyops::load),
 ];
 
 /// The engine of that name.
 pub fn engine(name: &str) -> Option<Engine> {
-    let ours = [POLYCSG, POLYCSG_BOUNDARY, POLYCSG_REGIONS, POLYCSG_REGIONS_BOUNDARY];
-    ours.into_iter().chain(PEERS.iter().copied()).find(|engine| engine.name == name)
+    ROUTES.iter().chain(PEERS).copied().find(|engine| engine.name == name)
 }
 
 /// What coordinates are multiplied by for libraries on integers: a power of two that brings the largest near 2^38,

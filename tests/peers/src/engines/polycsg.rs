@@ -1,69 +1,92 @@
-//! polycsg, from raw rings and from regions, to a region and to the boundary alone.
+//! polycsg, by the ways in which operands can be given.
 
-use super::task::{Outcome, Task, task};
-use crate::job::{Job, Op, Polygon, Ring};
-use polycsg::{Csg, Error, FillRule, Region, Scratch};
+use super::task::{Outcome, Sink, Task, operands, reading, task};
+use crate::job::{Job, Op, Operand, Polygon, Ring};
+use polycsg::{Csg, FillRule, Region, Scratch};
 
-fn rings(polygons: &[Polygon]) -> Vec<Ring> {
-    polygons.concat()
-}
-
-/// Reading the rings is part of the call.
+/// All polygons of an operand as one set of raw rings; reading them is part of the call.
 pub(super) fn from_rings(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (op, subject, clip) = (job.op, rings(&job.subject), rings(&job.clip));
-    let mut scratch = Scratch::default();
-    let call = move |()| Ok(raw(op, &subject, &clip)?.evaluate_with(&mut scratch));
-    Ok(task((), call, measure))
+    let (op, mut scratch) = (job.op, Scratch::default());
+    let boolean = move |a: &Vec<Ring>, b: &Vec<Ring>| Ok(raw(op, a, b)?.evaluate_with(&mut scratch));
+    Ok(reading(operands(job, |operand| operand.concat()), boolean, measure))
 }
 
 /// As [`from_rings`], to the boundary.
 pub(super) fn boundary(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (op, subject, clip) = (job.op, rings(&job.subject), rings(&job.clip));
-    let mut scratch = Scratch::default();
-    let call = move |()| Ok(raw(op, &subject, &clip)?.boundary(&mut scratch).area());
-    Ok(task((), call, |&area| Outcome::of(area, 0)))
+    let (op, mut scratch) = (job.op, Scratch::default());
+    let boolean = move |a: &Vec<Ring>, b: &Vec<Ring>| Ok(raw(op, a, b)?.boundary(&mut scratch).area());
+    Ok(reading(operands(job, |operand| operand.concat()), boolean, |&area| Outcome::of(area, 0)))
 }
 
-/// Regions stand ready; building the expression is part of the call.
+/// Each polygon as an operand of raw rings.
+pub(super) fn from_operands(job: &Job) -> Result<Box<dyn Task>, String> {
+    let (op, mut scratch) = (job.op, Scratch::default());
+    let boolean =
+        move |a: &Operand, b: &Operand| Ok(join(op, united(a)?, || united(b))?.evaluate_with(&mut scratch));
+    Ok(reading(operands(job, Operand::clone), boolean, measure))
+}
+
+/// Each polygon as a region that stands ready; building the expression is part of the call.
 pub(super) fn from_regions(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (op, subject, clip) = (job.op, regions(&job.subject)?, regions(&job.clip)?);
+    let (op, mut scratch) = (job.op, Scratch::default());
+    let boolean = move |a: &Vec<Region>, b: &Vec<Region>| {
+        Ok(join(op, Csg::union(a), || Ok(Csg::union(b)))?.evaluate_with(&mut scratch))
+    };
+    Ok(reading(regions(job)?, boolean, measure))
+}
+
+/// Each operand as a geo-types multipolygon; for unions.
+#[cfg(feature = "geo")]
+pub(super) fn from_geo(job: &Job) -> Result<Box<dyn Task>, String> {
+    let union = |all: &geo::MultiPolygon, _: &geo::MultiPolygon| {
+        Region::try_from(all).map_err(|error| error.to_string())
+    };
+    Ok(reading(operands(job, super::geo::multi_polygon), union, measure))
+}
+
+/// Many regions clipped by one.
+pub(super) fn clips(job: &Job) -> Result<Box<dyn Task>, String> {
+    let [subjects, clips] = regions(job)?.map(|regions| regions.concat());
     let mut scratch = Scratch::default();
-    let call = move |()| Ok(expression(op, &subject, &clip).evaluate_with(&mut scratch));
+    let call = move |(), sink: Sink<'_, Region>| {
+        clip_each(&subjects, &clips[0], &mut scratch, sink);
+        Ok(())
+    };
     Ok(task((), call, measure))
 }
 
-/// As [`from_regions`], to the boundary.
-pub(super) fn boundary_of_regions(job: &Job) -> Result<Box<dyn Task>, String> {
-    let (op, subject, clip) = (job.op, regions(&job.subject)?, regions(&job.clip)?);
-    let mut scratch = Scratch::default();
-    let call = move |()| Ok(expression(op, &subject, &clip).boundary(&mut scratch).area());
-    Ok(task((), call, |&area| Outcome::of(area, 0)))
+fn clip_each(polygons: &[Region], clip: &Region, scratch: &mut Scratch, sink: Sink<'_, Region>) {
+    polygons.iter().for_each(|polygon| sink((Csg::from(polygon) & Csg::from(clip)).evaluate_with(scratch)));
 }
 
 fn raw(op: Op, subject: &[Ring], clip: &[Ring]) -> Result<Csg<'static>, String> {
-    let read = |rings: &[Ring]| Csg::from_rings(rings, FillRule::NonZero);
-    let joined = |join: fn(Csg<'static>, Csg<'static>) -> Csg<'static>| Ok(join(read(subject)?, read(clip)?));
-    let csg: Result<Csg<'static>, Error> = match op {
-        Op::UnionOfAll => read(subject),
-        Op::Intersection => joined(|a, b| a & b),
-        Op::Difference => joined(|a, b| a - b),
-        Op::SymmetricDifference => joined(|a, b| a ^ b),
-    };
-    csg.map_err(|error| error.to_string())
+    join(op, read(subject)?, || read(clip))
 }
 
-fn regions(polygons: &[Polygon]) -> Result<Vec<Region>, String> {
-    let region = |polygon| Region::from_rings(polygon, FillRule::NonZero).map_err(|error| error.to_string());
-    polygons.iter().map(region).collect()
+fn read(rings: &[Ring]) -> Result<Csg<'static>, String> {
+    Csg::from_rings(rings, FillRule::NonZero).map_err(|error| error.to_string())
 }
 
-fn expression<'a>(op: Op, subject: &'a [Region], clip: &'a [Region]) -> Csg<'a> {
-    match op {
-        Op::UnionOfAll => Csg::union(subject),
-        Op::Intersection => Csg::union(subject) & Csg::union(clip),
-        Op::Difference => Csg::union(subject) - Csg::union(clip),
-        Op::SymmetricDifference => Csg::union(subject) ^ Csg::union(clip),
-    }
+fn united(operand: &Operand) -> Result<Csg<'static>, String> {
+    Ok(Csg::union(operand.iter().map(|polygon| read(polygon)).collect::<Result<Vec<_>, _>>()?))
+}
+
+fn join<'a>(op: Op, a: Csg<'a>, b: impl FnOnce() -> Result<Csg<'a>, String>) -> Result<Csg<'a>, String> {
+    Ok(match op {
+        Op::UnionOfAll => a,
+        Op::Union => a | b()?,
+        Op::Intersection => a & b()?,
+        Op::Difference => a - b()?,
+        Op::SymmetricDifference => a ^ b()?,
+    })
+}
+
+fn regions(job: &Job) -> Result<[Vec<Vec<Region>>; 2], String> {
+    let region =
+        |polygon: &Polygon| Region::from_rings(polygon, FillRule::NonZero).map_err(|error| error.to_string());
+    let all = |operand: &Operand| operand.iter().map(region).collect::<Result<Vec<_>, _>>();
+    let [subjects, clips] = operands(job, all);
+    Ok([subjects.into_iter().collect::<Result<_, _>>()?, clips.into_iter().collect::<Result<_, _>>()?])
 }
 
 fn measure(region: &Region) -> Outcome {

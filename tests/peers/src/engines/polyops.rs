@@ -1,23 +1,23 @@
 //! polyops: Martinez, Rueda and Feito. Polygons that overlap are united pairwise first, inside the call.
 
-use super::task::{Outcome, Task, doubled_area, task};
-use crate::job::{Job, Op, Polygon};
+use super::task::{Outcome, Task, consuming, doubled_area, operands};
+use crate::job::{Job, Op, Parts, Polygon};
 use polyops::{Geometry, MultiPolygon, difference, intersection, union, xor};
 
 pub(super) fn load(job: &Job) -> Result<Box<dyn Task>, String> {
     let op = job.op;
-    let input = (parts(&job.subject, job), parts(&job.clip, job));
-    let call = move |(subject, clip)| {
+    let boolean = move |subject, clip| {
         let subject = united(subject);
         let result = match op {
             Op::UnionOfAll => return Ok(subject),
+            Op::Union => union(geometry(subject), geometry(united(clip))),
             Op::Intersection => intersection(geometry(subject), geometry(united(clip))),
             Op::Difference => difference(geometry(subject), geometry(united(clip))),
             Op::SymmetricDifference => xor(geometry(subject), geometry(united(clip))),
         };
         Ok(result.unwrap_or_default())
     };
-    Ok(task(input, call, measure))
+    Ok(consuming(operands(job, |operand| parts(operand, job)), boolean, measure))
 }
 
 fn geometry(polygons: MultiPolygon) -> Geometry {
@@ -28,7 +28,7 @@ fn geometry(polygons: MultiPolygon) -> Geometry {
 fn parts(polygons: &[Polygon], job: &Job) -> Vec<MultiPolygon> {
     let closed: MultiPolygon =
         polygons.iter().map(|polygon| polygon.iter().map(|ring| closed(ring)).collect()).collect();
-    if job.disjoint && job.op != Op::UnionOfAll {
+    if job.parts != Parts::Overlapping && job.op != Op::UnionOfAll {
         vec![closed]
     } else {
         closed.into_iter().map(|polygon| vec![polygon]).collect()

@@ -1,72 +1,125 @@
 //! A job that is loaded and can be timed.
 
+use crate::job::{Job, Operand, pairs};
 use cpu_time::ProcessTime;
 use serde::{Deserialize, Serialize};
 use std::hint::black_box;
 
-/// What a result looks like, to tell whether results agree.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+/// What results look like, to tell whether they agree.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Outcome {
-    /// The enclosed area.
-    pub area: f64,
-    /// The number of rings; 0 when only a boundary was built.
+    /// The area of each result.
+    pub areas: Vec<f64>,
+    /// The number of rings of all; 0 when only boundaries were built.
     pub rings: usize,
-    /// Whether the result passes its library's own exact check; only polycsg's is asked.
+    /// Whether all pass their library's own exact check; only polycsg's are asked.
     pub valid: Option<bool>,
 }
 
 impl Outcome {
-    /// An outcome without a check.
+    /// One result without a check.
     pub fn of(area: f64, rings: usize) -> Outcome {
-        Outcome { area, rings, valid: None }
+        Outcome { areas: vec![area], rings, valid: None }
+    }
+
+    /// How far the areas are from `other`'s: the sum of differences over the sum of `other`'s areas.
+    pub fn error(&self, other: &Outcome) -> f64 {
+        let difference: f64 = self.areas.iter().zip(&other.areas).map(|(a, b)| (a - b).abs()).sum();
+        let total: f64 = other.areas.iter().map(|area| area.abs()).sum();
+        if difference == 0.0 { 0.0 } else { difference / total }
+    }
+
+    fn add(&mut self, next: Outcome) {
+        self.areas.extend(next.areas);
+        self.rings += next.rings;
+        self.valid = self.valid.map_or(next.valid, |valid| next.valid.map(|next| valid && next));
     }
 }
 
 /// A loaded job.
 pub trait Task {
-    /// CPU seconds of the whole process per call, over that many calls in a row.
+    /// CPU seconds of the whole process per Boolean, over that many calls in a row.
     fn seconds(&mut self, calls: usize) -> Result<f64, String>;
 
     /// One call, and what came out.
     fn outcome(&mut self) -> Result<Outcome, String>;
 }
 
+/// Receives the results of a call one by one.
+pub(super) type Sink<'a, R> = &'a mut dyn FnMut(R);
+
 /// A loaded job made of its prepared input, the timed call and the measure of a result.
-pub(super) struct Call<I, C, M> {
+struct Call<I, R, C> {
     input: I,
     call: C,
-    measure: M,
+    measure: Measure<R>,
 }
+
+type Measure<R> = Box<dyn Fn(&R) -> Outcome>;
 
 /// A task from its parts; the call receives copies of `input` that were made beforehand.
-pub(super) fn task<I, R, C, M>(input: I, call: C, measure: M) -> Box<dyn Task>
-where
-    I: Clone + 'static,
-    C: FnMut(I) -> Result<R, String> + 'static,
-    M: Fn(&R) -> Outcome + 'static,
-    R: 'static,
-{
-    Box::new(Call { input, call, measure })
+pub(super) fn task<I: Clone + 'static, R: 'static>(
+    input: I,
+    call: impl FnMut(I, Sink<'_, R>) -> Result<(), String> + 'static,
+    measure: impl Fn(&R) -> Outcome + 'static,
+) -> Box<dyn Task> {
+    Box::new(Call { input, call, measure: Box::new(measure) })
 }
 
-impl<I, R, C, M> Task for Call<I, C, M>
-where
-    I: Clone,
-    C: FnMut(I) -> Result<R, String>,
-    M: Fn(&R) -> Outcome,
-{
+/// The operands of a job in an engine's own type.
+pub(super) fn operands<T>(job: &Job, load: impl Fn(&Operand) -> T) -> [Vec<T>; 2] {
+    [&job.subjects, &job.clips].map(|operands| operands.iter().map(&load).collect())
+}
+
+/// One Boolean after the other, for engines that read their operands.
+pub(super) fn reading<T: 'static, R: 'static>(
+    [subjects, clips]: [Vec<T>; 2],
+    mut boolean: impl FnMut(&T, &T) -> Result<R, String> + 'static,
+    measure: impl Fn(&R) -> Outcome + 'static,
+) -> Box<dyn Task> {
+    let call = move |(), sink: Sink<'_, R>| {
+        pairs(&subjects, &clips).try_for_each(|(subject, clip)| boolean(subject, clip).map(&mut *sink))
+    };
+    task((), call, measure)
+}
+
+/// The same for engines that consume their operands: copies are made beforehand, those of a common clip within the call.
+#[cfg(any(feature = "clipper2", feature = "polyops"))]
+pub(super) fn consuming<T: Clone + 'static, R: 'static>(
+    [subjects, clips]: [Vec<T>; 2],
+    mut boolean: impl FnMut(T, T) -> Result<R, String> + 'static,
+    measure: impl Fn(&R) -> Outcome + 'static,
+) -> Box<dyn Task> {
+    let common = clips.first().filter(|_| clips.len() < subjects.len()).cloned();
+    let own = if common.is_some() { vec![] } else { clips };
+    let call = move |[subjects, clips]: [Vec<T>; 2], sink: Sink<'_, R>| {
+        let mut clips = clips.into_iter();
+        subjects.into_iter().try_for_each(|subject| {
+            let clip = clips.next().or_else(|| common.clone()).ok_or("a subject without a clip")?;
+            boolean(subject, clip).map(&mut *sink)
+        })
+    };
+    task([subjects, own], call, measure)
+}
+
+impl<I: Clone, R, C: FnMut(I, Sink<'_, R>) -> Result<(), String>> Task for Call<I, R, C> {
     fn seconds(&mut self, calls: usize) -> Result<f64, String> {
         let inputs = vec![self.input.clone(); calls];
+        let mut results = 0_u32;
         let start = ProcessTime::now();
         for input in inputs {
-            drop(black_box((self.call)(black_box(input))?));
+            (self.call)(black_box(input), &mut |result| {
+                drop(black_box(result));
+                results += 1;
+            })?;
         }
-        Ok(start.elapsed().as_secs_f64() / calls as f64)
+        Ok(start.elapsed().as_secs_f64() / f64::from(results))
     }
 
     fn outcome(&mut self) -> Result<Outcome, String> {
-        let result = (self.call)(self.input.clone())?;
-        Ok((self.measure)(&result))
+        let (mut outcome, measure) = (Outcome::default(), &self.measure);
+        (self.call)(self.input.clone(), &mut |result| outcome.add(measure(&result)))?;
+        Ok(outcome)
     }
 }
 

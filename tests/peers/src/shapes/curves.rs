@@ -1,7 +1,7 @@
 //! Smooth outlines, nested rings and sieves, each against a shifted copy.
 
 use super::{polar, shifted};
-use crate::job::{Job, Op, Polygon, Ring};
+use crate::job::{Job, Op, Parts, Polygon, Ring};
 
 /// Two smooth outlines of n edges each that cross a few times.
 pub(super) fn blobs(n: usize) -> Job {
@@ -11,7 +11,7 @@ pub(super) fn blobs(n: usize) -> Job {
         })]
     };
     let (subject, clip) = (vec![blob([0.0, 0.0], 0.0)], vec![blob([0.31, 0.17], 1.0)]);
-    Job { op: Op::Intersection, subject, clip, disjoint: true }
+    Job::one(Op::Intersection, subject, clip, Parts::Apart)
 }
 
 /// n concentric annuli of sixteen edges a ring, and a copy shifted by 2.3 times their distance.
@@ -25,7 +25,7 @@ pub(super) fn annuli(n: usize) -> Job {
     };
     let subject: Vec<Polygon> = (0..n).map(annulus).collect();
     let clip = shifted(&subject, [2.1, 0.94]);
-    Job { op: Op::Intersection, subject, clip, disjoint: true }
+    Job::one(Op::Intersection, subject, clip, Parts::Apart)
 }
 
 /// A square with about n hexagonal holes, and a shifted copy.
@@ -40,5 +40,5 @@ pub(super) fn holes(n: usize) -> Job {
     let mut sieve = vec![vec![[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]];
     sieve.extend(along.clone().flat_map(|x| along.clone().map(move |y| hole(x, y))).take(n));
     let clip = shifted(std::slice::from_ref(&sieve), [0.37, 0.21]);
-    Job { op: Op::Intersection, subject: vec![sieve], clip, disjoint: true }
+    Job::one(Op::Intersection, vec![sieve], clip, Parts::Apart)
 }

@@ -1,7 +1,7 @@
 //! Squares on a lattice, whose edges coincide.
 
 use super::shifted;
-use crate::job::{Job, Op, Polygon};
+use crate::job::{Job, Op, Parts, Polygon};
 
 fn square(i: usize, j: usize) -> Polygon {
     let (x, y) = (i as f64, j as f64);
@@ -15,18 +15,18 @@ fn squares(n: usize, keep: impl Fn(usize) -> bool) -> Vec<Polygon> {
 
 /// n × n unit squares side by side: their union is one square.
 pub(super) fn grid(n: usize) -> Job {
-    Job { op: Op::UnionOfAll, subject: squares(n, |_| true), clip: vec![], disjoint: true }
+    Job::union_of_all(squares(n, |_| true), Parts::Coverage)
 }
 
 /// The black fields of a board of n × n, and the same shifted by half a field.
 pub(super) fn shifted_checkers(n: usize) -> Job {
     let subject = squares(n, |sum| sum % 2 == 0);
     let clip = shifted(&subject, [0.5, 0.5]);
-    Job { op: Op::Intersection, subject, clip, disjoint: true }
+    Job::one(Op::Intersection, subject, clip, Parts::Apart)
 }
 
 /// The black fields against the white ones: all edges coincide, and nothing inside is left of them.
 pub(super) fn complementary_checkers(n: usize) -> Job {
     let (subject, clip) = (squares(n, |sum| sum % 2 == 0), squares(n, |sum| sum % 2 == 1));
-    Job { op: Op::SymmetricDifference, subject, clip, disjoint: true }
+    Job::one(Op::SymmetricDifference, subject, clip, Parts::Apart)
 }

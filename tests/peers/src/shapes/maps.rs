@@ -1,7 +1,7 @@
 //! Maps: the npm packages world-atlas and us-atlas (Natural Earth and US Census Bureau, public domain data).
 
 use super::{shifted, topojson};
-use crate::job::{Job, Op, Polygon, Ring};
+use crate::job::{Job, Op, Parts, Polygon, Ring, signed_area};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -96,16 +96,11 @@ fn jump(from: [f64; 2], to: [f64; 2]) -> f64 {
     if at_pole(from) && at_pole(to) { 0.0 } else { ((to[0] - from[0]) / 360.0).round() }
 }
 
-fn signed_area(ring: &[[f64; 2]]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(a, b)| (b[0] - a[0]) * (a[1] + b[1]) / -2.0).sum()
-}
-
 /// The land of the Earth, 1 : `scale` million, and a copy shifted by a few tenths of a degree.
 pub(super) fn land(scale: usize) -> Result<Job, String> {
     let subject = read(&format!("world-atlas/land-{scale}m.json"), "land")?;
     let clip = shifted(&subject, [0.31, 0.17]);
-    Ok(Job { op: Op::Intersection, subject, clip, disjoint: true })
+    Ok(Job::one(Op::Intersection, subject, clip, Parts::Apart))
 }
 
 /// All countries, 1 : `scale` million: neighbours share their borders point for point.
@@ -119,5 +114,5 @@ pub(super) fn counties(scale: usize) -> Result<Job, String> {
 }
 
 fn union(subject: Vec<Polygon>) -> Result<Job, String> {
-    Ok(Job { op: Op::UnionOfAll, subject, clip: vec![], disjoint: true })
+    Ok(Job::union_of_all(subject, Parts::Apart))
 }

@@ -1,7 +1,7 @@
 //! Small polygons strewn over a square.
 
 use super::polar;
-use crate::job::{Job, Op, Ring};
+use crate::job::{Job, Op, Parts, Ring};
 use crate::random::Random;
 
 const SIDE: f64 = 10.0;
@@ -13,14 +13,14 @@ fn square() -> Ring {
 /// A triangle that cuts one side of a square.
 pub(super) fn square_and_triangle() -> Job {
     let triangle = vec![[3.1, 2.3], [12.7, 4.9], [4.4, 8.2]];
-    Job { op: Op::Difference, subject: vec![vec![square()]], clip: vec![vec![triangle]], disjoint: true }
+    Job::one(Op::Difference, vec![vec![square()]], vec![vec![triangle]], Parts::Apart)
 }
 
 /// A square and n turned rectangles, whose areas add to that of the square.
 pub(super) fn square_and_rectangles(n: usize) -> Job {
     let mut random = Random::new(7);
     let clip = (0..n).map(|_| vec![rectangle(&mut random, SIDE / (n as f64).sqrt())]).collect();
-    Job { op: Op::Difference, subject: vec![vec![square()]], clip, disjoint: false }
+    Job::one(Op::Difference, vec![vec![square()]], clip, Parts::Overlapping)
 }
 
 /// A turned rectangle of area size² and sides from size / 2 to 2 size.
@@ -44,5 +44,5 @@ pub(super) fn octagons(n: usize) -> Job {
         let corner = |p: [f64; 2]| [centre[0] + cos * p[0] - sin * p[1], centre[1] + sin * p[0] + cos * p[1]];
         vec![polar(8, [0.0, 0.0], |_, _| size).into_iter().map(corner).collect()]
     };
-    Job { op: Op::UnionOfAll, subject: (0..n).map(octagon).collect(), clip: vec![], disjoint: false }
+    Job::union_of_all((0..n).map(octagon).collect(), Parts::Overlapping)
 }

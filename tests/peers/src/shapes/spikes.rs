@@ -1,7 +1,7 @@
 //! Long edges that lie close together.
 
 use super::polar;
-use crate::job::{Job, Op, Ring};
+use crate::job::{Job, Op, Parts, Ring};
 
 /// Two stars of n edges each about one centre: long radial edges, each of which meets a few of the other star's.
 pub(super) fn stars(n: usize) -> Job {
@@ -11,7 +11,7 @@ pub(super) fn stars(n: usize) -> Job {
         ring.into_iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect()
     };
     let (subject, clip) = (vec![vec![star(0.0, 0.5, 1.0)]], vec![vec![star(0.37, 0.45, 0.95)]]);
-    Job { op: Op::Intersection, subject, clip, disjoint: true }
+    Job::one(Op::Intersection, subject, clip, Parts::Apart)
 }
 
 /// A diagonal comb of n edges, nearly parallel and as long as the comb is wide, cut in half by one long edge.
@@ -27,5 +27,5 @@ pub(super) fn comb(n: usize) -> Job {
     ring.reverse();
     let (right, middle) = (2.0 * length + 2.0, 0.5 * length + 0.25);
     let below = vec![[-2.0, -2.0], [right, -2.0], [right, middle], [-2.0, middle]];
-    Job { op: Op::Intersection, subject: vec![vec![ring]], clip: vec![vec![below]], disjoint: true }
+    Job::one(Op::Intersection, vec![vec![ring]], vec![vec![below]], Parts::Apart)
 }

@@ -100,6 +100,11 @@ impl Labels {
         self.chain.clear();
         for ring in 0..index(map.edges.rings().len()) {
             let sub_edges = map.arrangement.of_ring(ring);
+            if map.arrangement.junction_count() == 0 {
+                count += 1;
+                self.chain.resize(sub_edges.end as usize, ring);
+                continue;
+            }
             for sub_edge in sub_edges.clone() {
                 let starts =
                     sub_edge == sub_edges.start || matches!(map.arrangement.met(sub_edge), Node::Junction(_));

@@ -1,6 +1,6 @@
 //! Cuts fragments that are in conflict until none is.
 
-use super::fragment::{Class, Fragment, in_conflict};
+use super::fragment::{Class, CutAt, Fragment, in_conflict};
 use super::{Repair, fragments::Rounded, near::Near};
 use crate::base::id::index;
 use crate::boundary::outline::Outline;
@@ -92,9 +92,13 @@ impl Repair {
         self.conflicts.is_empty()
     }
 
+    fn members(&self, class: u32) -> &[u32] {
+        &self.alike[self.classes[class as usize].members.clone()]
+    }
+
     /// The first of a class.
-    fn one_of(&self, class: usize) -> &Fragment {
-        &self.fragments[self.alike[self.classes[class].members.start] as usize]
+    fn one_of(&self, class: u32) -> &Fragment {
+        &self.fragments[self.members(class)[0] as usize]
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
@@ -102,12 +106,12 @@ impl Repair {
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
-            let points = (0..self.classes.len()).flat_map(|class| self.one_of(class).segment);
             let classes = 0..index(self.classes.len());
+            let points = classes.clone().flat_map(|class| self.one_of(class).segment);
             slabs.build(points, classes.map(|class| (class, [2 * class, 2 * class + 1])));
             slabs.pairs(|i, j| {
                 let moved = self.classes[i as usize].moved || self.classes[j as usize].moved;
-                let segments = || [i, j].map(|class| self.one_of(class as usize).segment);
+                let segments = || [i, j].map(|class| self.one_of(class).segment);
                 if moved && in_conflict(segments()) {
                     conflicts.push([i, j]);
                 }
@@ -116,33 +120,47 @@ impl Repair {
         self.conflicts = conflicts;
     }
 
-    /// Lists cuts of the conflicting fragments at the ends of one of those that they conflict with, and notes whether there
+    /// Lists cuts of the conflicting fragments at the common ends of those that they conflict with, and notes whether there
     /// are any that cannot be cut so; returns the segments of the others, in whose boxes their new fragments will lie.
     fn list_cuts(&mut self, rounded: Rounded<'_>, overlap: &mut bool) -> Vec<Segment> {
         let mut affected = Vec::new();
+        let mut common = vec![None; self.classes.len()];
         let mut cuts = std::mem::take(&mut self.cuts);
         cuts.clear();
         for &[i, j] in &self.conflicts {
             let before = cuts.len();
             for (class, other) in [(i, j), (j, i)] {
-                let vertices = self.one_of(other as usize).ends;
-                for &fragment in &self.alike[self.classes[class as usize].members.clone()] {
-                    let ends = self.fragments[fragment as usize].ends;
-                    let inside =
-                        vertices.into_iter().filter(|&vertex| rounded.is_strictly_between(ends, vertex));
-                    cuts.extend(inside.map(|vertex| (fragment, vertex)));
-                }
+                let ends = &mut common[other as usize];
+                *ends = ends.or_else(|| self.common_ends(rounded, other));
+                ends.iter().for_each(|&ends| self.add_cuts(rounded, class, ends, &mut cuts));
             }
             if cuts.len() == before {
                 *overlap = true;
             } else {
-                affected.extend([i, j].map(|class| self.one_of(class as usize).segment));
+                affected.extend([i, j].map(|class| self.one_of(class).segment));
             }
         }
         cuts.sort_unstable();
         cuts.dedup();
         self.cuts = cuts;
         affected
+    }
+
+    /// The ends of the abscissae that all of a class have in common: the left end furthest right and the right end furthest
+    /// left.
+    fn common_ends(&self, rounded: Rounded<'_>, class: u32) -> Option<[u32; 2]> {
+        let ends = |&fragment: &u32| rounded.rightward(self.fragments[fragment as usize].ends);
+        let common =
+            |[a, b]: [u32; 2], [c, d]: [u32; 2]| [rounded.rightward([a, c])[1], rounded.rightward([b, d])[0]];
+        self.members(class).iter().map(ends).reduce(common)
+    }
+
+    fn add_cuts(&self, rounded: Rounded<'_>, class: u32, vertices: [u32; 2], cuts: &mut Vec<CutAt>) {
+        for &fragment in self.members(class) {
+            let ends = self.fragments[fragment as usize].ends;
+            let inside = vertices.into_iter().filter(|&vertex| rounded.is_strictly_between(ends, vertex));
+            cuts.extend(inside.map(|vertex| (fragment, vertex)));
+        }
     }
 }
 

@@ -163,6 +163,11 @@ impl Rounded<'_> {
         DVec2::new(self.abscissa(vertex).rounded, y.to_f64())
     }
 
+    /// Two vertices, that with the smaller abscissa first.
+    pub(super) fn rightward(&self, [a, b]: [u32; 2]) -> [u32; 2] {
+        if self.compare_abscissae(a, b) == Ordering::Greater { [b, a] } else { [a, b] }
+    }
+
     pub(super) fn is_strictly_between(&self, ends: [u32; 2], vertex: u32) -> bool {
         let (from, to) = (self.compare_abscissae(ends[0], vertex), self.compare_abscissae(vertex, ends[1]));
         from == to && from != Ordering::Equal

@@ -10,12 +10,23 @@
 //!   --------             -/\----                 ------+---+
 //! ```
 //!
-//! This ends, and the result is right. Before rounding, pieces meet only in common vertices, so between two cuts at equal abscissae
-//! two fragments keep one order; rounding each coordinate to nearest is monotone, so they keep it weakly at both
-//! ends: they may share ends or coincide, never cross. When two fragments still conflict, some end of one lies
-//! strictly inside the abscissae of the other, so a cut is added; there are finitely many (piece, vertex) pairs.
+//! Fragments with the same rounded ends are one class. Of two classes in conflict, each member of one is cut at the ends of
+//! the abscissae that all members of the other have in common.
+//!
+//! This ends, and the result is right. Before rounding, pieces meet only in common vertices, so between two cuts at equal
+//! abscissae two fragments keep one order; rounding each coordinate to nearest is monotone, so they keep it weakly at both
+//! ends: they may share ends or coincide, never cross. Where two classes conflict, any member of one overlaps any of the
+//! other in more than an abscissa, and some two have different left ends or different right ends. Say a left end differs: one
+//! of the two members starts further left, so further left than the common abscissae of the other's class, and these start
+//! strictly inside it. So a cut is added, and there are finitely many (piece, vertex) pairs.
 //! Only fragments that rounding made vertical escape this argument: they can overlap on their one abscissa, and are cut
 //! at the points that lie on them, which moves nothing.
+//!
+//! The result is a function of the set of edges, whatever their order, their directions and the starts of their rings. A fragment
+//! is a part of a line between two exact abscissae, and its rounded ends depend on nothing else: not on which of several
+//! edges on that line was selected, nor on which two edges stand for a crossing. What is in conflict depends on the rounded
+//! ends, the cuts on the abscissae in both classes; where two are equal, the points cut there are. So each round makes
+//! of one set of fragments the next one. What is left out of a round as being far from all conflicts is in none.
 
 mod cut;
 mod fragment;

@@ -1,45 +1,43 @@
 //! Where an edge is at an end of another one: a height with a bound on its error.
 
 use super::SlabDecomposition;
-use super::segments::{Line, RankedSegment, Slab, SpanningSegment};
+use super::segments::{ClippedSegment, Line, RankedSegment, Slab};
 use glam::DVec2;
 
 impl SlabDecomposition {
-    #[inline]
-    pub(super) fn line(&self, segment: RankedSegment, slab: Slab) -> Line {
+    fn line(&self, segment: RankedSegment) -> Line {
         let [a, b] = self.ends_of(segment);
-        let [left, right] = slab.map(|rank| self.ends[rank as usize].x);
-        let is_right_end = b.x - right < left - a.x;
-        Line {
-            end: if is_right_end { b } else { a },
-            is_right_end,
-            slope: (b.y - a.y) / (b.x - a.x),
-            has_slope: self.has_slopes && a.x != b.x,
-        }
+        let has_slope = self.has_slopes && a.x != b.x;
+        Line { end: a, slope: if has_slope { (b.y - a.y) / (b.x - a.x) } else { f64::NAN } }
+    }
+
+    /// An edge in a slab that both have more than a point in common.
+    #[inline]
+    pub(super) fn clip(&self, segment: RankedSegment, slab: Slab) -> ClippedSegment {
+        let mut clipped = ClippedSegment { heights: [0.0; 2], line: self.line(segment), segment };
+        clipped.heights = [
+            self.height(&clipped, segment.ranks[0].max(slab[0])),
+            self.height(&clipped, segment.ranks[1].min(slab[1])),
+        ];
+        clipped
     }
 
     /// Where an edge has a rank, as a height; wrong by a quarter of the slack at most.
     #[inline]
-    pub(super) fn height(&self, ranks: [u32; 2], line: Line, rank: u32) -> f64 {
+    pub(super) fn height(&self, clipped: &ClippedSegment, rank: u32) -> f64 {
         let p = self.ends[rank as usize];
-        if ranks.contains(&rank) { p.y } else { self.height_at(ranks, line, p) }
+        if rank == clipped.segment.ranks[1] { p.y } else { self.height_inside(clipped, p) }
     }
 
-    /// The same, for a rank between the edge's ends.
-    #[inline]
-    pub(super) fn height_inside(&self, span: &SpanningSegment, rank: u32) -> f64 {
-        self.height_at(span.segment.ranks, span.line, self.ends[rank as usize])
-    }
-
+    /// The same, for a rank before the edge's right end.
+    ///
     /// The slope is wrong by 3u of itself, its product by 5u, which is 10u times the larger height at most, and the sum by
     /// 2u of that (u = 2^-53).
     #[inline]
-    fn height_at(&self, ranks: [u32; 2], line: Line, p: DVec2) -> f64 {
-        if line.has_slope {
-            line.end.y + (p.x - line.end.x) * line.slope
-        } else {
-            self.height_anywhere(ranks, p)
-        }
+    pub(super) fn height_inside(&self, clipped: &ClippedSegment, p: DVec2) -> f64 {
+        let Line { end, slope } = clipped.line;
+        let height = end.y + (p.x - end.x) * slope;
+        if height.is_nan() { self.height_anywhere(clipped.segment.ranks, p) } else { height }
     }
 
     /// The same for all coordinates. With t the part of the way: t is wrong by 3u t, 1 - t by 3u t + u, the products and

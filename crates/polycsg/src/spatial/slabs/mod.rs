@@ -34,6 +34,7 @@
 
 mod beside;
 mod column;
+mod descent;
 mod found;
 mod heights;
 mod order;
@@ -45,9 +46,10 @@ mod tests;
 
 use crate::base::id::index;
 use crate::predicates::{Segment, Side, lexicographic, side};
+use descent::Quest;
 use found::Found;
 use glam::DVec2;
-use segments::{RankedSegment, Slab, SpanningSegment, parts};
+use segments::{ClippedSegment, RankedSegment, Slab};
 use std::{cmp::Ordering, ops::Range};
 
 /// So many edges are compared with one another, each with each.
@@ -81,20 +83,19 @@ pub(crate) struct SlabDecomposition {
     reach: f64,
     /// Whether all coordinates lie where slopes neither overflow nor lose bits.
     has_slopes: bool,
-    /// The edges of the slab at hand, of its half at hand, and so on, with their places in `segments` for ids.
-    open: Vec<RankedSegment>,
-    /// The segments that span the slab at hand, and those of them that are its stairs.
-    spanning: Vec<SpanningSegment>,
-    stairs: Vec<SpanningSegment>,
-    /// The spanning segments' heights at the left side and their places.
+    /// The edges that come into the slab at hand, into its part at hand, and so on, with their places in `segments` for ids.
+    passing: Vec<ClippedSegment>,
+    /// The segments that span the slab at hand, those of them that are its stairs, and the edges that end or start in it.
+    spanning: Vec<ClippedSegment>,
+    stairs: Vec<ClippedSegment>,
+    partial: Vec<ClippedSegment>,
+    /// The edges in a slab without width, and their heights and places.
+    column: Vec<RankedSegment>,
     keys: Vec<(f64, u32)>,
     /// The segments that are coincident with a stair, by its place.
-    coincident: Vec<(usize, RankedSegment)>,
-    /// Per stair where those end that come after it and share its left end, and its right one.
+    coincident: Vec<(usize, ClippedSegment)>,
+    /// Per stair where those end that come after it and share its left end, and its right one; empty until asked for.
     fans: Vec<[u32; 2]>,
-    /// For the longest sequence of stairs: the last of the best sequence of each length, and what comes before each.
-    tops: Vec<u32>,
-    before: Vec<u32>,
     found: Found,
     /// Ranks of neighbouring abscissae.
     by_height: Vec<u32>,
@@ -172,6 +173,9 @@ impl SlabDecomposition {
 
     /// The places in `all` of the edges that a segment stands for.
     fn duplicates_of(&self, segment: u32) -> Range<usize> {
+        if self.all.len() == self.segments.len() {
+            return segment as usize..segment as usize + 1;
+        }
         let ranks = self.segments[segment as usize].ranks;
         let start = self.all.partition_point(|segment| segment.ranks < ranks);
         start..start + self.all[start..].iter().take_while(|segment| segment.ranks == ranks).count()
@@ -182,76 +186,8 @@ impl SlabDecomposition {
     pub(crate) fn find(&mut self, most: usize) -> bool {
         let near = if self.reach > 0.0 { NEAR * self.segments.len() } else { usize::MAX };
         self.found.start(most, near);
-        if let Some(slab) = self.open_all() {
-            self.look_into(slab, 0);
-        }
+        self.look_into_all(Quest::Pairs);
         !self.found.count()
-    }
-
-    /// Opens all edges, under their places in `segments`, in the slab of all ends, if there are any.
-    fn open_all(&mut self) -> Option<Slab> {
-        self.open.clear();
-        self.open.extend(self.segments.iter().zip(0..).map(|(segment, id)| RankedSegment { id, ..*segment }));
-        index(self.ends.len()).checked_sub(1).map(|last| [0, last])
-    }
-
-    /// Finds the pairs of the open edges from `start` on that may meet in a slab, and forgets these edges.
-    fn look_into(&mut self, slab: Slab, start: usize) {
-        if slab.map(|rank| self.ends[rank as usize].x) == [self.ends[slab[0] as usize].x; 2] {
-            self.look_into_column(slab, start);
-            return self.open.truncate(start);
-        }
-        self.sort_out_spanning(slab, start);
-        while !self.spanning.is_empty() {
-            if self.found.is_over() {
-                self.spanning.clear();
-                break;
-            }
-            self.choose_stairs(slab);
-            self.sort_out_coincident(slab);
-            self.compare_coincident(slab);
-            for i in 0..self.spanning.len() {
-                self.compare(self.spanning[i].segment, slab, true);
-            }
-            for i in start..self.open.len() {
-                self.compare(self.open[i], slab, true);
-            }
-            if slab[1] - slab[0] > 1 {
-                self.open.extend(self.spanning.drain(..).map(|span| span.segment));
-            }
-        }
-        let end = self.open.len();
-        if end - start <= FEW {
-            self.compare_all(slab, start..end);
-        } else if !self.found.is_over() {
-            for half in parts(slab) {
-                self.open_again(half, start..end);
-                self.look_into(half, end);
-            }
-        }
-        self.open.truncate(start);
-    }
-
-    /// Opens those of some open edges once more that have more than a point in a half of their slab.
-    fn open_again(&mut self, half: Slab, open: Range<usize>) {
-        for i in open {
-            let segment = self.open[i];
-            if segment.ranks[0] < half[1] && segment.ranks[1] > half[0] {
-                self.open.push(segment);
-            }
-        }
-    }
-
-    /// Finds the pairs among a few edges that may meet in a slab.
-    fn compare_all(&mut self, slab: Slab, open: Range<usize>) {
-        for i in open.clone() {
-            for j in open.start..i {
-                let [e, f] = [self.open[i], self.open[j]];
-                if self.may_meet(e, f, slab) {
-                    self.found.add(std::iter::once([e.id, f.id]), false);
-                }
-            }
-        }
     }
 
     /// An edge, directed to the right.
@@ -260,15 +196,14 @@ impl SlabDecomposition {
         segment.ranks.map(|rank| self.ends[rank as usize])
     }
 
-    fn may_meet(&self, e: RankedSegment, f: RankedSegment, slab: Slab) -> bool {
-        let (r, s) = (e.ranks, f.ranks);
+    fn may_meet(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> bool {
+        let (r, s) = (e.segment.ranks, f.segment.ranks);
         let (left, right) = (r[0].max(s[0]).max(slab[0]), r[1].min(s[1]).min(slab[1]));
-        if left >= right {
+        if left >= right || self.was_found(e, f, slab) {
             return false;
         }
-        let lines = [self.line(e, slab), self.line(f, slab)];
         let order = |rank: u32| {
-            let (y, z) = (self.height(r, lines[0], rank), self.height(s, lines[1], rank));
+            let (y, z) = (self.height(e, rank), self.height(f, rank));
             if (y - z).abs() > self.slack { y.total_cmp(&z) } else { Ordering::Equal }
         };
         match [r[0] == s[0], r[1] == s[1]] {
@@ -276,8 +211,8 @@ impl SlabDecomposition {
                 let order_left = order(left);
                 order_left == Ordering::Equal || order_left != order(right)
             }
-            [true, _] => order(right) == Ordering::Equal && self.may_run_together(e, f.ranks[1]),
-            [_, true] => order(left) == Ordering::Equal && self.may_run_together(e, f.ranks[0]),
+            [true, _] => order(right) == Ordering::Equal && self.may_run_together(e.segment, s[1]),
+            [_, true] => order(left) == Ordering::Equal && self.may_run_together(e.segment, s[0]),
         }
     }
 

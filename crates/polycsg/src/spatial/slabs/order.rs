@@ -1,6 +1,6 @@
 //! Which of two edges is the lower one: where heights do not tell, the sides of their ends do.
 
-use super::segments::{RankedSegment, Slab, SpanningSegment};
+use super::segments::{ClippedSegment, RankedSegment, Slab};
 use crate::predicates::{Segment, Side, crossing_x_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -15,7 +15,7 @@ pub(super) struct Order<'a> {
 
 impl Order<'_> {
     /// The order of two spanning segments at a slab's left side, and where they meet there, at its right one.
-    pub(super) fn compare(&self, a: &SpanningSegment, b: &SpanningSegment, slab: Slab) -> Ordering {
+    pub(super) fn compare(&self, a: &ClippedSegment, b: &ClippedSegment, slab: Slab) -> Ordering {
         let [low, high] = [a, b].map(|span| span.heights[0]);
         if (low - high).abs() > self.slack {
             return low.total_cmp(&high);
@@ -26,7 +26,7 @@ impl Order<'_> {
 
     /// Whether a span lies below another one at a side of their slab, or may do so and shares its end there or beyond.
     #[inline]
-    pub(super) fn is_below(&self, a: &SpanningSegment, b: &SpanningSegment, side: usize, slab: Slab) -> bool {
+    pub(super) fn is_below(&self, a: &ClippedSegment, b: &ClippedSegment, side: usize, slab: Slab) -> bool {
         let (low, high) = (a.heights[side], b.heights[side]);
         low + self.slack < high
             || (low <= high + self.slack && self.is_just_below(a.segment, b.segment, side, slab))

@@ -1,7 +1,7 @@
 //! What is right below a point, asked for many points at once.
 
-use super::segments::{NONE, RankedSegment, Slab, SpanningSegment, parts};
-use super::{FEW, SlabDecomposition};
+use super::segments::{ClippedSegment, NONE, RankedSegment, Slab};
+use super::{SlabDecomposition, descent::Quest};
 use crate::predicates::{Side, height_order, side};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range};
@@ -15,52 +15,27 @@ impl SlabDecomposition {
         self.queries.sort_unstable();
         self.nearest.clear();
         self.nearest.resize(points.len(), NONE);
-        if let Some(slab) = self.open_all() {
-            self.look_down(slab, 0, 0..self.queries.len());
-        }
+        let SlabDecomposition { segments, ends, found: pairs, .. } = self;
+        pairs.start(0, 0);
+        segments.retain(|segment| ends[segment.ranks[0] as usize].x < ends[segment.ranks[1] as usize].x);
+        self.look_into_all(Quest::Below);
         found.clear();
         let id = |&segment: &u32| self.segments.get(segment as usize).map(|segment| segment.id);
         found.extend(self.nearest.iter().map(id));
     }
 
-    /// Finds what is below those of the queries, sorted by rank, that lie in a slab but not at its right side.
-    fn look_down(&mut self, slab: Slab, start: usize, queries: Range<usize>) {
-        let within =
-            |rank: u32| queries.start + self.queries[queries.clone()].partition_point(|q| q.0 < rank);
-        let queries = within(slab[0])..within(slab[1]);
-        if queries.is_empty() {
-            return self.open.truncate(start);
-        }
-        self.sort_out_spanning(slab, start);
-        while !self.spanning.is_empty() {
-            self.choose_stairs(slab);
-            queries.clone().for_each(|query| self.look_at_stairs(query, slab));
-            if slab[1] - slab[0] > 1 {
-                self.open.extend(self.spanning.drain(..).map(|span| span.segment));
-            }
-        }
-        let end = self.open.len();
-        if end - start <= FEW {
-            for query in queries {
-                for i in start..end {
-                    self.look_at(query, self.open[i]);
-                }
-            }
-        } else {
-            for half in parts(slab) {
-                self.open_again(half, start..end);
-                self.look_down(half, end, queries.clone());
-            }
-        }
-        self.open.truncate(start);
+    /// The queries that lie in a slab but not at its right side.
+    pub(super) fn queries_in(&self, slab: Slab) -> Range<usize> {
+        let [first, end] = slab.map(|side| self.queries.partition_point(|query| query.0 < side));
+        first..end
     }
 
     /// Takes the highest stair below a query.
-    fn look_at_stairs(&mut self, query: usize, slab: Slab) {
+    pub(super) fn look_at_stairs(&mut self, query: usize, slab: Slab) {
         let rank = self.queries[query].0;
         let p = self.ends[rank as usize];
-        let at = |stair: &SpanningSegment| {
-            if rank == slab[0] { stair.heights[0] } else { self.height_inside(stair, rank) }
+        let at = |stair: &ClippedSegment| {
+            if rank == slab[0] { stair.heights[0] } else { self.height_inside(stair, p) }
         };
         let first = self.stairs.partition_point(|stair| at(stair) + self.slack < p.y);
         let near = &self.stairs[first..];
@@ -77,7 +52,7 @@ impl SlabDecomposition {
     }
 
     /// Takes an edge if it is below a query, and higher than what was found.
-    fn look_at(&mut self, query: usize, segment: RankedSegment) {
+    pub(super) fn look_at(&mut self, query: usize, segment: RankedSegment) {
         let (rank, place) = self.queries[query];
         let p = self.ends[rank as usize];
         if segment.ranks[0] < rank && rank < segment.ranks[1] && self.is_below(segment, p) {

@@ -1,10 +1,9 @@
 //! What slabs are made of: edges by the ranks of their ends, the lines that they lie on, and the edges that span a slab.
 
 use glam::DVec2;
-use std::cmp::Ordering;
 
 /// Into so many slabs one is cut.
-const PARTS: u32 = 3;
+const PARTS: u32 = 4;
 
 /// No span.
 pub(super) const NONE: u32 = u32::MAX;
@@ -30,27 +29,16 @@ impl RankedSegment {
     }
 }
 
-/// The line through an edge: by the end that is nearer to the slab at hand, as edges from one end are in their order
-/// there, and its slope, unless that would not do.
+/// The line through an edge: by its left end and its slope, not a number where a slope would not do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     pub(super) end: DVec2,
-    pub(super) is_right_end: bool,
     pub(super) slope: f64,
-    pub(super) has_slope: bool,
 }
 
-impl Line {
-    /// The order of lines through one end, in a slab.
-    pub(super) fn order(&self, other: &Line) -> Ordering {
-        let key = |line: &Line| if line.is_right_end { -line.slope } else { line.slope };
-        self.is_right_end.cmp(&other.is_right_end).then_with(|| key(self).total_cmp(&key(other)))
-    }
-}
-
-/// An edge from side to side of a slab, with its heights there.
+/// An edge in a slab, with its heights where it enters the slab or starts and where it leaves the slab or ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SpanningSegment {
+pub(super) struct ClippedSegment {
     pub(super) heights: [f64; 2],
     pub(super) line: Line,
     pub(super) segment: RankedSegment,

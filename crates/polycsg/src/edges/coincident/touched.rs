@@ -1,11 +1,11 @@
-//! Vertices of cancelled edges that touch a remaining edge: they become vertices of that edge, as they do where nothing
+//! Vertices of edges that are gone, where they touch an edge that is left: they become vertices of that edge, as they do where nothing
 //! cancels.
 
-use super::cells::Cells;
+use super::{Fate, cells::Cells};
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
-use std::{cmp::Ordering, ops::Range};
+use std::cmp::Ordering;
 
 /// So many edges are in a cell on the average: maps have far more at some places.
 const EDGES_PER_CELL: usize = 2;
@@ -36,20 +36,25 @@ pub(super) struct Touched {
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long, or all too close together, for that.
-    pub(super) fn find(&mut self, edges: &Edges, gone: &[bool], cells: Cells) -> bool {
-        let cells = cells.with(gone.len() / EDGES_PER_CELL);
+    pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate], cells: Cells) -> bool {
+        let cells = cells.with(fates.len() / EDGES_PER_CELL);
         self.left.clear();
-        self.left.extend((0..).zip(gone).filter(|(_, gone)| !**gone).map(|(edge, _)| edge));
+        self.left.extend((0..).zip(fates).filter(|(_, fate)| fate.is_kept()).map(|(edge, _)| edge));
         self.list(edges, cells) && {
             self.count(cells.columns());
-            self.look(edges, cells, gone)
+            self.look(edges, cells, fates)
         }
     }
 
-    /// The points inside some edges, by edge and in order along each.
-    pub(super) fn inside(&self, span: Range<u32>) -> &[(u32, DVec2)] {
-        let first = self.inside.partition_point(|(edge, _)| *edge < span.start);
-        let count = self.inside[first..].partition_point(|(edge, _)| *edge < span.end);
+    /// No points.
+    pub(super) fn clear(&mut self) {
+        self.inside.clear();
+    }
+
+    /// The points inside an edge, in order along it.
+    pub(super) fn inside(&self, edge: u32) -> &[(u32, DVec2)] {
+        let first = self.inside.partition_point(|inside| inside.0 < edge);
+        let count = self.inside[first..].partition_point(|inside| inside.0 == edge);
         &self.inside[first..first + count]
     }
 
@@ -101,17 +106,17 @@ impl Touched {
     }
 
     /// Looks at the vertices between two gone edges.
-    fn look(&mut self, edges: &Edges, cells: Cells, gone: &[bool]) -> bool {
+    fn look(&mut self, edges: &Edges, cells: Cells, fates: &[Fate]) -> bool {
         self.inside.clear();
-        let mut room = MORE + PAIRS_PER_EDGE * gone.len();
-        for ring in edges.rings().iter().filter(|ring| ring.is_closed()) {
+        let mut room = MORE + PAIRS_PER_EDGE * fates.len();
+        for ring in edges.rings() {
             for start in (ring.start..ring.end).step_by(TOGETHER as usize) {
                 let vertices = start..ring.end.min(start + TOGETHER);
                 if !self.are_near(cells, &edges.points()[vertices.start as usize..vertices.end as usize]) {
                     continue;
                 }
                 for vertex in vertices {
-                    if gone[vertex as usize] & gone[ring.previous(vertex) as usize] {
+                    if !edges.at(vertex).iter().any(|&edge| fates[edge as usize].is_kept()) {
                         let p = edges.point(vertex);
                         let looked_at = self.look_at(edges, cells.at(p) as usize, p);
                         let Some(left) = room.checked_sub(looked_at) else { return false };
@@ -167,28 +172,29 @@ fn rises(edges: &Edges, edge: u32) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::Touched;
-    use crate::edges::opposite_edges::table::Table;
-    use crate::edges::{Edges, Origin};
+    use super::{Fate, Touched};
+    use crate::edges::coincident::table::Table;
+    use crate::edges::{Change, Edges, Origin};
     use glam::DVec2;
 
     fn add_square(edges: &mut Edges, low: DVec2) {
         for corner in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y] {
             edges.add_edge(low + corner, Origin { operand: 0, edge: 0 });
         }
-        edges.close(Some(0));
+        edges.end_ring(None, &[Change { counter: 0, winds: 1 }]);
     }
 
     /// What is found in a grid of squares and something else.
     fn found(columns: u16, add: impl Fn(&mut Edges)) -> Option<Vec<(u32, DVec2)>> {
-        let (mut edges, mut table, mut gone, mut touched) =
+        let (mut edges, mut table, mut fates, mut touched) =
             (Edges::default(), Table::default(), Vec::new(), Touched::default());
         add(&mut edges);
         for cell in 0..columns * columns {
             add_square(&mut edges, DVec2::new(f64::from(cell % columns), f64::from(cell / columns)));
         }
-        table.find(&edges, &mut gone);
-        touched.find(&edges, &gone, table.cells()).then_some(touched.inside)
+        table.group(&edges, &mut fates);
+        table.several().for_each(|edge| fates[edge as usize] = Fate::Gone);
+        touched.find(&edges, &fates, table.cells()).then_some(touched.inside)
     }
 
     #[test]
@@ -209,7 +215,7 @@ mod tests {
         let with = |ring: [DVec2; 3]| {
             found(10, |edges| {
                 ring.iter().for_each(|&p| edges.add_edge(p, Origin { operand: 0, edge: 0 }));
-                edges.close(Some(0));
+                edges.end_ring(None, &[Change { counter: 0, winds: 1 }]);
             })
         };
         assert_eq!(with(triangle), Some(forward));
