@@ -1,8 +1,10 @@
 //! Laws of set algebra and of symmetry, bit for bit wherever they hold in exact arithmetic.
 use glam::DVec2;
-use polycsg::{Csg, Region};
+use num_traits::Zero;
+use polycsg::{Csg, Region, Scratch};
 use tests::Ring;
 use tests::against::{csg, leaf, operate, region, sorted_edges, twice_area};
+use tests::exact::twice_signed_area;
 use tests::generators::{KINDS, Pair, lattice, nasty};
 use tests::oracle::{Operand, Operation, Rule};
 
@@ -73,6 +75,31 @@ fn the_empty_set_is_neutral() {
         assert!(a.intersection(&empty).is_empty(), "{}", pair.name);
         assert!(empty.difference(&a).is_empty(), "{}", pair.name);
     }
+}
+
+/// Straight vertices go but where rings touch, and the set stays, exactly.
+#[test]
+fn straight_vertices_can_be_left_out() {
+    let (mut left_out, mut kept) = (0, 0);
+    for pair in all_inputs() {
+        let result = evaluate(Operation::Union, &pair);
+        let lean = result.without_collinear_vertices();
+        assert_eq!(lean.validate(), Ok(()), "{}", pair.name);
+        let differ = (Csg::from(&lean) ^ Csg::from(&result)).boundary(&mut Scratch::default()).is_empty();
+        assert!(differ && twice_area(&lean) == twice_area(&result), "{}", pair.name);
+        let vertices: Vec<DVec2> = result.rings().flatten().copied().collect();
+        for ring in lean.rings() {
+            for i in 0..ring.len() {
+                let [p, q, r] = [0, 1, 2].map(|k| ring[(i + k) % ring.len()]);
+                let is_common = vertices.iter().filter(|&&other| other == q).count() > 1;
+                let is_straight = twice_signed_area([&[p, q, r][..]]).is_zero();
+                assert!(is_common || !is_straight, "{}: {q} is left", pair.name);
+                kept += usize::from(is_common && is_straight);
+            }
+        }
+        left_out += vertices.len() - lean.rings().flatten().count();
+    }
+    assert!(left_out > 300 && kept > 0, "{left_out} left out, {kept} kept");
 }
 
 #[test]

@@ -679,7 +679,7 @@ fn main() {
                 _ => Csg::symmetric_difference(mk()),
             };
             let t = Instant::now();
-            let r = c.try_evaluate_with(&mut s, l.parse().unwrap());
+            let r = c.try_evaluate_with(&mut s, l.parse::<usize>().unwrap());
             println!("   within {l}: {:?} in {:?}", r.map(|_| ()), t.elapsed());
         }
     }

@@ -23,32 +23,67 @@ impl From<&Region> for MultiPolygon<f64> {
     }
 }
 
-/// The points of a line string; the repeated last one does no harm.
-fn points(line: &LineString<f64>) -> Vec<DVec2> {
-    line.coords().map(|c| DVec2::new(c.x, c.y)).collect()
+/// Reads the rings of a polygon, the first by a number, without the repeated last points.
+fn read(polygon: &Polygon<f64>, first: usize) -> Result<Rings, Error> {
+    let mut rings = Rings::default();
+    for (ring, line) in (first..).zip(std::iter::once(polygon.exterior()).chain(polygon.interiors())) {
+        let points = match &line.0[..] {
+            [start, points @ .., end] if start == end => &line.0[..=points.len()],
+            points => points,
+        };
+        rings.read_ring(ring, points.iter().map(|c| DVec2::new(c.x, c.y)))?;
+    }
+    Ok(rings)
 }
 
-/// The rings of a polygon, even-odd: whatever their directions, a hole cuts.
-fn rings(polygon: &Polygon<f64>) -> Vec<Vec<DVec2>> {
-    std::iter::once(polygon.exterior()).chain(polygon.interiors()).map(points).collect()
-}
-
-/// An error names the ring as counted from the exterior, 0.
-impl TryFrom<&Polygon<f64>> for Region {
+/// The polygon's rings as they are, even-odd: whatever their directions, a hole cuts. An error names the ring as counted from the
+/// exterior, 0. Edges are counted through all rings; the repeated last point of a ring starts none.
+///
+/// ```
+/// use geo_types::polygon;
+/// use polycsg::Csg;
+/// let square = polygon![(x: 0.0, y: 0.0), (x: 4.0, y: 0.0), (x: 4.0, y: 4.0), (x: 0.0, y: 4.0)];
+/// let triangle = polygon![(x: 2.0, y: 2.0), (x: 6.0, y: 2.0), (x: 2.0, y: 6.0)];
+/// let rest = Csg::try_from(&square)? - Csg::try_from(&triangle)?;
+/// assert_eq!(rest.evaluate().area(), 12.0);
+/// # Ok::<(), polycsg::Error>(())
+/// ```
+impl TryFrom<&Polygon<f64>> for Csg<'_> {
     type Error = Error;
-    fn try_from(polygon: &Polygon<f64>) -> Result<Region, Error> {
-        Region::from_rings(rings(polygon), FillRule::EvenOdd)
+    fn try_from(polygon: &Polygon<f64>) -> Result<Self, Error> {
+        Ok(Csg::of_rings(read(polygon, 0)?, FillRule::EvenOdd))
     }
 }
 
-/// The union of the polygons, which may overlap; an error counts rings through all of them.
+/// The union of the polygons, which may overlap. Each is an operand; an error counts rings through all of them.
+impl TryFrom<&MultiPolygon<f64>> for Csg<'_> {
+    type Error = Error;
+    fn try_from(polygons: &MultiPolygon<f64>) -> Result<Self, Error> {
+        let mut next = 0;
+        let operands: Result<Vec<_>, Error> = polygons
+            .iter()
+            .map(|polygon| {
+                let first = next;
+                next += 1 + polygon.interiors().len();
+                Ok(Csg::of_rings(read(polygon, first)?, FillRule::EvenOdd))
+            })
+            .collect();
+        Ok(Csg::union(operands?))
+    }
+}
+
+/// As the same polygon read as a [`Csg`].
+impl TryFrom<&Polygon<f64>> for Region {
+    type Error = Error;
+    fn try_from(polygon: &Polygon<f64>) -> Result<Region, Error> {
+        Ok(Csg::try_from(polygon)?.evaluate())
+    }
+}
+
+/// As the same polygons read as a [`Csg`].
 impl TryFrom<&MultiPolygon<f64>> for Region {
     type Error = Error;
     fn try_from(polygons: &MultiPolygon<f64>) -> Result<Region, Error> {
-        let all: Vec<Vec<Vec<DVec2>>> = polygons.iter().map(rings).collect();
-        Rings::read(all.iter().flatten())?;
-        let operands: Result<Vec<Csg<'_>>, Error> =
-            all.iter().map(|rings| Csg::from_rings(rings, FillRule::EvenOdd)).collect();
-        Ok(Csg::union(operands?).evaluate())
+        Ok(Csg::try_from(polygons)?.evaluate())
     }
 }

@@ -47,7 +47,10 @@
 //! | many small jobs | [`Csg::evaluate_with`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
 //! | untrusted input, which may have more crossings than fit in memory | [`Csg::try_evaluate_with`] |
 //! | only the area, or whether anything is left; which operand an edge comes from | [`Csg::boundary`] |
+//! | many regions clipped by one, many questions about one | [`PreparedRegion`] |
+//! | whether a region contains or meets another one | [`Region::contains`], [`Region::intersects`] |
 //! | where a point lies, how a segment lies | [`Region::locate`], [`classify`] |
+//! | without the vertices in the middle of straight edges | [`Region::without_collinear_vertices`] |
 //! | moved, turned, scaled, mirrored | [`Region::map_affine`] |
 //! | triangles | `Region::triangulate` |
 //! | files and other crates | the features `serde` and `geo-types` |
@@ -68,9 +71,9 @@
 //!
 //! # Features
 //!
-//! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`.
-//! - `rayon`: threads inside one job of 20 000 edges or more, and over many jobs by
-//!   [`Csg::evaluate_all`](Csg#method.evaluate_all). The results have the same bits as on one thread.
+//! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`, which expressions also take as they are.
+//! - `rayon`: threads inside one job of 20 000 edges or more, over many jobs by
+//!   [`Csg::evaluate_all`](Csg#method.evaluate_all), and over many clips by [`PreparedRegion::clip_all`]. The results have the same bits as on one thread.
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.
 //!
@@ -86,7 +89,6 @@ mod affine;
 mod arrangement;
 mod assemble;
 mod base;
-#[cfg(feature = "rayon")]
 mod batch;
 mod boundary;
 mod classify;
@@ -104,6 +106,7 @@ mod limits;
 mod pipeline;
 mod predicates;
 mod region;
+mod relate;
 #[cfg(feature = "serde")]
 mod serde;
 mod spatial;
@@ -118,4 +121,5 @@ pub use expression::csg::{Csg, FillRule};
 pub use limits::Limits;
 pub use pipeline::scratch::Scratch;
 pub use region::membership::Membership;
+pub use region::prepared::PreparedRegion;
 pub use region::{Invalid, Location, Polygon, Region};

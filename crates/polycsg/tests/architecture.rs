@@ -7,9 +7,10 @@ use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names,
 use std::{fs, path::Path};
 
 /// The folders and files of `src` from the top down: each imports only from itself and from those below it.
-const ORDER: [&str; 34] = [
+const ORDER: [&str; 36] = [
     "fuzzing",
     "batch",
+    "relate",
     "serde",
     "geo",
     "affine",
@@ -35,6 +36,7 @@ const ORDER: [&str; 34] = [
     "expression/simple_ring",
     "expression/circuit",
     "expression",
+    "region/prepared",
     "spatial/ray_shooting",
     "spatial",
     "region",

@@ -2,7 +2,7 @@
 #![cfg(feature = "geo-types")]
 
 use geo_types::{MultiPolygon, Polygon, polygon};
-use polycsg::{Error, FillRule, Region};
+use polycsg::{Csg, Error, FillRule, Region, Scratch};
 
 fn frame_with_island() -> Region {
     let square = |low: f64, high: f64| [[low, low], [high, low], [high, high], [low, high]];
@@ -51,10 +51,33 @@ fn a_hole_cuts_whatever_its_direction_and_polygons_may_overlap() {
 }
 
 #[test]
+fn polygons_are_operands_as_they_are() {
+    // A bow-tie stays one until the expression is evaluated, and each polygon is an operand.
+    let bow: Polygon<f64> = polygon![(x: 0.0, y: 0.0), (x: 4.0, y: 4.0), (x: 4.0, y: 0.0), (x: 0.0, y: 4.0)];
+    let lid: Polygon<f64> = polygon![(x: 0.0, y: 3.0), (x: 4.0, y: 3.0), (x: 4.0, y: 5.0), (x: 0.0, y: 5.0)];
+    let both = MultiPolygon(vec![bow.clone(), lid.clone()]);
+    let csg = Csg::try_from(&both).expect("finite");
+    assert_eq!(
+        csg.evaluate(),
+        Csg::union([&bow, &lid].map(|p| Csg::try_from(p).expect("finite"))).evaluate()
+    );
+    assert_eq!(csg.evaluate(), Region::try_from(&both).expect("finite"));
+    assert_eq!(
+        (Csg::try_from(&bow).expect("finite") - Csg::try_from(&lid).expect("finite")).evaluate().area(),
+        7.0
+    );
+    let mut scratch = Scratch::default();
+    let sources: Vec<_> = csg.boundary(&mut scratch).edges().map(|edge| (edge.operand, edge.edge)).collect();
+    assert!(sources.contains(&(0, 3)) && sources.contains(&(1, 3)), "{sources:?}");
+    assert!(sources.iter().all(|&(_, edge)| edge < 4), "{sources:?}");
+}
+
+#[test]
 fn a_bad_coordinate_is_named() {
     let bad: Polygon<f64> = polygon![(x: 0.0, y: 0.0), (x: f64::NAN, y: 0.0), (x: 1.0, y: 1.0)];
     assert_eq!(Region::try_from(&bad), Err(Error::NonFinite { ring: 0, vertex: 1 }));
     let good: Polygon<f64> = polygon![(x: 0.0, y: 0.0), (x: 1.0, y: 0.0), (x: 1.0, y: 1.0)];
+    assert_eq!(Csg::try_from(&bad).map(|_| ()), Err(Error::NonFinite { ring: 0, vertex: 1 }));
     let error = Region::try_from(&MultiPolygon(vec![good, bad]));
     assert_eq!(error, Err(Error::NonFinite { ring: 1, vertex: 1 }));
 }

@@ -1,6 +1,6 @@
 //! Jobs on any number of threads, and one job on many, yield the same bits.
 
-use polycsg::{Csg, DVec2, FillRule, Region};
+use polycsg::{Csg, DVec2, FillRule, PreparedRegion, Region};
 
 /// A star of long spikes, so that neighbours cross many times.
 fn star(center: DVec2, spikes: u32) -> Region {
@@ -43,9 +43,12 @@ fn any_number_of_threads() {
         .chain([Csg::union(&stars), Csg::symmetric_difference(&stars)])
         .collect();
     let serial: Vec<Region> = jobs.iter().map(Csg::evaluate).collect();
+    let clip = PreparedRegion::from(star(DVec2::new(6.0, 0.0), 40));
+    let clipped: Vec<Region> = stars.iter().map(|star| star.intersection(clip.region())).collect();
     for threads in [1, 2, 3, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         assert_eq!(pool.install(|| Csg::evaluate_all(&jobs)), serial, "{threads} threads");
+        assert_eq!(pool.install(|| clip.clip_all(&stars)), clipped, "{threads} threads");
     }
     assert!(Csg::evaluate_all(&[]).is_empty());
 }

@@ -2,12 +2,16 @@
 
 use super::{END, EdgeRing, Edges, Origin};
 use crate::base::id::index;
-use crate::expression::{bounds::ResultBounds, csg::Csg, winding::WindingNumbers};
+use crate::expression::{bounds::ResultBounds, csg::Csg, csg::Token, winding::WindingNumbers};
+use crate::predicates::Window;
 use crate::region::rings::Rings;
 use glam::DVec2;
 
 /// More rings than this are sorted, so that what lies close in the plane lies close in memory.
 const FEW_RINGS: usize = 64;
+
+/// Rings of more points are cut down to what the result's bounds see of them.
+const FEW_POINTS: usize = if cfg!(any(test, fuzzing)) { 3 } else { 64 };
 
 /// A ring by its first point.
 #[derive(Clone, Copy, Debug)]
@@ -19,11 +23,12 @@ pub(crate) struct RingKey {
     ring: u32,
 }
 
-/// The rings of all operands.
-fn ring_keys<'a>(csg: &'a Csg<'_>) -> impl Iterator<Item = RingKey> + 'a {
-    let leaves =
-        (0..).zip(csg.postfix()).filter_map(|(token, leaf)| leaf.rings().map(|rings| (token, rings)));
-    leaves.zip(0..).flat_map(|((token, rings), operand)| {
+/// The rings of all operands, or of those alone that are not prepared.
+fn ring_keys<'a>(csg: &'a Csg<'_>, all: bool) -> impl Iterator<Item = RingKey> + 'a {
+    let leaves = (0..).zip(csg.postfix()).filter(|(_, leaf): &(u32, &Token<'_>)| leaf.rings().is_some());
+    let wanted = leaves.zip(0..).filter(move |((_, leaf), _)| all || !matches!(leaf, Token::Prepared(_)));
+    let read = wanted.filter_map(|((token, leaf), operand)| Some((token, leaf.rings()?, operand)));
+    read.flat_map(|(token, rings, operand)| {
         let place = move |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
         (0..).zip(rings.iter()).map(place)
     })
@@ -67,18 +72,34 @@ impl Edges {
     ) {
         self.clear();
         all.clear();
-        all.extend(ring_keys(csg));
+        let window = bounds.window();
+        all.extend(ring_keys(csg, window.is_none()));
         if all.len() > FEW_RINGS && !are_near(all) {
             sort_by_place(all);
         }
         for &place in &*all {
             if let Some(rings) = csg.token(place.token as usize).rings() {
-                self.add_ring(rings, place, winding, bounds);
+                self.add_ring(rings, place, winding, bounds, window.as_ref());
+            }
+        }
+        if let Some(window) = window {
+            let leaves = csg.postfix().filter(|leaf| leaf.rings().is_some());
+            for (leaf, operand) in leaves.zip(0..) {
+                if let Token::Prepared(prepared) = leaf {
+                    self.add_prepared(prepared, operand, winding.counter(operand as usize), &window);
+                }
             }
         }
     }
 
-    fn add_ring(&mut self, rings: &Rings, place: RingKey, winding: &WindingNumbers, bounds: &ResultBounds) {
+    fn add_ring(
+        &mut self,
+        rings: &Rings,
+        place: RingKey,
+        winding: &WindingNumbers,
+        bounds: &ResultBounds,
+        window: Option<&Window>,
+    ) {
         let (operand, ring) = (place.operand, place.ring as usize);
         let counter = winding.counter(operand as usize);
         // What bounds nothing is an edge alone, not the way there and back.
@@ -89,7 +110,11 @@ impl Edges {
             return;
         }
         let origin = Origin { operand, edge: index(rings.start(ring)) };
-        if points.windows(2).any(|pair| pair[0] == pair[1]) {
+        let repeats = points.windows(2).any(|pair| pair[0] == pair[1]);
+        if !repeats && window.is_some_and(|window| self.add_if_cut(points, origin, counter, window)) {
+            return;
+        }
+        if repeats {
             self.add_distinct(points, origin);
         } else {
             self.points.extend_from_slice(points);
@@ -116,12 +141,30 @@ impl Edges {
         });
     }
 
+    /// Adds a ring of many points that leaves a window by what the window sees of it; false, if it is to be added whole.
+    fn add_if_cut(
+        &mut self,
+        points: &[DVec2],
+        origin: Origin,
+        counter: Option<u32>,
+        window: &Window,
+    ) -> bool {
+        points.len() > FEW_POINTS
+            && points.iter().any(|&p| window.outer_sides(p, p) != 0)
+            && self.add_seen(points, origin, counter, window)
+    }
+
+    /// Stores the origin of each slot.
+    pub(super) fn store_origins(&mut self) {
+        if self.origins.is_empty() {
+            self.origins = (0..index(self.points.len())).map(|slot| self.origin(slot)).collect();
+        }
+    }
+
     /// The points of a ring that differ from the next one, and the first of them again.
     fn add_distinct(&mut self, points: &[DVec2], origin: Origin) {
         let start = self.points.len();
-        if self.origins.is_empty() {
-            self.origins = (0..index(start)).map(|slot| self.origin(slot)).collect();
-        }
+        self.store_origins();
         for (pair, edge) in points.windows(2).zip(origin.edge..) {
             if pair[0] != pair[1] {
                 self.points.push(pair[0]);

@@ -2,6 +2,7 @@
 
 pub(crate) mod coincident;
 pub(crate) mod collect;
+mod localise;
 
 use crate::base::id::index;
 use crate::expression::winding::WindingNumbers;

@@ -7,9 +7,13 @@
 //!                     +--------+  the same.
 //! ```
 //!
+//! Of a ring that leaves the bounds only what is near them is read; the rest, which may then run anywhere outside of them, never
+//! matters: at each place outside of the bounds some operand that is needed is missing, and an operand stays in its own box.
+//!
 //! Rings that only touch the bounds stay: their vertices are put into the edges that they touch.
 
 use super::csg::{Csg, Operator, Token};
+use crate::predicates::Window;
 use glam::DVec2;
 
 /// An axis-parallel box with its sides; no point when it is turned inside out.
@@ -26,6 +30,10 @@ impl Bounds {
     fn of(points: &[DVec2]) -> Bounds {
         let grown = |b: Bounds, &p: &DVec2| Bounds { low: b.low.min(p), high: b.high.max(p) };
         points.iter().fold(Bounds::NOTHING, grown)
+    }
+
+    fn from_box(sides: Option<[DVec2; 2]>) -> Bounds {
+        sides.map_or(Bounds::NOTHING, |[low, high]| Bounds { low, high })
     }
 
     fn joined(self, other: Bounds) -> Bounds {
@@ -72,6 +80,7 @@ impl ResultBounds {
         for token in csg.postfix() {
             let bounds = match token {
                 Token::Region(region) => Bounds::of(region.rings_of().points()),
+                Token::Prepared(prepared) => Bounds::from_box(prepared.bounds()),
                 Token::Rings(rings, _) | Token::Edge(rings) => Bounds::of(rings.points()),
                 Token::Operator(operator, count) => self.combined(*operator, *count),
             };
@@ -87,6 +96,12 @@ impl ResultBounds {
             Operator::Intersection => operands.fold(Bounds::PLANE, Bounds::common),
             Operator::Difference => operands.next().unwrap_or(Bounds::NOTHING),
         }
+    }
+
+    /// The box, if the result is confined to one.
+    pub(crate) fn window(&self) -> Option<Window> {
+        let result = self.bounds.first().filter(|result| result.low.cmpgt(DVec2::NEG_INFINITY).all())?;
+        Some(Window::new(result.low, result.high))
     }
 
     /// Whether a ring may matter.

@@ -1,7 +1,7 @@
 //! Expressions of Booleans over any number of operands, evaluated in one arrangement.
 
 use crate::error::Error;
-use crate::region::{Region, rings::Rings};
+use crate::region::{Region, prepared::PreparedRegion, rings::Rings};
 use glam::DVec2;
 use std::collections::VecDeque;
 use std::ops::{BitAnd, BitOr, BitXor, Sub};
@@ -53,6 +53,7 @@ pub(crate) enum Operator {
 #[derive(Clone, Debug)]
 pub(crate) enum Token<'a> {
     Region(&'a Region),
+    Prepared(&'a PreparedRegion),
     Rings(Rings, FillRule),
     /// An edge, and the way back, as a ring. It bounds nothing; the arrangement tells what lies beside it.
     Edge(Rings),
@@ -65,6 +66,7 @@ impl Token<'_> {
     pub(crate) fn rings(&self) -> Option<&Rings> {
         match self {
             Token::Region(region) => Some(region.rings_of()),
+            Token::Prepared(prepared) => Some(prepared.rings()),
             Token::Rings(rings, _) | Token::Edge(rings) => Some(rings),
             Token::Operator(..) => None,
         }
@@ -114,6 +116,12 @@ impl<'a> From<&'a Region> for Csg<'a> {
     }
 }
 
+impl<'a> From<&'a PreparedRegion> for Csg<'a> {
+    fn from(prepared: &'a PreparedRegion) -> Self {
+        Csg::leaf(Token::Prepared(prepared))
+    }
+}
+
 impl<'a> Csg<'a> {
     /// Raw rings as an operand: self-intersecting, nested, touching, any direction, as `rule` reads them.
     ///
@@ -129,7 +137,7 @@ impl<'a> Csg<'a> {
         R::Item: AsRef<[P]>,
         P: Copy + Into<DVec2>,
     {
-        Ok(Csg::leaf(Token::Rings(Rings::read(rings)?, rule)))
+        Ok(Csg::of_rings(Rings::read(rings)?, rule))
     }
 
     /// The union of any number of operands: all points in at least one of them. Without operands, the empty set.
@@ -170,7 +178,12 @@ impl<'a> Csg<'a> {
 
     /// Positively wound rings, already read.
     pub(crate) fn positive(rings: Rings) -> Csg<'static> {
-        Csg::leaf(Token::Rings(rings, FillRule::Positive))
+        Csg::of_rings(rings, FillRule::Positive)
+    }
+
+    /// Rings that were read already.
+    pub(crate) fn of_rings(rings: Rings, rule: FillRule) -> Csg<'a> {
+        Csg::leaf(Token::Rings(rings, rule))
     }
 
     /// The operands, and each operator behind its operands.

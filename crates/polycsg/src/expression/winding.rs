@@ -2,8 +2,8 @@
 //! expression holds there.
 //!
 //! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions and, among many
-//! operands, simple rings) and stand under one union, intersection or symmetric difference share one counter: the number of
-//! operands that contain the place decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
+//! operands, simple rings) and stand under one union or symmetric difference share one counter: the number of operands that
+//! contain the place decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
 
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
@@ -24,8 +24,6 @@ impl Rule {
     const NEGATIVE: Rule = Rule { mask: !0, low: i32::MIN, width: 1 << 31 };
     const POSITIVE: Rule = Rule { mask: !0, low: 1, width: i32::MAX.unsigned_abs() };
     const ODD: Rule = Rule { mask: 1, low: 1, width: 1 };
-    /// So many: `low` of so many operands.
-    const EQUAL: Rule = Rule { mask: !0, low: 0, width: 1 };
 
     #[inline]
     fn holds(self, winding: i32) -> bool {
@@ -104,7 +102,7 @@ impl WindingNumbers {
                     let gate = self.gate_for(*operator, *count, gate);
                     self.open.push(gate);
                 }
-                Token::Region(_) => self.add_once(1, gate),
+                Token::Region(_) | Token::Prepared(_) => self.add_once(1, gate),
                 Token::Rings(rings, rule) => {
                     match is_among_many.then(|| winds_once(rings, *rule)).flatten() {
                         Some(winds) => self.add_once(winds, gate),
@@ -148,11 +146,14 @@ impl WindingNumbers {
 
     /// Adds an operand whose winding number is 0 or `winds`, 1 or -1.
     fn add_once(&mut self, winds: i32, gate: u32) {
-        let kind = self.gates.kind(gate);
-        let rule = match kind {
-            Kind::Any if winds < 0 => Rule::NEGATIVE,
-            Kind::Any => Rule::POSITIVE,
-            Kind::All => Rule::EQUAL,
+        let once = if winds < 0 { Rule::NEGATIVE } else { Rule::POSITIVE };
+        let rule = match self.gates.kind(gate) {
+            // What the result's bounds see of a region winds once at most within them alone: others must not make up for it.
+            Kind::All => {
+                let counter = self.add_counter(once, gate);
+                return self.operands.push(Some(counter));
+            }
+            Kind::Any => once,
             Kind::Odd => Rule::ODD,
         };
         let direction = usize::from(winds > 0);
@@ -161,9 +162,6 @@ impl WindingNumbers {
             None => self.add_counter(rule, gate),
         };
         self.shared[gate as usize][direction] = Some(counter);
-        if kind == Kind::All {
-            self.counters[counter as usize].rule.low += winds;
-        }
         self.operands.push(Some(counter));
     }
 

@@ -11,9 +11,11 @@
 //! | [`height_order`] | which of two edges is lower at an abscissa | 3 |
 //! | [`crossing_x_order`] | does a crossing lie left of an abscissa | 3 |
 //! | [`Margins`] | do two edges cross, or not meet, whatever rounding does | 2 |
+//! | [`Window`], [`Band`] | does a box lie on one side of an edge, or of some points | 2 |
 //! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
 
 mod area;
+mod band;
 mod clear;
 #[cfg(any(test, fuzzing))]
 mod configurations;
@@ -31,6 +33,7 @@ mod tests;
 mod whole_range;
 
 pub(crate) use area::exact_area;
+pub(crate) use band::{Band, Window};
 pub(crate) use clear::{Clear, Margins};
 pub(crate) use exactfloat::Ratio;
 pub(crate) use order::{

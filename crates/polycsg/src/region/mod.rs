@@ -1,7 +1,9 @@
 //! Regions: polygons with holes, islands in the holes, and so on.
 
 pub(crate) mod area;
+mod collinear;
 pub(crate) mod membership;
+pub(crate) mod prepared;
 pub(crate) mod rings;
 
 use crate::predicates::{Segment, Side, is_inside, lexicographic, rightward, side};

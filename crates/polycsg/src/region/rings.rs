@@ -25,18 +25,27 @@ impl Rings {
     {
         let mut read = Rings::default();
         for (ring, points) in rings.into_iter().enumerate() {
-            let points = points.as_ref();
-            match read.end {
-                0 => read.points = Vec::with_capacity(points.len() + 1),
-                _ => read.points.reserve(points.len() + 1),
-            }
-            read.points.extend(points.iter().map(|&point| point.into() + DVec2::ZERO));
-            if let Some(vertex) = read.points[read.end..].iter().position(|point| !point.is_finite()) {
-                return Err(Error::NonFinite { ring, vertex });
-            }
-            read.close();
+            read.read_ring(ring, points.as_ref().iter().map(|&point| point.into()))?;
         }
         Ok(read)
+    }
+
+    /// Reads one more ring; an error names it by its number.
+    pub(crate) fn read_ring(
+        &mut self,
+        ring: usize,
+        points: impl ExactSizeIterator<Item = DVec2>,
+    ) -> Result<(), Error> {
+        match self.end {
+            0 => self.points = Vec::with_capacity(points.len() + 1),
+            _ => self.points.reserve(points.len() + 1),
+        }
+        self.points.extend(points.map(|point| point + DVec2::ZERO));
+        if let Some(vertex) = self.points[self.end..].iter().position(|point| !point.is_finite()) {
+            return Err(Error::NonFinite { ring, vertex });
+        }
+        self.close();
+        Ok(())
     }
 
     pub(crate) fn with_capacity(points: usize, rings: usize) -> Rings {
