@@ -113,14 +113,13 @@ impl Edges {
         self.also.clear();
     }
 
-    /// Adds edges of others to a new ring.
+    /// Adds edges of others, all of one ring, to a new ring.
     pub(crate) fn add_edges(&mut self, others: &Edges, edges: Range<u32>) {
-        self.points.extend_from_slice(&others.points[edges.start as usize..edges.end as usize]);
-        if others.origins.is_empty() && !edges.is_empty() {
-            let Origin { operand, edge } = others.origin(edges.start);
-            self.origins.extend((edge..).zip(edges).map(|(edge, _)| Origin { operand, edge }));
-        } else {
-            self.origins.extend_from_slice(&others.origins[edges.start as usize..edges.end as usize]);
+        let span = edges.start as usize..edges.end as usize;
+        self.points.extend_from_slice(&others.points[span.clone()]);
+        match others.origins.get(span) {
+            Some(origins) => self.origins.extend_from_slice(origins),
+            None => self.origins.extend(edges.map(|edge| others.origin(edge))),
         }
     }
 
