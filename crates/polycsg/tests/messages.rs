@@ -14,6 +14,11 @@ fn a_limit_is_named() {
         Error::TooManyContacts { limit: 7 }.to_string(),
         "edges meet more than 7 times; raise the limit or split the operands"
     );
+    assert_eq!(
+        Error::TooMuchWork { limit: 7 }.to_string(),
+        "the evaluation takes more than 7 units of work; raise the limit or split the operands"
+    );
+    assert_eq!(Error::Stopped.to_string(), "the caller stopped the evaluation");
 }
 
 #[test]

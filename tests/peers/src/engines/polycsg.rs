@@ -2,7 +2,7 @@
 
 use super::task::{Outcome, Sink, Task, operands, reading, task};
 use crate::job::{Job, Op, Operand, Polygon, Ring};
-use polycsg::{Csg, FillRule, Region, Scratch};
+use polycsg::{Csg, FillRule, PreparedRegion, Region, Scratch};
 
 /// All polygons of an operand as one set of raw rings; reading them is part of the call.
 pub(super) fn from_rings(job: &Job) -> Result<Box<dyn Task>, String> {
@@ -38,26 +38,26 @@ pub(super) fn from_regions(job: &Job) -> Result<Box<dyn Task>, String> {
 /// Each operand as a geo-types multipolygon; for unions.
 #[cfg(feature = "geo")]
 pub(super) fn from_geo(job: &Job) -> Result<Box<dyn Task>, String> {
-    let union = |all: &geo::MultiPolygon, _: &geo::MultiPolygon| {
-        Region::try_from(all).map_err(|error| error.to_string())
+    let mut scratch = Scratch::default();
+    let union = move |all: &geo::MultiPolygon, _: &geo::MultiPolygon| {
+        let union = Csg::try_from(all).map_err(|error| error.to_string())?;
+        Ok(union.evaluate_with(&mut scratch))
     };
     Ok(reading(operands(job, super::geo::multi_polygon), union, measure))
 }
 
-/// Many regions clipped by one.
+/// So many regions are clipped in one call: the sink can stop after each of these.
+const TOGETHER: usize = 256;
+
+/// Many regions clipped by one, which is prepared in the call.
 pub(super) fn clips(job: &Job) -> Result<Box<dyn Task>, String> {
     let [subjects, clips] = regions(job)?.map(|regions| regions.concat());
-    let mut scratch = Scratch::default();
     let call = move |(), sink: Sink<'_, Region>| {
-        clip_each(&subjects, &clips[0], &mut scratch, sink);
+        let clip = PreparedRegion::from(clips[0].clone());
+        let _ = subjects.chunks(TOGETHER).flat_map(|subjects| clip.clip_all(subjects)).all(sink);
         Ok(())
     };
     Ok(task((), call, measure))
-}
-
-fn clip_each(polygons: &[Region], clip: &Region, scratch: &mut Scratch, sink: Sink<'_, Region>) {
-    let clipped = |polygon| (Csg::from(polygon) & Csg::from(clip)).evaluate_with(scratch);
-    let _ = polygons.iter().map(clipped).all(sink);
 }
 
 fn raw(op: Op, subject: &[Ring], clip: &[Ring]) -> Result<Csg<'static>, String> {

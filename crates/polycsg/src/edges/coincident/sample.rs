@@ -40,7 +40,7 @@ impl EdgeSample {
         let words = edges.len().next_power_of_two();
         self.seen.clear();
         self.seen.resize(words, 0);
-        let shift = 64 - (64 * words).ilog2();
+        let shift = 32 - (64 * words).ilog2();
         let mut coincide = 0;
         for ring in edges.rings() {
             let mut key = mixed(edges.point(ring.start));
@@ -87,8 +87,8 @@ fn key(edges: &Edges, edge: u32) -> u64 {
     a.wrapping_add(b)
 }
 
-/// A sum of two keys over all bits.
+/// A sum of two keys, spread over all bits.
 #[inline]
-fn spread(key: u64) -> u64 {
-    key.wrapping_mul(0x9e37_79b9_7f4a_7c15)
+fn spread(key: u64) -> u32 {
+    (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as u32
 }
