@@ -47,7 +47,8 @@ fuzz_target!(|input: Input| {
 fn operand(input: &Input, index: usize) -> Operand {
     let rule = if input.rules >> index & 1 == 0 { Rule::EvenOdd } else { Rule::NonZero };
     let own = input.rings.iter().take(MOST_RINGS).filter(|ring| usize::from(ring.0) % OPERANDS == index);
-    let ring = |ring: &(u8, Vec<Corner>)| ring.1.iter().take(MOST_CORNERS).map(|c| point(*c, input)).collect();
+    let ring =
+        |ring: &(u8, Vec<Corner>)| ring.1.iter().take(MOST_CORNERS).map(|c| point(*c, input)).collect();
     Operand { rings: own.map(ring).collect(), rule }
 }
 
