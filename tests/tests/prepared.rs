@@ -17,7 +17,7 @@ fn pairs() -> impl Iterator<Item = (String, Region, Region)> {
 }
 
 fn star(corners: usize, inner: f64) -> Ring {
-    let radius = |i: usize| if i % 2 == 0 { 10.0 } else { inner };
+    let radius = |i: usize| if i.is_multiple_of(2) { 10.0 } else { inner };
     (0..corners).map(|i| DVec2::from_angle(TAU * i as f64 / corners as f64) * radius(i)).collect()
 }
 
