@@ -37,7 +37,12 @@ struct Counter {
     rule: Rule,
     holds: bool,
     gate: u32,
+    /// Whether it counts the members of the union that the whole expression is.
+    is_union: bool,
 }
+
+/// The gate of the whole expression.
+const ROOT: u32 = 0;
 
 /// Of so many counters every combination fits into a table of 64 bits.
 const FEW: usize = 6;
@@ -138,19 +143,20 @@ impl WindingNumbers {
         self.gates.add(kind, above)
     }
 
-    fn add_counter(&mut self, rule: Rule, gate: u32) -> u32 {
+    fn add_counter(&mut self, rule: Rule, gate: u32, is_union: bool) -> u32 {
         self.gates.add_member(gate);
-        self.counters.push(Counter { winding: 0, rule, holds: false, gate });
+        self.counters.push(Counter { winding: 0, rule, holds: false, gate, is_union });
         index(self.counters.len() - 1)
     }
 
     /// Adds an operand whose winding number is 0 or `winds`, 1 or -1.
     fn add_once(&mut self, winds: i32, gate: u32) {
         let once = if winds < 0 { Rule::NEGATIVE } else { Rule::POSITIVE };
-        let rule = match self.gates.kind(gate) {
+        let kind = self.gates.kind(gate);
+        let rule = match kind {
             // What the result's bounds see of a region winds once at most within them alone: others must not make up for it.
             Kind::All => {
-                let counter = self.add_counter(once, gate);
+                let counter = self.add_counter(once, gate, false);
                 return self.operands.push(Some(counter));
             }
             Kind::Any => once,
@@ -159,7 +165,7 @@ impl WindingNumbers {
         let direction = usize::from(winds > 0);
         let counter = match self.shared[gate as usize][direction] {
             Some(counter) => counter,
-            None => self.add_counter(rule, gate),
+            None => self.add_counter(rule, gate, kind == Kind::Any && gate == ROOT),
         };
         self.shared[gate as usize][direction] = Some(counter);
         self.operands.push(Some(counter));
@@ -171,13 +177,18 @@ impl WindingNumbers {
             FillRule::NonZero => Rule::NON_ZERO,
             FillRule::Positive => Rule::POSITIVE,
         };
-        let counter = self.add_counter(rule, gate);
+        let counter = self.add_counter(rule, gate, false);
         self.operands.push(Some(counter));
     }
 
     /// The counter of an operand.
     pub(crate) fn counter(&self, operand: usize) -> Option<u32> {
         self.operands[operand]
+    }
+
+    /// Whether the whole expression is a union, and a counter counts those of its members that contain the place, each once.
+    pub(crate) fn is_union(&self, counter: u32) -> bool {
+        self.counters[counter as usize].is_union
     }
 
     /// Whether the expression holds at the walk's place.

@@ -100,7 +100,7 @@ fn arrange<'s>(
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
     request: Request<'_>,
 ) -> Result<LabelledArrangement<'s>, Error> {
-    coincident.unite(edges);
+    coincident.unite(edges, winding);
     let candidates = Candidates::index(edges, coincident, chains, strips, request)?;
     contacts.find(candidates, slabs, close_pairs, request)?;
     let (edges, chains, strips) = (&*edges, &*chains, &*strips);

@@ -3,6 +3,7 @@ use super::scratch::Scratch;
 use crate::contacts::budget::WorkBudget;
 use crate::error::Error;
 use crate::expression::csg::{Csg, FillRule};
+use crate::predicates::{Side, side};
 use crate::region::Region;
 use glam::DVec2;
 use proptest::prelude::*;
@@ -256,6 +257,40 @@ fn overlapping_edges_are_one() {
                 assert!(cut.edges.edges.rings().iter().any(|ring| ring.is_open));
             }
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    /// What one of many operands covers is left out, and changes no bit, nor a vertex where it touches the border from inside:
+    /// as one operand, the same rings are all arranged.
+    #[test]
+    fn covered_rings_change_nothing(
+        corners in prop::collection::vec(prop::array::uniform3((0..12_u8, 0..12_u8)), 80..160),
+        large in prop::collection::vec(((0..6_u8, 0..6_u8), (6..13_u8, 6..13_u8)), 12..20),
+        backward in any::<u64>(),
+    ) {
+        let point = |&(x, y): &(u8, u8)| DVec2::new(f64::from(x), f64::from(y));
+        let boxes = large.iter().map(|((x, y), (z, w))| vec![(*x, *y), (*z, *y), (*z, *w), (*x, *w)]);
+        let rings: Vec<Vec<DVec2>> = corners
+            .iter()
+            .map(|corners| corners.to_vec())
+            .chain(boxes)
+            .map(|ring| ring.iter().map(point).collect())
+            .filter(|ring: &Vec<DVec2>| side(ring[0], ring[1], ring[2]) == Side::Left)
+            .collect();
+        let turned = rings.iter().enumerate().map(|(i, ring)| {
+            let ring = ring.iter().copied();
+            if backward >> (i % 64) & 1 == 1 { ring.rev().collect::<Vec<_>>() } else { ring.collect() }
+        });
+        let operand = |ring: Vec<DVec2>| Csg::from_rings([ring], FillRule::NonZero).expect("finite");
+        let apart = Csg::union(turned.map(operand));
+        let together = Csg::from_rings(&rings, FillRule::NonZero).expect("finite");
+        let square = || operand(vec![DVec2::splat(2.5), DVec2::new(8.5, 3.0), DVec2::new(7.0, 9.0)]);
+        prop_assert_eq!(apart.evaluate(), together.evaluate());
+        prop_assert_eq!((square() - apart.clone()).evaluate(), (square() - together.clone()).evaluate());
+        prop_assert_eq!((square() ^ apart).evaluate(), (square() ^ together).evaluate());
     }
 }
 

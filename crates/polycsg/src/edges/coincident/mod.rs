@@ -14,6 +14,7 @@
 //! one line meet O(n) times, and not n² times. That is done where a sample of the pairs of edges finds many that overlap.
 
 mod cells;
+mod covered;
 mod intervals;
 mod lines;
 mod sample;
@@ -23,6 +24,8 @@ mod touched;
 use crate::base::meter::Meter;
 use crate::edges::{Change, EdgeRing, Edges};
 use crate::error::Error;
+use crate::expression::winding::WindingNumbers;
+use covered::CoveredRings;
 use intervals::Intervals;
 use lines::Lines;
 use sample::EdgeSample;
@@ -53,6 +56,7 @@ impl Fate {
 #[derive(Debug, Default)]
 pub(crate) struct CoincidentEdges {
     sample: EdgeSample,
+    covered: CoveredRings,
     table: Table,
     fates: Vec<Fate>,
     touched: Touched,
@@ -65,12 +69,24 @@ pub(crate) struct CoincidentEdges {
 }
 
 impl CoincidentEdges {
-    /// Lets one edge stand for all that coincide with it, if a good part of all edges coincide.
-    pub(crate) fn unite(&mut self, edges: &mut Edges) {
+    /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide.
+    pub(crate) fn unite(&mut self, edges: &mut Edges, winding: &WindingNumbers) {
+        self.drop_covered(edges, winding);
         if self.sample.pays(edges) {
             self.table.group(edges, &mut self.fates);
             self.decide(edges);
             self.find_touched(edges);
+            self.link(edges);
+            std::mem::swap(edges, &mut self.united);
+        }
+    }
+
+    /// Drops the rings of a union that others of it cover.
+    fn drop_covered(&mut self, edges: &mut Edges, winding: &WindingNumbers) {
+        if self.covered.pays(edges, winding) {
+            self.table.clear(edges, &mut self.fates);
+            self.touched.set(edges, |touched| self.covered.find(edges, &mut self.fates, touched));
+            self.decide(edges);
             self.link(edges);
             std::mem::swap(edges, &mut self.united);
         }

@@ -46,6 +46,7 @@ impl Table {
     pub(super) fn clear(&mut self, edges: &Edges, fates: &mut Vec<Fate>) {
         fates.clear();
         fates.resize(edges.len(), Fate::GoesOn);
+        edges.rings().iter().for_each(|ring| fates[ring.end as usize] = Fate::Represented);
         self.next.clear();
         self.next.resize(edges.len(), NONE);
     }
@@ -63,7 +64,6 @@ impl Table {
                 }
                 key = next_key;
             }
-            fates[ring.end as usize] = Fate::Represented;
         }
     }
 

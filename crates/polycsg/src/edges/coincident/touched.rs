@@ -1,5 +1,4 @@
-//! Vertices of edges that are gone, where they touch an edge that is left: they become vertices of that edge, as they do where nothing
-//! cancels.
+//! Vertices of edges that are gone, where they touch edges that are left: they become vertices of one of these.
 
 use super::{Fate, cells::Cells};
 use crate::edges::Edges;
@@ -49,6 +48,13 @@ impl Touched {
     /// No points.
     pub(super) fn clear(&mut self) {
         self.inside.clear();
+    }
+
+    /// Takes points inside edges from elsewhere.
+    pub(super) fn set(&mut self, edges: &Edges, list: impl FnOnce(&mut Vec<(u32, DVec2)>)) {
+        self.inside.clear();
+        list(&mut self.inside);
+        self.sort(edges);
     }
 
     /// The points inside some edges, by edge and in order along each.
@@ -150,7 +156,7 @@ impl Touched {
         self.inside.dedup();
     }
 
-    /// Returns at how many edges it looked.
+    /// Notes one of the edges that a point lies in: from there the others meet it. Returns at how many edges there are to look.
     #[inline]
     fn look_at(&mut self, edges: &Edges, cell: usize, p: DVec2) -> usize {
         let [start, end] = [self.starts[cell] as usize, self.starts[cell + 1] as usize];
@@ -160,6 +166,7 @@ impl Touched {
             let is_in_box = a.min(b).cmple(p) & a.max(b).cmpge(p) == BVec2::TRUE;
             if is_in_box && is_inside([a, b], p) && side(a, b, p) == Side::On {
                 self.inside.push((edge, p));
+                break;
             }
         }
         end - start
