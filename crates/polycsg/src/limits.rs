@@ -41,8 +41,8 @@ impl<'a> Limits<'a> {
     }
 
     /// The most work. A unit is one step of a loop, some nanoseconds to a microsecond: an edge that is read, a pair of edges that
-    /// is compared, a contact, a step of the walk, a fragment that is looked at again. The count is the same from run to run and
-    /// for any number of threads, but may change with the version.
+    /// is compared, a contact, a step of the walk, a fragment that is looked at again. The count is the same from run to
+    /// run. On several threads it may be higher, where comparing boxes is given up, and it may change with the version.
     #[must_use]
     pub fn work(self, most: u64) -> Limits<'a> {
         Limits { work: most, ..self }
