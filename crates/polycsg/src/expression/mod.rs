@@ -3,5 +3,5 @@
 pub(crate) mod bounds;
 pub(crate) mod circuit;
 pub(crate) mod csg;
-mod simple_ring;
+pub(crate) mod simple_ring;
 pub(crate) mod winding;

@@ -12,7 +12,7 @@ use crate::{base::id::index, region::rings::Rings};
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
 /// ask it at each crossing.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Rule {
     mask: i32,
     low: i32,
@@ -37,7 +37,7 @@ struct Counter {
     rule: Rule,
     holds: bool,
     gate: u32,
-    /// Whether it counts the members of the union that the whole expression is.
+    /// Whether the whole expression is a union, and it holds where any ring does that it counts, if these wind one way.
     is_union: bool,
 }
 
@@ -177,7 +177,8 @@ impl WindingNumbers {
             FillRule::NonZero => Rule::NON_ZERO,
             FillRule::Positive => Rule::POSITIVE,
         };
-        let counter = self.add_counter(rule, gate, false);
+        let is_union = rule == Rule::NON_ZERO && gate == ROOT && self.gates.kind(gate) == Kind::Any;
+        let counter = self.add_counter(rule, gate, is_union);
         self.operands.push(Some(counter));
     }
 
@@ -186,7 +187,7 @@ impl WindingNumbers {
         self.operands[operand]
     }
 
-    /// Whether the whole expression is a union, and a counter counts those of its members that contain the place, each once.
+    /// Whether the whole expression is a union, and a counter holds where any of its rings does, if these all wind one way.
     pub(crate) fn is_union(&self, counter: u32) -> bool {
         self.counters[counter as usize].is_union
     }

@@ -10,7 +10,7 @@
 
 use super::{Fate, cells::Cells};
 use crate::edges::{EdgeRing, Edges};
-use crate::expression::winding::WindingNumbers;
+use crate::expression::{simple_ring::winds_once, winding::WindingNumbers};
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::DVec2;
 
@@ -100,8 +100,10 @@ fn corner(edges: &Edges, ring: EdgeRing, vertex: u32) -> [DVec2; 3] {
 /// The buffers of the search.
 #[derive(Debug, Default)]
 pub(super) struct CoveredRings {
-    /// Per operand how many rings it has.
+    /// Per operand how many rings it has and, where these are several, whether not all are simple and run counter-clockwise, or
+    /// clockwise.
     counts: Vec<u32>,
+    ways: Vec<[bool; 2]>,
     /// From the largest box to the smallest.
     sheets: Vec<Sheet>,
     /// Per cell the largest convex rings that are near it and not covered.
@@ -109,16 +111,22 @@ pub(super) struct CoveredRings {
 }
 
 impl CoveredRings {
-    /// Whether so many rings are members of a union, and their boxes lie so deep, that looking for covered ones pays.
+    /// Whether so many rings are united, and their boxes lie so deep, that looking for covered ones pays.
     pub(super) fn pays(&mut self, edges: &Edges, winding: &WindingNumbers) -> bool {
         if edges.rings().len() < FEW {
             return false;
         }
-        self.list(edges, winding);
+        let united = |ring: &&EdgeRing| ring.counter.is_some_and(|counter| winding.is_union(counter));
+        self.sheets.clear();
+        self.sheets.extend(edges.rings().iter().filter(united).map(|&ring| Sheet::of(edges, ring)));
         let bounds = |(low, high): (DVec2, DVec2), sheet: &Sheet| (low.min(sheet.low), high.max(sheet.high));
         let (low, high) = self.sheets.iter().fold((DVec2::MAX, DVec2::MIN), bounds);
         let half = high * 0.5 - low * 0.5;
-        self.sheets.iter().map(Sheet::area).sum::<f64>() > DEEP * half.x * half.y
+        let is_deep = self.sheets.iter().map(Sheet::area).sum::<f64>() > DEEP * half.x * half.y;
+        is_deep && {
+            self.keep_once_wound(edges);
+            true
+        }
     }
 
     /// Finds the rings that others cover: these represent them, and take over the vertices that touch them. A vertex of
@@ -147,17 +155,20 @@ impl CoveredRings {
         }
     }
 
-    /// Lists the rings that are all of an operand of a union.
-    fn list(&mut self, edges: &Edges, winding: &WindingNumbers) {
+    /// Keeps the rings of operands that have one alone, or several that are simple and all run one way: not those with holes.
+    fn keep_once_wound(&mut self, edges: &Edges) {
         let operand = |ring: &EdgeRing| ring.origin.operand as usize;
         let count = edges.rings().iter().map(operand).max().map_or(0, |most| most + 1);
         self.counts.clear();
         self.counts.resize(count, 0);
         edges.rings().iter().for_each(|ring| self.counts[operand(ring)] += 1);
-        let is_one_of_many = |ring: &&EdgeRing| {
-            self.counts[operand(ring)] == 1 && ring.counter.is_some_and(|counter| winding.is_union(counter))
-        };
-        self.sheets.clear();
-        self.sheets.extend(edges.rings().iter().filter(is_one_of_many).map(|&ring| Sheet::of(edges, ring)));
+        self.ways.clear();
+        self.ways.resize(count, [false; 2]);
+        for ring in edges.rings().iter().filter(|ring| self.counts[operand(ring)] > 1) {
+            let winds = winds_once(&edges.points()[ring.start as usize..=ring.end as usize]);
+            let way = &mut self.ways[operand(ring)];
+            *way = [way[0] | (winds != Some(1)), way[1] | (winds != Some(-1))];
+        }
+        self.sheets.retain(|sheet| self.ways[operand(&sheet.ring)] != [true; 2]);
     }
 }
