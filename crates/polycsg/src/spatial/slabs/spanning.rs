@@ -49,16 +49,12 @@ impl SlabDecomposition {
         if !self.spanning.is_empty() {
             self.sort_out_coincident(slab);
             self.compare_coincident(slab);
-            let mut guess = 0;
             for i in 0..self.spanning.len() {
-                guess = self.compare(self.spanning[i], slab, true, Some(guess));
+                self.compare(self.spanning[i], slab, true);
             }
         }
-        let mut guess = 0;
         for i in 0..self.partial.len() {
-            let clipped = self.partial[i];
-            let comes_in = clipped.segment.ranks[0] <= slab[0];
-            guess = self.compare(clipped, slab, true, comes_in.then_some(guess));
+            self.compare(self.partial[i], slab, true);
         }
     }
 
@@ -109,7 +105,7 @@ impl SlabDecomposition {
     /// stairs near one another.
     fn compare_coincident(&mut self, slab: Slab) {
         for i in 0..self.coincident.len() {
-            self.compare(self.coincident[i].1, slab, false, None);
+            self.compare(self.coincident[i].1, slab, false);
         }
         for (i, &(place, e)) in self.coincident.iter().enumerate() {
             let [left, right] = self.stairs[place].heights;
@@ -120,28 +116,20 @@ impl SlabDecomposition {
             };
             for &(_, f) in self.coincident[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
                 if self.may_meet(&e, &f, slab) {
-                    self.found.add(std::iter::once(([e.segment.id, f.segment.id], true)), true);
+                    self.found.add(std::iter::once([e.segment.id, f.segment.id]), true);
                 }
             }
         }
     }
 
-    /// Finds the stairs, and if asked for their coincident segments, that an edge may meet in a slab. Takes and returns the
-    /// place among the stairs of an edge that enters the slab a little below, if there is one.
-    fn compare(
-        &mut self,
-        clipped: ClippedSegment,
-        slab: Slab,
-        with_coincident: bool,
-        guess: Option<usize>,
-    ) -> usize {
-        let left = self.near(&clipped, 0, slab, guess);
+    /// Finds the stairs, and if asked for their coincident segments, that an edge may meet in a slab.
+    fn compare(&mut self, clipped: ClippedSegment, slab: Slab, with_coincident: bool) {
+        let left = self.near(&clipped, 0, slab, None);
         // Most edges meet none, and are between the same two all the way.
         let right = self.near(&clipped, 1, slab, Some(left.start));
         if left.start == right.end && right.start == left.end {
-            return left.start;
+            return;
         }
-        let place = left.start;
         self.compare_near(&clipped, left.clone(), 0, slab, with_coincident);
         self.compare_near(&clipped, right.clone(), 1, slab, with_coincident);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
@@ -149,7 +137,6 @@ impl SlabDecomposition {
         if with_coincident {
             self.add_coincident(&clipped, crossed, slab, false);
         }
-        place
     }
 
     /// Takes the stairs near an edge at a side, but for fans that start or end with the edge: these do not meet it there.
@@ -184,8 +171,8 @@ impl SlabDecomposition {
     fn add_stairs(&mut self, clipped: &ClippedSegment, stairs: Range<usize>, slab: Slab, is_near: bool) {
         if stairs.start < stairs.end {
             let mut found = std::mem::take(&mut self.found);
-            let others = self.stairs[stairs].iter();
-            found.add(others.filter_map(|other| self.pair(clipped, other, slab)), is_near);
+            let others = self.stairs[stairs].iter().filter(|other| self.meets(clipped, other, slab));
+            found.add(others.map(|other| [clipped.segment.id, other.segment.id]), is_near);
             self.found = found;
         }
     }
@@ -195,15 +182,15 @@ impl SlabDecomposition {
             let mut found = std::mem::take(&mut self.found);
             let first = self.coincident.partition_point(|&(place, _)| place < stairs.start);
             let others = self.coincident[first..].iter().take_while(|&&(place, _)| place < stairs.end);
-            found.add(others.filter_map(|(_, other)| self.pair(clipped, other, slab)), is_near);
+            let others = others.map(|(_, other)| other).filter(|other| self.meets(clipped, other, slab));
+            found.add(others.map(|other| [clipped.segment.id, other.segment.id]), is_near);
             self.found = found;
         }
     }
 
-    /// Two edges whose boxes meet, and whether they may be new.
-    fn pair(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> Option<([u32; 2], bool)> {
-        let meets = e.segment.meets(f.segment, &self.ends, self.reach);
-        meets.then(|| ([e.segment.id, f.segment.id], !self.was_found(e, f, slab)))
+    /// Whether the boxes of two edges meet, and they were not found in the slab to the left.
+    fn meets(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> bool {
+        e.segment.meets(f.segment, &self.ends, self.reach) && !self.was_found(e, f, slab)
     }
 
     /// Whether two edges come near one another where both come into a slab. Then they were found in the slab to the left, where
@@ -220,33 +207,26 @@ impl SlabDecomposition {
     fn near(&self, clipped: &ClippedSegment, side: usize, slab: Slab, guess: Option<usize>) -> Range<usize> {
         let rank = clipped.segment.ranks[side].clamp(slab[0], slab[1]);
         let height = clipped.heights[side];
-        let near = if rank == slab[side] {
-            self.near_height(height, guess, |stair| stair.heights[side])
-        } else {
-            let p = self.ends[rank as usize];
-            self.near_height(height, guess, |stair| self.height_inside(stair, p))
+        let p = self.ends[rank as usize];
+        let at = |stair: &ClippedSegment| {
+            if rank == slab[side] { stair.heights[side] } else { self.height_inside(stair, p) }
         };
-        if near.len() > FEW && self.reach == 0.0 { self.touched(clipped.segment, rank, near) } else { near }
-    }
-
-    /// The stairs that may go through a height, by their heights there.
-    #[inline]
-    fn near_height(
-        &self,
-        height: f64,
-        guess: Option<usize>,
-        at: impl Fn(&ClippedSegment) -> f64,
-    ) -> Range<usize> {
         // Coincident segments are within one slack of their stair, and may touch within one more.
-        let [low, high] = [height - 3.0 * self.slack, height + 3.0 * self.slack];
-        let is_below = |stair: &ClippedSegment| at(stair) < low;
-        let may_touch = |stair: &ClippedSegment| at(stair) <= high;
+        let is_below = |stair: &ClippedSegment| at(stair) + 3.0 * self.slack < height;
+        let may_touch = |stair: &ClippedSegment| at(stair) <= height + 3.0 * self.slack;
         let fits = |&guess: &usize| {
             self.stairs[..guess].last().is_none_or(is_below) && !self.stairs.get(guess).is_some_and(is_below)
         };
         let first = guess.filter(fits).unwrap_or_else(|| self.stairs.partition_point(is_below));
         match self.stairs.get(first) {
-            Some(stair) if may_touch(stair) => first..first + self.stairs[first..].partition_point(may_touch),
+            Some(stair) if may_touch(stair) => {
+                let near = first..first + self.stairs[first..].partition_point(may_touch);
+                if near.len() > FEW && self.reach == 0.0 {
+                    self.touched(clipped.segment, rank, near)
+                } else {
+                    near
+                }
+            }
             _ => first..first,
         }
     }
