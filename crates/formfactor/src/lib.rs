@@ -131,7 +131,7 @@ mod shapes;
 mod stats;
 mod visible_part;
 
-pub use area::{AreaFormFactor, Row};
+pub use area::{AreaFormFactor, Limits, Row, Tolerance};
 pub use complement::unoccluded_complement;
 pub use error::Error;
 pub use form_factor::FormFactor;

@@ -9,7 +9,7 @@
 //! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's rule,
 //! halved until it agrees with itself.
 use crate::numeric::gauss::RULE_8;
-use crate::shapes::{loops::leaf, polygon::PlanarPolygon};
+use crate::scene::surfaces::Surface;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -17,31 +17,19 @@ use std::f64::consts::TAU;
 type Segment = [DVec3; 2];
 
 /// `A1 F12` and an estimate of its error, rounding included; right only where each polygon is before the other's plane.
-pub(super) fn exchange(one: &PlanarPolygon, other: &PlanarPolygon, tolerance: f64) -> [f64; 2] {
-    let (ps, qs) = (edges(one), edges(other));
-    let size = ps.iter().chain(&qs).flatten().fold(0.0, |size: f64, p| size.max(p.distance(ps[0][0])));
+pub(super) fn exchange(one: &Surface, other: &Surface, tolerance: f64) -> [f64; 2] {
+    let (ps, qs) = (&one.edges, &other.edges);
+    let size = ps.iter().chain(qs).flatten().fold(0.0, |size: f64, p| size.max(p.distance(ps[0][0])));
     let each = tolerance * TAU / f64::from(u32::try_from(ps.len() * qs.len()).unwrap_or(u32::MAX));
     let (mut sum, mut error) = (0.0, 0.0);
-    for p in &ps {
-        for q in &qs {
+    for p in ps {
+        for q in qs {
             let [part, part_error] = pair(*p, *q, size, each);
             sum += part;
             error += part_error;
         }
     }
     [sum / TAU, error / TAU]
-}
-
-/// The edges of a polygon's rings, outer ones counter-clockwise and holes clockwise.
-fn edges(polygon: &PlanarPolygon) -> Vec<Segment> {
-    let region = leaf(&polygon.flat_loops()).evaluate();
-    let raised: Vec<Vec<DVec3>> =
-        region.rings().map(|ring| ring.iter().map(|p| polygon.raise(*p)).collect()).collect();
-    raised
-        .iter()
-        .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)))
-        .map(|(a, b)| [*a, *b])
-        .collect()
 }
 
 /// (p . q) times the integral of ln(r / size), which in sum over closed loops is that of ln r.

@@ -1,126 +1,168 @@
-//! Where on a polygon the view of another one changes its shape: lines along which a form factor from a point has kinks.
+//! Where on a cell the view of the target changes its shape: planes along which a form factor from a point has kinks.
 //!
-//! From there a vertex of the target lies behind an edge of an occluder, or an edge of the target behind a vertex of one; or
-//! the target turns from its front to its back; or an occluder's vertex lies behind another one's edge, which may open or
-//! close a slit. Kinks that three edges make together are curved and left to refinement.
-use crate::shapes::polygon::PlanarPolygon;
-use glam::{DVec2, DVec3};
+//! There a vertex of the target lies behind an edge of an occluder's silhouette, or an edge of the target behind a vertex of one,
+//! or a vertex of one occluder behind or before an edge of another; or an occluder's face that the target reaches across is
+//! seen edge-on. Kinks that three edges make together are curved, and weaker: they are left to the cubature.
+use crate::scene::occluder::Occluder;
+use glam::DVec3;
 
-/// More events than this are not looked for: refinement does better.
+/// More candidates than this are not looked at: halving cells does better.
 const MOST: usize = 1 << 14;
 
-/// A segment in the source's two kept coordinates.
-pub(super) type Event = [DVec2; 2];
+/// A plane through a vertex and an edge, or one of a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Event {
+    on: DVec3,
+    normal: DVec3,
+    /// The vertex and the edge.
+    line: Option<(DVec3, [DVec3; 2])>,
+}
 
-/// The events on `source` of its view of `target` past `occluders`; those among the occluders where they are asked for.
-pub(super) fn events(
-    source: &PlanarPolygon,
-    target: &PlanarPolygon,
-    occluders: &[&PlanarPolygon],
-    is_fine: bool,
-) -> Vec<Event> {
-    let vertices: usize = occluders.iter().map(|o| o.points().len()).sum();
-    let mut found: Vec<Event> = turn(source, target).into_iter().collect();
-    if 2 * vertices * target.points().len() <= MOST {
-        found.extend(occluders.iter().flat_map(|occluder| between(source, target, occluder)));
+impl Event {
+    fn through(vertex: DVec3, [a, b]: [DVec3; 2]) -> Self {
+        Self { on: vertex, normal: (a - vertex).cross(b - vertex), line: Some((vertex, [a, b])) }
     }
-    if is_fine {
-        found.extend(occluders.iter().filter_map(|occluder| edge_on(source, target, occluder)));
+
+    pub(super) fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.on)
     }
-    if is_fine && vertices * vertices <= MOST {
-        let apart = |one: &PlanarPolygon, other: &PlanarPolygon| {
-            one.points().iter().all(|p| !other.points().contains(p))
+
+    /// Whether it passes through a convex polygon, and there the vertex is seen to meet the edge.
+    pub(super) fn passes(&self, polygon: &[DVec3]) -> bool {
+        let Some(chord) = self.chord(polygon) else { return false };
+        let Some((vertex, [a, b])) = self.line else { return true };
+        // Where on the edge's line the vertex is seen, as quotients.
+        let [first, last] = chord.map(|from| {
+            let way = vertex - from;
+            let across = |v: DVec3| v.cross(way).dot(self.normal);
+            [-across(a - from), across(b - a)]
+        });
+        let is_out = |[part, whole]: [f64; 2]| {
+            let (part, whole) = if whole < 0.0 { (-part, -whole) } else { (part, whole) };
+            (part < 0.0, part > whole)
         };
-        for (i, one) in occluders.iter().enumerate() {
-            let others = occluders[..i].iter().filter(|other| apart(one, other));
-            found.extend(
-                others.flat_map(|other| [between(source, one, other), between(source, other, one)].concat()),
-            );
+        let ((before, after), (before_too, after_too)) = (is_out(first), is_out(last));
+        first[1].signum() != last[1].signum() || !((before && before_too) || (after && after_too))
+    }
+
+    /// The ends of its line through a convex polygon.
+    fn chord(&self, polygon: &[DVec3]) -> Option<[DVec3; 2]> {
+        let mut ends = [None; 2];
+        let mut a = *polygon.last()?;
+        let mut there = self.height(a);
+        for &b in polygon {
+            let here = self.height(b);
+            if (there < 0.0 && here >= 0.0) || (there >= 0.0 && here < 0.0) {
+                ends[usize::from(here < 0.0)] = Some(a + (b - a) * (there / (there - here)));
+            }
+            (a, there) = (b, here);
+        }
+        Some([ends[0]?, ends[1]?])
+    }
+}
+
+/// The events on a cell, and whether they are all.
+pub(super) fn events(cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Occluder]) -> (Vec<Event>, bool) {
+    let seen: Vec<Silhouette> = occluders.iter().map(|occluder| Silhouette::from_any(occluder, cell)).collect();
+    let mut found = Vec::new();
+    let mut add = |event: Event| {
+        if event.passes(cell) {
+            found.push(event);
+        }
+    };
+    for (occluder, silhouette) in occluders.iter().zip(&seen) {
+        for piece in pieces {
+            let edges = piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]);
+            edges.for_each(|edge| silhouette.vertices.iter().for_each(|v| add(Event::through(*v, edge))));
+            piece.iter().for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
+            if !occluder.is_plate {
+                let faces = occluder.faces.iter().map(|[on, normal]| Event { on: *on, normal: *normal, line: None });
+                faces.filter(|face| face.chord(piece).is_some()).for_each(&mut add);
+            }
         }
     }
-    found.sort_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
-    found.dedup();
-    found
-}
-
-/// Where vertices of one polygon are seen behind edges of a nearer one, or the other way round.
-fn between(source: &PlanarPolygon, far: &PlanarPolygon, near: &PlanarPolygon) -> Vec<Event> {
-    let vertices = far.points().iter().flat_map(|t| near.edges().map(|(a, b)| ([*t, *t], [a, b])));
-    let edges = far.edges().flat_map(|(s, t)| near.points().iter().map(move |a| ([s, t], [*a, *a])));
-    vertices.chain(edges).filter_map(|(from, through)| shadow(source, from, through)).collect()
-}
-
-fn key([a, b]: &Event) -> [f64; 4] {
-    [a.x, a.y, b.x, b.y]
-}
-
-/// Where the rays from the points of one segment through the like points of another one meet the source's plane.
-///
-/// When one of them is parallel to the plane in between, the shadow goes on for ever from there; so it does along the
-/// plane where both segments stand on it.
-fn shadow(source: &PlanarPolygon, from: [DVec3; 2], through: [DVec3; 2]) -> Option<Event> {
-    let ends = [0, 1].map(|i| meet(source, from[i], through[i]));
-    if let [Some(a), Some(b)] = ends {
-        return event([a, b]);
+    let vertices: usize = seen.iter().map(|silhouette| silhouette.vertices.len()).sum();
+    let are_all = vertices * vertices <= MOST;
+    if are_all {
+        for (i, one) in seen.iter().enumerate() {
+            for other in &seen[..i] {
+                for (corners, edges) in [(&one.vertices, &other.edges), (&other.vertices, &one.edges)] {
+                    corners.iter().for_each(|v| edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
+                }
+            }
+        }
     }
-    let standing = (0..2).find(|i| is_on(source, from[*i]) && is_on(source, through[*i]));
-    let start = ends[0].or(ends[1]).or_else(|| standing.map(|i| source.flat(through[i])))?;
-    let drop = [0, 1].map(|i| height(source, from[i]) - height(source, through[i]));
-    let share = drop[0] / (drop[0] - drop[1]);
-    let along = source.flat(through[0].lerp(through[1], share) - from[0].lerp(from[1], share));
-    let reach = source.points().iter().map(|p| source.flat(*p).distance(start)).fold(0.0, f64::max);
-    let end = start + 2.0 * reach * along.normalize_or_zero();
-    end.is_finite().then(|| event([start, end])).flatten()
+    (found, are_all)
 }
 
-/// Where the ray from one point down through another one meets the source's plane; `None` too where it seems parallel.
-fn meet(source: &PlanarPolygon, from: DVec3, through: DVec3) -> Option<DVec2> {
-    let (high, low) = (height(source, from), height(source, through));
-    let point = from + (through - from) * (high / (high - low));
-    let is_steep = high - low > 1e-6 * from.distance(through);
-    (is_steep && point.is_finite()).then(|| source.flat(point))
+/// The edges of an occluder that are part of its silhouette from some corner of a cell, and their ends.
+struct Silhouette {
+    edges: Vec<[DVec3; 2]>,
+    vertices: Vec<DVec3>,
 }
 
-fn height(source: &PlanarPolygon, point: DVec3) -> f64 {
-    source.normal().dot(point - source.points()[0])
+impl Silhouette {
+    fn from_any(occluder: &Occluder, cell: &[DVec3]) -> Self {
+        let mut facing = Vec::new();
+        let (mut edges, mut vertices): (Vec<[DVec3; 2]>, Vec<DVec3>) = (Vec::new(), Vec::new());
+        for corner in cell {
+            occluder.facing(*corner, &mut facing);
+            for [a, b] in occluder.silhouette(&facing) {
+                if !edges.iter().any(|edge| *edge == [a, b] || *edge == [b, a]) {
+                    edges.push([a, b]);
+                }
+            }
+        }
+        for vertex in edges.iter().flatten() {
+            if !vertices.contains(vertex) {
+                vertices.push(*vertex);
+            }
+        }
+        Self { edges, vertices }
+    }
 }
 
-/// Whether a point seems to lie on the source's plane. Only the way in which cells are cut depends on it.
-fn is_on(source: &PlanarPolygon, point: DVec3) -> bool {
-    height(source, point).abs() <= 1e-12 * point.distance(source.points()[0])
+/// A convex polygon cut along events where they pass through it and cut off pieces that are `worth` it, each by its share of
+/// the polygon's area.
+pub(super) fn cut(polygon: Vec<DVec3>, events: &[Event], most: usize, worth: impl Fn(f64) -> bool) -> Option<Vec<Vec<DVec3>>> {
+    let mut pieces = vec![polygon];
+    for event in events {
+        let mut next = Vec::with_capacity(pieces.len() + 1);
+        for piece in pieces {
+            match event.passes(&piece).then(|| split(&piece, event)) {
+                Some([left, right]) if worth(size(&left)) && worth(size(&right)) => next.extend([left, right]),
+                _ => next.push(piece),
+            }
+        }
+        pieces = next;
+        if pieces.len() > most {
+            return None;
+        }
+    }
+    Some(pieces)
 }
 
-/// Where an occluder is seen edge-on before the target: it begins to hide there, or another edge of its body takes over.
-fn edge_on(source: &PlanarPolygon, target: &PlanarPolygon, occluder: &PlanarPolygon) -> Option<Event> {
-    let [first, last] = chord(source, occluder)?;
-    let chord = chord(target, occluder)?;
-    let rays = chord.iter().flat_map(|t| occluder.points().iter().map(move |a| meet(source, *t, *a)));
-    let met: Option<Vec<DVec2>> = rays.collect();
-    // Where some ray does not come down to the source the shadow goes on for ever.
-    met.map_or_else(|| event([source.flat(first), source.flat(last)]), event)
+fn size(polygon: &[DVec3]) -> f64 {
+    if polygon.len() < 3 { 0.0 } else { crate::scene::surfaces::area(polygon) }
 }
 
-/// Where the target's plane meets the source.
-fn turn(source: &PlanarPolygon, target: &PlanarPolygon) -> Option<Event> {
-    event(chord(source, target)?.map(|p| source.flat(p)))
-}
-
-/// The ends of the part of a polygon that lies in another one's plane.
-fn chord(polygon: &PlanarPolygon, other: &PlanarPolygon) -> Option<[DVec3; 2]> {
-    let crossing = |(a, b): (DVec3, DVec3)| {
-        let (from, to) = (height(other, a), height(other, b));
-        ((from > 0.0) != (to > 0.0)).then(|| a + (b - a) * (from / (from - to)))
-    };
-    let along = polygon.normal().cross(other.normal());
-    let mut met: Vec<DVec3> = polygon.edges().filter_map(crossing).collect();
-    met.sort_by(|a, b| along.dot(*a).total_cmp(&along.dot(*b)));
-    Some([*met.first()?, *met.last()?])
-}
-
-/// The segment that points on a line span.
-fn event(points: impl IntoIterator<Item = DVec2>) -> Option<Event> {
-    let mut points: Vec<DVec2> = points.into_iter().collect();
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let (first, last) = (points.first()?, points.last()?);
-    (first != last).then_some([*first, *last])
+fn split(polygon: &[DVec3], event: &Event) -> [Vec<DVec3>; 2] {
+    let mut parts = [Vec::with_capacity(polygon.len() + 1), Vec::with_capacity(polygon.len() + 1)];
+    let Some(mut a) = polygon.last().copied() else { return parts };
+    let mut there = event.height(a);
+    for &b in polygon {
+        let here = event.height(b);
+        if (there < 0.0 && here > 0.0) || (there > 0.0 && here < 0.0) {
+            let at = a + (b - a) * (there / (there - here));
+            parts.iter_mut().for_each(|part| part.push(at));
+        }
+        if here >= 0.0 {
+            parts[0].push(b);
+        }
+        if here <= 0.0 {
+            parts[1].push(b);
+        }
+        (a, there) = (b, here);
+    }
+    parts
 }

@@ -2,14 +2,21 @@
 //!
 //! F(i -> j) is the mean over polygon i of the exact point form factors to polygon j. Where nothing stands in between it
 //! has a closed form; elsewhere it is taken by adaptive cubature, whose cells are cut where the view changes its shape.
-mod cell;
 mod contour;
+mod cubature;
 mod events;
+mod kernel;
 mod pair;
-mod rule;
+mod point;
+mod tolerance;
 
 use crate::error::Error;
-use crate::scene::enclosure::Enclosure;
+use crate::scene::{enclosure::Enclosure, surfaces::Surface};
+use pair::{Allowed, Integral, Outlook};
+use point::Eye;
+use std::cmp::Ordering;
+
+pub use tolerance::{Limits, Tolerance};
 
 /// A form factor from a polygon to a polygon, with an estimate of its error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,16 +58,23 @@ impl Enclosure {
     /// assert!((f.value - 0.199_824_895_698_387_4).abs() < 1e-9);
     /// # Ok::<(), formfactor::Error>(())
     /// ```
-    pub fn area_form_factor(&self, from: usize, to: usize, tolerance: f64) -> Result<AreaFormFactor, Error> {
-        check(tolerance)?;
-        let found = self.exchange([from, to], tolerance, &|| false);
-        Ok(found.map_or_else(AreaFormFactor::default, |[forth, _]| forth))
+    pub fn area_form_factor(
+        &self,
+        from: usize,
+        to: usize,
+        tolerance: impl Into<Tolerance>,
+    ) -> Result<AreaFormFactor, Error> {
+        let tolerance = Tolerance { row: f64::INFINITY, ..tolerance.into() };
+        tolerance.check()?;
+        let [first, second] = [from.min(to), from.max(to)];
+        let outlook = Outlook::from(self.surfaces(), first);
+        let limits = Limits::default();
+        let found = self.pair(&outlook, [first, second], &tolerance, &limits, &mut Eye::default());
+        Ok(found.flatten().map_or_else(AreaFormFactor::default, |found| found[usize::from(first != from)]))
     }
 
-    /// The form factors from polygon `from` to all polygons that it sees. In a closed room they add to 1 within `tolerance`.
-    ///
-    /// Each factor gets an equal share of the tolerance. `is_cancelled` is called often; once it returns `true` the result is
-    /// `None`.
+    /// The form factors from polygon `from` to all polygons that it sees. In a closed room they add to 1 within the row's
+    /// tolerance. `None` once `limits` stop it.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.
@@ -70,107 +84,134 @@ impl Enclosure {
     pub fn area_row(
         &self,
         from: usize,
-        tolerance: f64,
-        is_cancelled: impl Fn() -> bool + Sync,
+        tolerance: impl Into<Tolerance>,
+        limits: &Limits,
     ) -> Result<Option<Row>, Error> {
-        check(tolerance)?;
-        let share = self.share(tolerance);
-        let others: Vec<usize> = (0..self.polygons().len()).filter(|to| self.face([from, *to])).collect();
-        let found = each(&others, |to| self.exchange([from, *to], share, &is_cancelled));
-        let entries = others.into_iter().zip(found).map(|(to, factors)| Some((to, factors?[0])));
-        Ok(entries.filter(|entry| entry.is_none_or(|(_, factor)| factor.value > 0.0)).collect())
+        let tolerance = tolerance.into();
+        tolerance.check()?;
+        let count = self.polygons().len();
+        let own = Outlook::from(self.surfaces(), from);
+        let all: Vec<usize> = (0..count).collect();
+        let found = each(&all, |eye, to| {
+            let before = (*to < from).then(|| Outlook::from(self.surfaces(), *to));
+            let pair = [from.min(*to), from.max(*to)];
+            self.pair(before.as_ref().unwrap_or(&own), pair, &tolerance, limits, eye)
+        });
+        let mut row = Row::new();
+        for (to, found) in found.into_iter().enumerate() {
+            let Some(found) = found else { return Ok(None) };
+            row.extend(found.map(|found| (to, found[usize::from(to < from)])));
+        }
+        Ok(Some(row))
     }
 
     /// All rows, by id. Each pair of polygons is integrated once.
     ///
     /// The time grows with the square of the number of polygons, the memory with the number of factors that are not 0. With the
-    /// feature `rayon` pairs are shared among threads; the result is the same for any number of them. `is_cancelled` is called
-    /// often; once it returns `true` the result is `None`.
+    /// feature `rayon` rows are shared among threads; the result is the same for any number of them. `None` once `limits`
+    /// stop it.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.
     pub fn area_matrix(
         &self,
-        tolerance: f64,
-        is_cancelled: impl Fn() -> bool + Sync,
+        tolerance: impl Into<Tolerance>,
+        limits: &Limits,
     ) -> Result<Option<Vec<Row>>, Error> {
-        check(tolerance)?;
-        let (count, share) = (self.polygons().len(), self.share(tolerance));
-        let mut rows = vec![Row::new(); count];
-        // By rows and along them, so that each row comes to be in the order of the ids.
-        let all = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
-        let mut pairs = all.filter(|pair| self.face(*pair));
-        loop {
-            let block: Vec<[usize; 2]> = pairs.by_ref().take(BLOCK).collect();
-            if block.is_empty() {
-                return Ok(Some(rows));
-            }
-            for (&[i, j], factors) in
-                block.iter().zip(each(&block, |p| self.exchange(*p, share, &is_cancelled)))
-            {
-                let Some([forth, back]) = factors else { return Ok(None) };
-                if forth.value > 0.0 {
-                    rows[i].push((j, forth));
-                    rows[j].push((i, back));
+        let tolerance = tolerance.into();
+        tolerance.check()?;
+        let ids: Vec<usize> = (0..self.polygons().len()).collect();
+        let mut rows = vec![Row::new(); ids.len()];
+        let mut left = limits.in_all;
+        for block in ids.chunks(BLOCK) {
+            let limits = Limits { per_pair: limits.per_pair.min(left), ..*limits };
+            let found = each(block, |eye, from| self.later(*from, &tolerance, &limits, eye));
+            for (from, later) in block.iter().zip(found) {
+                let Some(later) = later else { return Ok(None) };
+                for (to, [forth, back]) in later {
+                    left = left.saturating_sub(forth.evaluations);
+                    rows[*from].push((to, forth));
+                    rows[to].push((*from, back));
                 }
             }
         }
+        Ok(Some(rows))
+    }
+
+    /// Both directions between a polygon and each that comes after it and sees it; `None` when stopped.
+    fn later(&self, from: usize, tolerance: &Tolerance, limits: &Limits, eye: &mut Eye) -> Option<Vec<(usize, [AreaFormFactor; 2])>> {
+        let outlook = Outlook::from(self.surfaces(), from);
+        let mut found = Vec::new();
+        for to in from + 1..self.polygons().len() {
+            found.extend(self.pair(&outlook, [from, to], tolerance, limits, eye)?.map(|pair| (to, pair)));
+        }
+        Some(found)
+    }
+
+    /// Both directions between two polygons, the first of which has the lower id; nothing where they do not see each other.
+    /// `None` when stopped.
+    fn pair(
+        &self,
+        outlook: &Outlook,
+        [first, second]: [usize; 2],
+        tolerance: &Tolerance,
+        limits: &Limits,
+        eye: &mut Eye,
+    ) -> Option<Option<[AreaFormFactor; 2]>> {
+        if !self.face([first, second]) {
+            return Some(None);
+        }
+        let areas = [first, second].map(|id| self.surfaces().surfaces[id].area);
+        let allowed = Allowed {
+            absolute: tolerance.absolute * areas[0].min(areas[1]),
+            relative: tolerance.relative,
+            of_whole: tolerance.row / 2.0,
+            evaluations: limits.per_pair,
+        };
+        let found = outlook.exchange(second, &allowed, eye, limits.stop)?;
+        let is_seen = found.value > 0.0 || found.error > 0.0;
+        Some(is_seen.then(|| areas.map(|area| factor(&found, area))))
     }
 
     /// Whether two polygons see each other as far as their planes say.
     fn face(&self, [i, j]: [usize; 2]) -> bool {
-        let [one, other] = [i, j].map(|id| &self.polygons()[id]);
-        i != j && pair::is_before(one, other) && pair::is_before(other, one)
+        let [one, other] = [i, j].map(|id| &self.surfaces().surfaces[id]);
+        one.plane != other.plane && self.is_before(i, other, j) && self.is_before(j, one, i)
     }
 
-    /// Of a row's tolerance, what each entry gets.
-    fn share(&self, tolerance: f64) -> f64 {
-        tolerance / f64::from(u32::try_from(self.polygons().len().max(1)).unwrap_or(u32::MAX))
-    }
-
-    /// Both directions between two polygons; `None` when cancelled.
-    fn exchange(
-        &self,
-        [i, j]: [usize; 2],
-        tolerance: f64,
-        is_cancelled: &(impl Fn() -> bool + ?Sized),
-    ) -> Option<[AreaFormFactor; 2]> {
-        if !self.face([i, j]) {
-            return Some([AreaFormFactor::default(); 2]);
+    /// Whether some of polygon `id` is before another one's plane: exactly.
+    fn is_before(&self, id: usize, other: &Surface, other_id: usize) -> bool {
+        let own = &self.surfaces().surfaces[id];
+        let height = other.face[1].dot(own.middle - other.face[0]);
+        if height.abs() > own.radius * (1.0 + 1e-9) {
+            return height > 0.0;
         }
-        let [size_i, size_j] = [i, j].map(|id| self.polygons()[id].area());
-        let is_swapped = size_j < size_i || (size_j == size_i && j < i);
-        let pair = if is_swapped { [j, i] } else { [i, j] };
-        let mean = pair::mean(self, pair, tolerance, is_cancelled)?;
-        let scaled = |scale: f64| AreaFormFactor {
-            value: (mean.value * scale).clamp(0.0, 1.0),
-            error_estimate: mean.error * scale,
-            evaluations: mean.evaluations,
-        };
-        Some(if is_swapped {
-            [scaled(size_j / size_i), scaled(1.0)]
-        } else {
-            [scaled(1.0), scaled(size_i / size_j)]
-        })
+        let plane = self.polygons()[other_id].plane();
+        self.polygons()[id].points().iter().any(|p| plane.side_of(*p) == Ordering::Greater)
     }
 }
 
-/// So many pairs of a matrix are shared among threads at a time, before what is found goes into the rows.
-const BLOCK: usize = 1 << 16;
-
-fn check(tolerance: f64) -> Result<(), Error> {
-    if tolerance > 0.0 { Ok(()) } else { Err(Error::BadTolerance) }
+fn factor(found: &Integral, area: f64) -> AreaFormFactor {
+    AreaFormFactor {
+        value: (found.value / area).clamp(0.0, 1.0),
+        error_estimate: found.error / area,
+        evaluations: found.evaluations,
+    }
 }
+
+/// So many rows of a matrix are shared among threads at a time, before what is found goes into the rows.
+const BLOCK: usize = 64;
 
 /// A function of each item, in order.
 #[cfg(not(feature = "rayon"))]
-fn each<T, R>(items: &[T], f: impl Fn(&T) -> R) -> Vec<R> {
-    items.iter().map(f).collect()
+fn each<T, R>(items: &[T], f: impl Fn(&mut Eye, &T) -> R) -> Vec<R> {
+    let mut eye = Eye::default();
+    items.iter().map(|item| f(&mut eye, item)).collect()
 }
 
 /// A function of each item, in order, by all threads.
 #[cfg(feature = "rayon")]
-fn each<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+fn each<T: Sync, R: Send>(items: &[T], f: impl Fn(&mut Eye, &T) -> R + Sync + Send) -> Vec<R> {
     use rayon::prelude::*;
-    items.par_iter().map(f).collect()
+    items.par_iter().map_init(Eye::default, |eye, item| f(eye, item)).collect()
 }

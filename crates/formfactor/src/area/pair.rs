@@ -1,221 +1,172 @@
 //! One pair of polygons.
-use super::cell::{Cell, area, cells, cut, halves};
-use super::contour::exchange;
-use super::events::{Event, events};
-use super::rule::{Integral, integrate};
-use crate::scene::{enclosure::Enclosure, shaft::Shaft};
-use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
-use glam::{DVec2, DVec3};
-use std::{cmp::Ordering, collections::BinaryHeap, sync::Arc};
+use super::cubature::Cubature;
+use super::point::{Eye, lambert};
+use super::{contour, kernel};
+use crate::scene::apart::are_apart;
+use crate::scene::occluder::{Before, Face, Occluder};
+use crate::scene::surfaces::{Owner, Surface, Surfaces};
+use crate::shapes::cell::nodes;
+use crate::numeric::gauss::{GAUSS_4, RULE_3, RULE_6};
+use glam::DVec3;
+use std::borrow::Cow;
 
-/// Evaluations after which an integral is given back as it is.
-const MOST: u64 = 1 << 22;
+/// An integral, an estimate of its error, and how many values of the integrand it took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Integral {
+    pub(super) value: f64,
+    pub(super) error: f64,
+    pub(super) evaluations: u64,
+}
 
-/// A tolerance for which cells are cut at the events among occluders too.
-const FINE: f64 = 1e-6;
+/// What a pair is allowed to err by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowed {
+    /// Of the integral over both.
+    pub(super) absolute: f64,
+    /// Of its value.
+    pub(super) relative: f64,
+    /// Of its value were nothing in between.
+    pub(super) of_whole: f64,
+    pub(super) evaluations: u64,
+}
 
-/// A cell is cut at its events when they make at most so many cells of it, and halved otherwise: so often before anything
-/// is evaluated, lest all nodes miss what is seen.
-const MOST_CUTS: usize = 64;
-const BLIND_HALVINGS: u32 = 4;
-
-/// The integral over polygon `source` of the form factor to polygon `target`, which face each other, by the source's area; `None` when
-/// `is_cancelled` says so.
-pub(super) fn mean(
-    enclosure: &Enclosure,
-    [source, target]: [usize; 2],
-    tolerance: f64,
-    is_cancelled: &(impl Fn() -> bool + ?Sized),
-) -> Option<Integral> {
-    if is_cancelled() {
-        return None;
+impl Allowed {
+    pub(super) fn error(&self, value: f64, whole: f64) -> f64 {
+        self.absolute.max(self.relative * value).min(self.of_whole * whole)
     }
-    let pair = Pair::new(enclosure, source, target);
-    pair.by_contour(tolerance).or_else(|| pair.by_cells(tolerance, is_cancelled))
 }
 
-/// Whether some of a polygon is before another one's plane.
-pub(super) fn is_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
-    polygon.points().iter().any(|p| other.plane().side_of(*p) == Ordering::Greater)
-}
-
-/// Whether all of it is, the plane itself included.
-fn is_wholly_before(polygon: &PlanarPolygon, other: &PlanarPolygon) -> bool {
-    polygon.points().iter().all(|p| other.plane().side_of(*p) != Ordering::Less)
-}
-
-/// The error of a piece is taken as no less than this much of that of the cell it was part of, by area: should all nodes
-/// agree by chance.
-const FALL: f64 = 1e-2;
-
+/// A polygon, and what is before its plane.
 #[derive(Debug)]
-struct Pair<'e> {
-    enclosure: &'e Enclosure,
-    source: usize,
-    target: usize,
-    from: &'e PlanarPolygon,
-    to: &'e PlanarPolygon,
-    /// What can stand in between.
-    occluders: Vec<usize>,
+pub(super) struct Outlook<'e> {
+    surfaces: &'e Surfaces,
+    id: usize,
+    near: Vec<(Owner, Cow<'e, Occluder>)>,
 }
 
-/// A cell to be refined, the one with the largest error first.
-#[derive(Debug)]
-struct Open {
-    cell: Cell,
-    found: Integral,
-    occluders: Arc<[usize]>,
-    /// Whether no event passes through it.
-    is_smooth: bool,
-    number: usize,
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Open {}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.found.error.total_cmp(&other.found.error).then(other.number.cmp(&self.number))
-    }
-}
-
-impl<'e> Pair<'e> {
-    fn new(enclosure: &'e Enclosure, source: usize, target: usize) -> Self {
-        let (from, to) = (&enclosure.polygons()[source], &enclosure.polygons()[target]);
-        let occluders = enclosure.between(source, target);
-        Self { enclosure, source, target, from, to, occluders }
-    }
-
-    /// The closed form, where nothing stands in between and no edge is below the other's horizon; `None` also when it
-    /// would lose too many digits.
-    fn by_contour(&self, tolerance: f64) -> Option<Integral> {
-        if !(self.occluders.is_empty()
-            && is_wholly_before(self.from, self.to)
-            && is_wholly_before(self.to, self.from))
-        {
-            return None;
-        }
-        let area = self.from.area();
-        let [value, error] = exchange(self.from, self.to, tolerance * area / 2.0).map(|x| x / area);
-        (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 })
-    }
-
-    /// Adaptive cubature: the cell with the largest error is refined until the errors add to less than the tolerance.
-    fn by_cells(&self, tolerance: f64, is_cancelled: &(impl Fn() -> bool + ?Sized)) -> Option<Integral> {
-        let whole: Vec<Cell> = cells(self.from);
-        let size: f64 = whole.iter().map(area).sum();
-        let occluders: Vec<&PlanarPolygon> =
-            self.occluders.iter().map(|i| &self.enclosure.polygons()[*i]).collect();
-        let events = events(self.from, self.to, &occluders, tolerance < FINE);
-        let all: Arc<[usize]> = self.occluders.clone().into();
-        let mut sum =
-            Refinement { pair: self, size, tolerance, open: BinaryHeap::new(), evaluations: 0, count: 0 };
-        let mut coarse: Vec<(Cell, u32)> = whole.into_iter().map(|cell| (cell, BLIND_HALVINGS)).collect();
-        while let Some((cell, halvings)) = coarse.pop() {
-            match cut_at(cell, &events, size) {
-                Some(pieces) => pieces.into_iter().for_each(|piece| sum.add(piece, &all, true, 0.0)),
-                None if halvings > 0 => coarse.extend(halves(cell).map(|half| (half, halvings - 1))),
-                None => sum.add(cell, &all, false, 0.0),
+impl<'e> Outlook<'e> {
+    pub(super) fn from(surfaces: &'e Surfaces, id: usize) -> Self {
+        let own = &surfaces.surfaces[id];
+        let mut near = Vec::new();
+        for hider in surfaces.hiders.iter().filter(|hider| !own.is_of(hider.of)) {
+            match hider.shape.before(own.face) {
+                Before::All => near.push((hider.of, Cow::Borrowed(&hider.shape))),
+                Before::Part(part) => near.push((hider.of, Cow::Owned(part))),
+                Before::Nothing => (),
             }
         }
-        sum.refine(&events, is_cancelled)
+        Self { surfaces, id, near }
     }
 
-    /// The occluders that can stand between a cell and the target.
-    fn between(&self, cell: &Cell, occluders: &Arc<[usize]>) -> Arc<[usize]> {
-        let corners = cell.map(|p| self.from.raise(p));
-        let shaft = Shaft::between(&corners, self.to);
-        let left: Vec<usize> =
-            occluders.iter().copied().filter(|i| !shaft.misses(&self.enclosure.polygons()[*i])).collect();
-        if left.len() == occluders.len() { Arc::clone(occluders) } else { left.into() }
-    }
-
-    fn point_factor(&self, flat: DVec2, occluders: &[usize]) -> f64 {
-        let position: DVec3 = self.from.raise(flat);
-        let Ok(from) = DifferentialArea::new(position, self.from.normal()) else { return 0.0 };
-        self.enclosure.past(&from.owned_by(self.source), self.target, occluders).value
-    }
-}
-
-#[derive(Debug)]
-struct Refinement<'p, 'e> {
-    pair: &'p Pair<'e>,
-    /// The source's area in its kept coordinates.
-    size: f64,
-    tolerance: f64,
-    open: BinaryHeap<Open>,
-    evaluations: u64,
-    count: usize,
-}
-
-impl Refinement<'_, '_> {
-    /// Integrates over a cell whose error is at least `least`.
-    fn add(&mut self, cell: Cell, occluders: &Arc<[usize]>, is_smooth: bool, least: f64) {
-        let occluders = self.pair.between(&cell, occluders);
-        let share = self.tolerance * area(&cell).abs() / 2.0;
-        let mut found = integrate(&cell, share, is_smooth, |point| self.pair.point_factor(point, &occluders));
-        found.value /= self.size;
-        found.error = (found.error / self.size).max(least);
-        self.evaluations += found.evaluations;
-        self.count += 1;
-        self.open.push(Open { cell, found, occluders, is_smooth, number: self.count });
-    }
-
-    fn refine(mut self, events: &[Event], is_cancelled: &(impl Fn() -> bool + ?Sized)) -> Option<Integral> {
-        while self.error() > self.tolerance && self.evaluations < MOST {
-            if is_cancelled() {
-                return None;
-            }
-            let Some(worst) = self.open.pop() else { break };
-            let Open { cell, found, occluders, is_smooth, .. } = worst;
-            for half in halves(cell) {
-                let pieces = cut_at(half, events, self.size).filter(|_| !is_smooth);
-                let is_smooth = is_smooth || pieces.is_some();
-                for piece in pieces.unwrap_or_else(|| vec![half]) {
-                    let share = area(&piece).abs() / area(&cell).abs();
-                    self.add(piece, &occluders, is_smooth, FALL * share * found.error);
-                }
+    /// The double integral of the kernel over this polygon and another one that it faces.
+    pub(super) fn exchange(
+        &self,
+        target: usize,
+        allowed: &Allowed,
+        eye: &mut Eye,
+        is_cancelled: &(impl Fn() -> bool + ?Sized),
+    ) -> Option<Integral> {
+        let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
+        let (owners, occluders) = self.between(other);
+        if occluders.is_empty() {
+            if let Some(found) = unobstructed(one, other, allowed) {
+                return Some(found);
             }
         }
-        let (error, evaluations) = (self.error(), self.evaluations);
-        Some(Integral { value: self.value(), error, evaluations })
+        let (one, other) = in_order(one, other, &occluders);
+        if occluders.iter().any(|occluder| eye.is_covered(&one.pieces, &other.pieces, occluder)) {
+            return Some(Integral::default());
+        }
+        Cubature::new(one, other, &owners, &occluders, eye).integrate(allowed, is_cancelled)
     }
 
-    fn error(&self) -> f64 {
-        self.open.iter().map(|open| open.found.error).sum()
-    }
-
-    /// The cells in the order in which they came about, which threads do not change.
-    fn value(&self) -> f64 {
-        let mut parts: Vec<(usize, f64)> =
-            self.open.iter().map(|open| (open.number, open.found.value)).collect();
-        parts.sort_unstable_by_key(|part| part.0);
-        parts.iter().map(|part| part.1).sum()
+    /// What can stand between this polygon and another one.
+    fn between(&self, other: &Surface) -> (Vec<Owner>, Vec<Occluder>) {
+        let one = &self.surfaces.surfaces[self.id];
+        let mut hull: Vec<DVec3> = Vec::new();
+        let (mut owners, mut found) = (Vec::new(), Vec::new());
+        for (owner, occluder) in self.near.iter().filter(|(owner, _)| !other.is_of(*owner)) {
+            let axis = other.middle - one.middle;
+            let share = ((occluder.middle - one.middle).dot(axis) / axis.length_squared()).clamp(0.0, 1.0);
+            let away = occluder.middle - (one.middle + axis * share);
+            let reach = occluder.radius + one.radius + other.radius;
+            if away.length_squared() > reach * reach {
+                continue;
+            }
+            if hull.is_empty() {
+                hull.extend(one.pieces.iter().chain(&other.pieces).flatten());
+            }
+            if are_apart(&hull, &occluder.corners, away) {
+                continue;
+            }
+            match occluder.before(other.face) {
+                Before::All => found.push(occluder.clone().into_owned()),
+                Before::Part(part) => found.push(part),
+                Before::Nothing => continue,
+            }
+            owners.push(*owner);
+        }
+        (owners, found)
     }
 }
 
-/// A cell cut at all events that pass through it; `None` when they are too many.
-fn cut_at(cell: Cell, events: &[Event], whole: f64) -> Option<Vec<Cell>> {
-    let mut pieces = vec![cell];
-    for event in events {
-        pieces = pieces
-            .into_iter()
-            .flat_map(|piece| cut(&piece, *event, whole).unwrap_or_else(|| vec![piece]))
-            .collect();
-        if pieces.len() > MOST_CUTS {
-            return None;
+/// The two with the one first that is small as the occluders see it: its points see them alike.
+fn in_order<'s>(one: &'s Surface, other: &'s Surface, occluders: &[Occluder]) -> (&'s Surface, &'s Surface) {
+    let size = |surface: &Surface| {
+        let each = occluders.iter().map(|o| surface.radius / o.middle.distance(surface.middle));
+        each.fold(0.0, f64::max)
+    };
+    let sizes = [size(one), size(other)];
+    if sizes[1] < sizes[0] || (sizes[1] == sizes[0] && other.area < one.area) { (other, one) } else { (one, other) }
+}
+
+/// Whether all of a surface is before a plane.
+fn is_wholly_before(surface: &Surface, [on, normal]: Face) -> bool {
+    let middle = surface.middle - on;
+    let least = -1e-13 * (middle.length() + surface.radius);
+    normal.dot(middle) > surface.radius
+        || surface.pieces.iter().flatten().all(|p| normal.dot(*p - on) >= least)
+}
+
+/// With nothing in between: the cheapest rule that is good enough.
+fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Integral> {
+    let square = one.middle.distance_squared(other.middle);
+    let ratio = (one.radius + other.radius).powi(2) / square;
+    // The largest that the kernel may be.
+    let most = one.area * other.area / (std::f64::consts::PI * square);
+    if ratio < 0.5 && is_wholly_before(one, other.face) && is_wholly_before(other, one.face) {
+        let error = kernel::ERROR * ratio * ratio * most;
+        if error <= allowed.error(0.0, most) {
+            return Some(Integral { value: kernel::exchange(one, other), error, evaluations: 0 });
+        }
+        for (rule, constant, power) in [(&RULE_3[..], 0.1, 3), (&GAUSS_4[..], 0.1, 4), (&RULE_6[..], 0.1, 6)] {
+            let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
+            let ratio = near.radius / (square.sqrt() - far.radius).max(near.radius);
+            let error = constant * ratio.powi(2 * power) * most;
+            if error <= allowed.error(0.0, most) {
+                return Some(Integral { value: points(near, far, rule), error, evaluations: 0 });
+            }
         }
     }
-    Some(pieces)
+    if is_wholly_before(one, other.face) && is_wholly_before(other, one.face) {
+        let whole = most.min(one.area).min(other.area);
+        let tolerance = allowed.error(0.0, whole);
+        let [value, error] = contour::exchange(one, other, tolerance);
+        return (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 });
+    }
+    None
+}
+
+/// By exact point factors.
+fn points(one: &Surface, other: &Surface, rule: &[[f64; 2]]) -> f64 {
+    let mut relative = Vec::new();
+    let mut factor = |from: DVec3| -> f64 {
+        let each = other.pieces.iter().map(|piece| {
+            relative.clear();
+            relative.extend(piece.iter().map(|p| *p - from));
+            lambert(one.face[1], &relative)
+        });
+        each.sum()
+    };
+    one.cells.iter().flat_map(|cell| nodes(cell, rule)).map(|(point, weight)| weight * factor(point)).sum()
 }

@@ -35,6 +35,20 @@ impl Bodies {
         bodies
     }
 
+    pub(crate) fn count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// The polygons of a body.
+    pub(crate) fn faces(&self, body: usize) -> &[usize] {
+        &self.faces[body]
+    }
+
+    /// The body that a polygon is of.
+    pub(crate) fn body_of(&self, id: usize) -> Option<usize> {
+        self.of[id]
+    }
+
     /// Whether two polygons belong to one body. Then neither hides any of the other's front: the body lies behind it.
     pub(crate) fn is_one(&self, id: usize, other: usize) -> bool {
         self.of[id].is_some() && self.of[id] == self.of[other]

@@ -1,12 +1,12 @@
 //! Enclosures: many polygons that see and hide each other.
-use super::{body::Bodies, pool::Pool, shaft::Shaft, tree::Tree};
+use super::{body::Bodies, pool::Pool, shaft::Shaft, surfaces::Surfaces, tree::Tree};
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
 use crate::pipeline::{self, Reach};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
-use std::cmp::Ordering;
+use std::{cmp::Ordering, sync::OnceLock};
 
 /// A set of polygons, each of which is a target and an occluder of the others.
 ///
@@ -33,6 +33,8 @@ pub struct Enclosure {
     /// The largest deviation of a vertex from where it stands.
     deviation: f64,
     pool: Pool,
+    /// What form factors between areas need, found with the first of them.
+    surfaces: OnceLock<Surfaces>,
 }
 
 impl Enclosure {
@@ -48,6 +50,7 @@ impl Enclosure {
             polygons,
             deviation,
             pool: Pool::default(),
+            surfaces: OnceLock::new(),
         }
     }
 
@@ -60,6 +63,10 @@ impl Enclosure {
     /// The boxes around them.
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
+    }
+
+    pub(crate) fn surfaces(&self) -> &Surfaces {
+        self.surfaces.get_or_init(|| Surfaces::of(&self.polygons, &self.bodies))
     }
 
     /// The form factor from `from` to polygon `id`, with all other polygons as occluders.
@@ -158,19 +165,8 @@ impl Enclosure {
         found
     }
 
-    /// The polygons that can stand between polygons `source` and `target`.
-    pub(crate) fn between(&self, source: usize, target: usize) -> Vec<usize> {
-        let from = &self.polygons[source];
-        let mut found = self.in_shaft(from.points(), target);
-        let is_below = |i: usize| {
-            self.polygons[i].points().iter().all(|p| from.plane().side_of(*p) != Ordering::Greater)
-        };
-        found.retain(|i| *i != source && !(self.polygons[*i].lies_in_plane_of(from) || is_below(*i)));
-        found
-    }
-
     /// The form factor to polygon `id`, past those of the polygons `near` that can hide it.
-    pub(crate) fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
+    fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
         self.past_any_of(from, id, &self.polygons[id], |_| near.iter().copied()).0
     }
 

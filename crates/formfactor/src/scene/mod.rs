@@ -4,3 +4,7 @@ pub(crate) mod enclosure;
 pub(crate) mod pool;
 pub(crate) mod shaft;
 pub(crate) mod tree;
+pub(crate) mod apart;
+pub(crate) mod coplanar;
+pub(crate) mod occluder;
+pub(crate) mod surfaces;

@@ -3,3 +3,5 @@ pub(crate) mod differential_area;
 pub(crate) mod extent;
 pub(crate) mod loops;
 pub(crate) mod polygon;
+pub(crate) mod cell;
+pub(crate) mod pieces;

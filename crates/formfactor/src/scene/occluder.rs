@@ -1,0 +1,131 @@
+//! Convex occluders: plates and convex bodies, as what is in front of them sees them.
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// An edge between two faces of a convex occluder, its left face counter-clockwise seen from outside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ridge {
+    pub(crate) ends: [DVec3; 2],
+    /// Faces, by number; [`CAP`] is one that is never seen.
+    pub(crate) sides: [usize; 2],
+}
+
+/// A face that turns away from whoever asks.
+pub(crate) const CAP: usize = usize::MAX;
+
+/// A face's plane: a point on it, and the unit normal outward.
+pub(crate) type Face = [DVec3; 2];
+
+/// A ball around points: the middle of their box, and how far the farthest is.
+pub(crate) fn ball(points: &[DVec3]) -> (DVec3, f64) {
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(none, |(low, high), p| (low.min(*p), high.max(*p)));
+    let middle = low.midpoint(high);
+    (middle, points.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt())
+}
+
+/// A convex body, or a convex plate that is a body without thickness.
+#[derive(Clone, Debug)]
+pub(crate) struct Occluder {
+    pub(crate) ridges: Vec<Ridge>,
+    pub(crate) faces: Vec<Face>,
+    /// The corners, each once.
+    pub(crate) corners: Vec<DVec3>,
+    pub(crate) is_plate: bool,
+    pub(crate) middle: DVec3,
+    pub(crate) radius: f64,
+}
+
+impl Occluder {
+    /// A plate from its corners, counter-clockwise seen from where `normal` points to.
+    pub(crate) fn plate(corners: &[DVec3], normal: DVec3) -> Self {
+        let next = corners.iter().cycle().skip(1);
+        let ridges = corners.iter().zip(next).map(|(a, b)| Ridge { ends: [*a, *b], sides: [0, 1] });
+        let faces = vec![[corners[0], normal], [corners[0], -normal]];
+        Self::of(ridges.collect(), faces, true)
+    }
+
+    pub(crate) fn of(ridges: Vec<Ridge>, faces: Vec<Face>, is_plate: bool) -> Self {
+        let mut corners: Vec<DVec3> = ridges.iter().flat_map(|ridge| ridge.ends).collect();
+        corners.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
+        corners.dedup();
+        let (middle, radius) = ball(&corners);
+        Self { ridges, faces, corners, is_plate, middle, radius }
+    }
+
+    /// Whether a point sees each face, as far as doubles say.
+    pub(crate) fn facing(&self, point: DVec3, facing: &mut Vec<bool>) {
+        facing.clear();
+        facing.extend(self.faces.iter().map(|[on, normal]| normal.dot(point - *on) > 0.0));
+    }
+
+    /// The silhouette as a point sees it that sees the faces `facing`: edges that run counter-clockwise.
+    pub(crate) fn silhouette<'o>(&'o self, facing: &'o [bool]) -> impl Iterator<Item = [DVec3; 2]> + 'o {
+        let sees = |side: usize| side != CAP && facing[side];
+        self.ridges.iter().filter_map(move |Ridge { ends: [a, b], sides: [left, right] }| match (sees(*left), sees(*right)) {
+            (true, false) => Some([*a, *b]),
+            (false, true) => Some([*b, *a]),
+            _ => None,
+        })
+    }
+
+    /// What of it is before a plane, by a point on the plane and its normal: itself, a part, or nothing.
+    pub(crate) fn before(&self, [on, normal]: Face) -> Before {
+        let height = |p: DVec3| normal.dot(p - on);
+        let middle = height(self.middle);
+        let least = SLIGHT * (self.radius + self.middle.distance(on));
+        if middle > self.radius {
+            return Before::All;
+        }
+        let (low, high) = self.corners.iter().map(|p| height(*p)).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
+        if high <= least || middle < -self.radius {
+            Before::Nothing
+        } else if low >= -least {
+            Before::All
+        } else {
+            Before::Part(self.clip(height))
+        }
+    }
+
+    /// The part at positive heights. The plane becomes a face that is never seen.
+    fn clip(&self, height: impl Fn(DVec3) -> f64) -> Self {
+        let mut ridges = Vec::with_capacity(self.ridges.len() + 2);
+        // Where each face's boundary leaves the part, and where it comes back.
+        let mut cuts: Vec<[Option<DVec3>; 2]> = vec![[None; 2]; self.faces.len()];
+        for Ridge { ends: [a, b], sides } in &self.ridges {
+            let [from, to] = [height(*a), height(*b)];
+            if from <= 0.0 && to <= 0.0 {
+                continue;
+            }
+            let at = *a + (*b - *a) * (from / (from - to));
+            let ends = if from < 0.0 { [at, *b] } else if to < 0.0 { [*a, at] } else { [*a, *b] };
+            if from <= 0.0 || to <= 0.0 {
+                let leaves = to <= 0.0;
+                let point = if from == 0.0 { *a } else if to == 0.0 { *b } else { at };
+                for (side, is_left) in sides.iter().zip([true, false]) {
+                    if *side != CAP {
+                        cuts[*side][usize::from(leaves != is_left)] = Some(point);
+                    }
+                }
+            }
+            ridges.push(Ridge { ends, sides: *sides });
+        }
+        for (face, cut) in cuts.iter().enumerate().take(if self.is_plate { 1 } else { usize::MAX }) {
+            if let [Some(out), Some(back)] = cut {
+                ridges.push(Ridge { ends: [*out, *back], sides: [face, if self.is_plate { 1 } else { CAP }] });
+            }
+        }
+        Self::of(ridges, self.faces.clone(), self.is_plate)
+    }
+}
+
+/// What lies behind a plane by no more than this of its distance from the plane's point counts as before it.
+const SLIGHT: f64 = 1e-13;
+
+/// What of an occluder is before a plane.
+#[derive(Clone, Debug)]
+pub(crate) enum Before {
+    All,
+    Part(Occluder),
+    Nothing,
+}

@@ -1,0 +1,196 @@
+//! What form factors from area to area need of the polygons, found once: their convex pieces, and the convex occluders among
+//! them.
+use super::body::Bodies;
+use super::coplanar::planes;
+use super::occluder::{Face, Occluder, Ridge, ball};
+use crate::shapes::cell::{Cell, Nodes, fan};
+use crate::shapes::loops::{is_convex, leaf};
+use crate::shapes::pieces::{pieces, trapezoids};
+use crate::shapes::polygon::PlanarPolygon;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// A polygon as a source and as a target.
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
+    /// A point of its plane, and its unit normal.
+    pub(crate) face: Face,
+    pub(crate) middle: DVec3,
+    pub(crate) radius: f64,
+    pub(crate) area: f64,
+    /// The number of its plane.
+    pub(crate) plane: usize,
+    /// The closed convex body that it is a face of.
+    pub(crate) body: Option<usize>,
+    /// Convex pieces, counter-clockwise seen from the front.
+    pub(crate) pieces: Vec<Vec<DVec3>>,
+    /// The boundary, with the surface to the left.
+    pub(crate) edges: Vec<[DVec3; 2]>,
+    pub(crate) cells: Vec<Cell>,
+    /// Four nodes of each cell.
+    pub(crate) nodes: Vec<Nodes>,
+}
+
+/// What may stand in between.
+#[derive(Clone, Debug)]
+pub(crate) struct Hider {
+    pub(crate) shape: Occluder,
+    pub(crate) of: Owner,
+}
+
+/// What an occluder is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner {
+    /// A closed convex body.
+    Body(usize),
+    /// Polygons in a plane.
+    Plane(usize),
+}
+
+/// All polygons as surfaces, and all occluders.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Surfaces {
+    pub(crate) surfaces: Vec<Surface>,
+    pub(crate) hiders: Vec<Hider>,
+}
+
+impl Surfaces {
+    /// Takes O(n log n) for n vertices where few planes have all polygons on one side, plus the unions of coplanar polygons.
+    pub(crate) fn of(polygons: &[PlanarPolygon], bodies: &Bodies) -> Self {
+        let planes = planes(polygons);
+        let surfaces = polygons.iter().zip(&planes).enumerate()
+            .map(|(id, (polygon, plane))| Surface::new(polygon, *plane, bodies.body_of(id))).collect();
+        let mut hiders: Vec<Hider> =
+            (0..bodies.count()).map(|body| Hider { shape: of_body(polygons, &planes, bodies.faces(body)), of: Owner::Body(body) }).collect();
+        let points: Vec<DVec3> = polygons.iter().flat_map(PlanarPolygon::points).copied().collect();
+        let mut in_plane: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (id, plane) in planes.iter().enumerate().filter(|(id, _)| bodies.body_of(*id).is_none()) {
+            in_plane.entry(*plane).or_default().push(id);
+        }
+        in_plane.retain(|plane, _| !supports(&polygons[*plane], &points));
+        for (plane, ids) in in_plane {
+            let plates = plates(polygons, &ids);
+            hiders.extend(plates.into_iter().map(|shape| Hider { shape, of: Owner::Plane(plane) }));
+        }
+        Self { surfaces, hiders }
+    }
+}
+
+impl Surface {
+    fn new(polygon: &PlanarPolygon, plane: usize, body: Option<usize>) -> Self {
+        let points = polygon.points();
+        let (middle, radius) = ball(points);
+        let pieces = pieces(polygon);
+        let area = pieces.iter().map(|piece| area(piece)).sum();
+        let cells: Vec<Cell> = pieces.iter().flat_map(|piece| fan(piece)).collect();
+        let nodes = cells.iter().map(Nodes::of).collect();
+        Self { face: [points[0], polygon.normal()], middle, radius, area, plane, body, edges: edges(polygon), pieces, cells, nodes }
+    }
+
+    /// Whether it is a part of an occluder, or lies in its plane: then the occluder hides nothing of it.
+    pub(crate) fn is_of(&self, owner: Owner) -> bool {
+        match owner {
+            Owner::Body(body) => self.body == Some(body),
+            Owner::Plane(plane) => self.plane == plane,
+        }
+    }
+}
+
+/// The edges of a polygon's rings, outer ones counter-clockwise and holes clockwise.
+fn edges(polygon: &PlanarPolygon) -> Vec<[DVec3; 2]> {
+    if polygon.is_convex() {
+        return polygon.edges().map(<[_; 2]>::from).collect();
+    }
+    let region = leaf(&polygon.flat_loops()).evaluate();
+    let pairs = |ring: &[DVec2]| {
+        let raised: Vec<DVec3> = ring.iter().map(|p| polygon.raise(*p)).collect();
+        let next = raised.iter().copied().cycle().skip(1);
+        raised.iter().copied().zip(next).map(<[_; 2]>::from).collect::<Vec<_>>()
+    };
+    region.rings().flat_map(pairs).collect()
+}
+
+/// The area of a convex polygon in space.
+pub(crate) fn area(corners: &[DVec3]) -> f64 {
+    let spokes = corners[1..].windows(2).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
+    spokes.sum::<DVec3>().length() / 2.0
+}
+
+/// Points that lie behind a plane by no more than this of their distance count as on it.
+const SLIGHT: f64 = 1e-13;
+
+/// Whether no point is behind a polygon's plane, or none before it: then the polygon hides nothing from anything, as a
+/// segment between such points meets its plane at an end.
+fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
+    let (on, normal) = (polygon.points()[0], polygon.normal());
+    let mut sides = [false; 2];
+    // In strides, so that points far from each other come soon.
+    let stride = (1..).map(|i| i * 2 + 1).find(|stride| stride * stride > points.len()).unwrap_or(1);
+    for point in (0..stride).flat_map(|start| points.iter().skip(start).step_by(stride)) {
+        let (way, height) = (*point - on, normal.dot(*point - on));
+        if height.abs() > SLIGHT * way.length() {
+            sides[usize::from(height > 0.0)] = true;
+        }
+        if sides == [true; 2] {
+            return false;
+        }
+    }
+    true
+}
+
+/// A closed convex body: the edges between faces in different planes.
+fn of_body(polygons: &[PlanarPolygon], planes: &[usize], ids: &[usize]) -> Occluder {
+    let bits = |p: DVec3| p.to_array().map(f64::to_bits);
+    let mut numbers: Vec<usize> = ids.iter().map(|id| planes[*id]).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let number = |id: usize| numbers.binary_search(&planes[id]).unwrap_or(0);
+    let edges = || ids.iter().flat_map(|id| polygons[*id].edges().map(move |edge| (*id, edge)));
+    let left: BTreeMap<_, usize> = edges().map(|(id, (a, b))| ([bits(a), bits(b)], number(id))).collect();
+    let ridges = edges().filter_map(|(id, (a, b))| {
+        let (own, other) = (number(id), *left.get(&[bits(b), bits(a)])?);
+        (own < other).then_some(Ridge { ends: [a, b], sides: [own, other] })
+    });
+    let mut faces: Vec<Face> = vec![[DVec3::ZERO; 2]; numbers.len()];
+    ids.iter().for_each(|id| faces[number(*id)] = [polygons[*id].points()[0], polygons[*id].normal()]);
+    Occluder::of(ridges.collect(), faces, false)
+}
+
+/// Polygons of one plane as convex plates: their union where that takes fewer, else their own pieces.
+fn plates(polygons: &[PlanarPolygon], ids: &[usize]) -> Vec<Occluder> {
+    let plane = &polygons[ids[0]];
+    let own: Vec<Vec<DVec3>> = ids.iter().flat_map(|id| pieces(&polygons[*id])).collect();
+    let united = if own.len() > 1 { united(plane, polygons, ids) } else { None };
+    let corners = united.filter(|united| united.len() < own.len()).unwrap_or(own);
+    // Those of polygons that face the other way run clockwise.
+    let plate = |corners: &Vec<DVec3>| {
+        let spokes = corners[1..].windows(2);
+        let normal: DVec3 = spokes.map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0])).sum();
+        let upward = if normal.dot(plane.normal()) < 0.0 { -plane.normal() } else { plane.normal() };
+        Occluder::plate(corners, upward)
+    };
+    corners.iter().map(plate).collect()
+}
+
+/// The union of polygons in the plane of one of them, in convex pieces.
+fn united(plane: &PlanarPolygon, polygons: &[PlanarPolygon], ids: &[usize]) -> Option<Vec<Vec<DVec3>>> {
+    let flat = |id: &usize| -> Vec<Vec<DVec2>> {
+        polygons[*id].loops().map(|l| l.iter().map(|p| plane.flat(*p)).collect()).collect()
+    };
+    let loops: Vec<Vec<Vec<DVec2>>> = ids.iter().map(flat).collect();
+    let union = loops.iter().map(|l| leaf(l)).reduce(|all, next| all | next)?;
+    let region = union.evaluate().without_collinear_vertices();
+    let mut found = Vec::new();
+    for polygon in region.polygons() {
+        let outer = polygon.outer();
+        if polygon.holes().next().is_none() && is_convex(outer) {
+            found.push(outer.iter().map(|p| plane.raise(*p)).collect());
+        } else {
+            let rings: Vec<Vec<DVec2>> =
+                std::iter::once(outer).chain(polygon.holes()).map(<[_]>::to_vec).collect();
+            let parts = trapezoids(&leaf(&rings).evaluate());
+            found.extend(parts.iter().map(|part| part.iter().map(|p| plane.raise(*p)).collect::<Vec<_>>()));
+        }
+    }
+    Some(found)
+}
