@@ -2,7 +2,7 @@
 //!
 //! A room of 4 x 3 x 2.5 with a table in it. The room is closed: rows add to 1 within the tolerance. Reciprocity holds to
 //! rounding, as each pair is integrated once.
-use formfactor::{Enclosure, Error, PlanarPolygon, Row};
+use formfactor::{Enclosure, Error, Limits, PlanarPolygon, Row};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let polygons: Result<Vec<_>, Error> =
         SURFACES.iter().map(|(_, corners)| PlanarPolygon::new([corners])).collect();
     let room = Enclosure::new(polygons?);
-    let rows = room.area_matrix(TOLERANCE, || false)?.unwrap_or_default();
+    let rows = room.area_matrix(TOLERANCE, &Limits::default())?.unwrap_or_default();
     let mut table = format!("{:>9}", "from / to");
     for (name, _) in &SURFACES {
         write!(table, "{name:>10}")?;

@@ -1,7 +1,7 @@
 //! Form factors from area to area: closed forms, references with a blocker, reciprocity and closure.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::glam::DMat3;
-use formfactor::{AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, PlanarPolygon, unoccluded};
+use formfactor::{AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, Limits, PlanarPolygon, unoccluded};
 
 fn rectangle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> PlanarPolygon {
     PlanarPolygon::new([[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]]]).unwrap()
@@ -105,7 +105,7 @@ fn cornell_box() -> Enclosure {
 fn the_cornell_box_closes_within_the_tolerance() {
     let asked = std::env::var("CORNELL_TOLERANCE").ok();
     let tolerance = asked.map_or(1e-3, |t| t.parse().expect("CORNELL_TOLERANCE is a number"));
-    let rows = cornell_box().area_matrix(tolerance, || false).unwrap().unwrap();
+    let rows = cornell_box().area_matrix(tolerance, &Limits::default()).unwrap().unwrap();
     for (id, row) in rows.iter().enumerate() {
         let sum: f64 = row.iter().map(|(_, factor)| factor.value).sum();
         assert!((sum - 1.0).abs() <= tolerance, "row {id} adds to {sum}");
@@ -116,7 +116,7 @@ fn the_cornell_box_closes_within_the_tolerance() {
 fn from_the_cornell_boxs_lamp_all_is_seen_once() {
     let (room, tolerance) = (cornell_box(), 1e-5);
     let sum: f64 =
-        room.area_row(2, tolerance, || false).unwrap().unwrap().iter().map(|(_, factor)| factor.value).sum();
+        room.area_row(2, tolerance, &Limits::default()).unwrap().unwrap().iter().map(|(_, factor)| factor.value).sum();
     assert!((sum - 1.0).abs() <= tolerance, "{sum}");
 }
 
@@ -150,7 +150,7 @@ fn a_block_that_stands_in_a_turned_room_sees_all_once() {
     }
     let room = Enclosure::new(loops.into_iter().map(|l| PlanarPolygon::new(l).unwrap()).collect());
     for (from, tolerance) in [(0, 1e-7), (3, 1e-5), (5, 1e-5), (1, 1e-4)] {
-        let row = room.area_row(from, tolerance, || false).unwrap().unwrap();
+        let row = room.area_row(from, tolerance, &Limits::default()).unwrap().unwrap();
         let sum: f64 = row.iter().map(|(_, factor)| factor.value).sum();
         assert!((sum - 1.0).abs() <= tolerance, "row {from} adds to {sum}");
     }
@@ -227,7 +227,7 @@ fn what_turns_its_back_is_not_seen() {
     let back = Enclosure::new(vec![rectangle(UNIT, UNIT, 0.0), rectangle(UNIT, UNIT, 1.0)]);
     assert_eq!(back.area_form_factor(0, 1, 1e-6).unwrap(), AreaFormFactor::default());
     assert_eq!(back.area_form_factor(0, 0, 1e-6).unwrap(), AreaFormFactor::default());
-    assert!(back.area_row(0, 1e-6, || false).unwrap().unwrap().is_empty());
+    assert!(back.area_row(0, 1e-6, &Limits::default()).unwrap().unwrap().is_empty());
 }
 
 #[test]
@@ -236,8 +236,9 @@ fn a_bad_tolerance_is_refused_and_a_cancelled_matrix_is_none() {
         assert_eq!(squares(None).area_form_factor(0, 1, tolerance), Err(Error::BadTolerance));
     }
     let room = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));
-    assert_eq!(room.area_matrix(1e-9, || true), Ok(None));
-    assert_eq!(room.area_row(0, 1e-9, || true), Ok(None));
+    let stopped = Limits { stop: &|| true, ..Limits::default() };
+    assert_eq!(room.area_matrix(1e-9, &stopped), Ok(None));
+    assert_eq!(room.area_row(0, 1e-9, &stopped), Ok(None));
 }
 
 #[test]
@@ -273,9 +274,9 @@ fn many_points_see_what_each_sees() {
 #[test]
 fn a_matrix_is_its_pairs_bit_for_bit() {
     let room = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));
-    let rows = room.area_matrix(3e-4, || false).unwrap().unwrap();
+    let rows = room.area_matrix(3e-4, &Limits::default()).unwrap().unwrap();
     for (from, row) in rows.iter().enumerate() {
-        assert_eq!(*row, room.area_row(from, 3e-4, || false).unwrap().unwrap());
+        assert_eq!(*row, room.area_row(from, 3e-4, &Limits::default()).unwrap().unwrap());
         for (to, factor) in row {
             assert_eq!(*factor, room.area_form_factor(from, *to, 1e-4).unwrap());
         }

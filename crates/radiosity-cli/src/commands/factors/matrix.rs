@@ -69,9 +69,9 @@ pub(super) fn from_areas(
             .collect()
     };
     let found = if named.is_empty() {
-        enclosure.area_matrix(tolerance, || false).map_err(Failure::usage)?.unwrap_or_default()
+        enclosure.area_matrix(tolerance, &Limits::default()).map_err(Failure::usage)?.unwrap_or_default()
     } else {
-        let row = |patch: &usize| enclosure.area_row(*patch, tolerance, || false);
+        let row = |patch: &usize| enclosure.area_row(*patch, tolerance, &Limits::default());
         let rows: Result<Vec<_>, _> = named.iter().map(row).collect();
         rows.map_err(Failure::usage)?.into_iter().flatten().collect()
     };
