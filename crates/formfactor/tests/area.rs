@@ -1,7 +1,9 @@
 //! Form factors from area to area: closed forms, references with a blocker, reciprocity and closure.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::glam::DMat3;
-use formfactor::{AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, Limits, PlanarPolygon, unoccluded};
+use formfactor::{
+    AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, Limits, PlanarPolygon, unoccluded,
+};
 
 fn rectangle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> PlanarPolygon {
     PlanarPolygon::new([[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]]]).unwrap()
@@ -115,8 +117,13 @@ fn the_cornell_box_closes_within_the_tolerance() {
 #[test]
 fn from_the_cornell_boxs_lamp_all_is_seen_once() {
     let (room, tolerance) = (cornell_box(), 1e-5);
-    let sum: f64 =
-        room.area_row(2, tolerance, &Limits::default()).unwrap().unwrap().iter().map(|(_, factor)| factor.value).sum();
+    let sum: f64 = room
+        .area_row(2, tolerance, &Limits::default())
+        .unwrap()
+        .unwrap()
+        .iter()
+        .map(|(_, factor)| factor.value)
+        .sum();
     assert!((sum - 1.0).abs() <= tolerance, "{sum}");
 }
 

@@ -3,11 +3,18 @@
 //! There a vertex of the target lies behind an edge of an occluder's silhouette, or an edge of the target behind a vertex of one,
 //! or a vertex of one occluder behind or before an edge of another; or an occluder's face that the target reaches across is
 //! seen edge-on. Kinks that three edges make together are curved, and weaker: they are left to the cubature.
-use crate::scene::occluder::Occluder;
+use super::point::Near;
+use crate::scene::{occluder::Occluder, surfaces::area};
 use glam::DVec3;
 
 /// More candidates than this are not looked at: halving cells does better.
 const MOST: usize = 1 << 14;
+
+/// At most so many pieces of one patch.
+const MOST_CUTS: usize = 64;
+
+/// Chords that differ by less than this share of the cell are one.
+const CLOSE: f64 = 1e-9;
 
 /// A plane through a vertex and an edge, or one of a face.
 #[derive(Clone, Copy, Debug)]
@@ -23,13 +30,40 @@ impl Event {
         Self { on: vertex, normal: (a - vertex).cross(b - vertex), line: Some((vertex, [a, b])) }
     }
 
-    pub(super) fn height(&self, point: DVec3) -> f64 {
+    fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.on)
     }
 
-    /// Whether it passes through a convex polygon, and there the vertex is seen to meet the edge.
-    pub(super) fn passes(&self, polygon: &[DVec3]) -> bool {
-        let Some(chord) = self.chord(polygon) else { return false };
+    /// The ends of its line through a polygon.
+    fn chord(&self, polygon: &Patch) -> Option<[DVec3; 2]> {
+        let mut heights = [0.0; MOST_CORNERS];
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (height, corner) in heights.iter_mut().zip(polygon.corners()) {
+            *height = self.height(*corner);
+            low = if *height < low { *height } else { low };
+            high = if *height > high { *height } else { high };
+        }
+        if low >= 0.0 || high <= 0.0 {
+            return None;
+        }
+        let mut ends = [DVec3::ZERO; 2];
+        for i in 0..polygon.count {
+            let j = if i + 1 == polygon.count { 0 } else { i + 1 };
+            if (heights[i] < 0.0) != (heights[j] < 0.0) {
+                let share = heights[i] / (heights[i] - heights[j]);
+                ends[usize::from(heights[j] < 0.0)] = polygon.at[i] + (polygon.at[j] - polygon.at[i]) * share;
+            }
+        }
+        Some(ends)
+    }
+
+    fn crosses(&self, piece: &[DVec3]) -> bool {
+        let mut heights = piece.iter().map(|p| self.height(*p));
+        heights.clone().any(|h| h > 0.0) && heights.any(|h| h < 0.0)
+    }
+
+    /// Whether the vertex is seen to meet the edge from somewhere on a chord.
+    fn is_met(&self, chord: [DVec3; 2]) -> bool {
         let Some((vertex, [a, b])) = self.line else { return true };
         // Where on the edge's line the vertex is seen, as quotients.
         let [first, last] = chord.map(|from| {
@@ -44,40 +78,93 @@ impl Event {
         let ((before, after), (before_too, after_too)) = (is_out(first), is_out(last));
         first[1].signum() != last[1].signum() || !((before && before_too) || (after && after_too))
     }
+}
 
-    /// The ends of its line through a convex polygon.
-    fn chord(&self, polygon: &[DVec3]) -> Option<[DVec3; 2]> {
-        let mut ends = [None; 2];
-        let mut a = *polygon.last()?;
-        let mut there = self.height(a);
-        for &b in polygon {
-            let here = self.height(b);
-            if (there < 0.0 && here >= 0.0) || (there >= 0.0 && here < 0.0) {
-                ends[usize::from(here < 0.0)] = Some(a + (b - a) * (there / (there - here)));
+/// A patch has at most so many corners.
+const MOST_CORNERS: usize = 12;
+
+/// A small convex polygon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patch {
+    at: [DVec3; MOST_CORNERS],
+    count: usize,
+}
+
+impl Patch {
+    /// The first corners of a polygon, which are all if it has few.
+    pub(super) fn of(corners: &[DVec3]) -> Self {
+        let mut patch = Self { at: [DVec3::ZERO; MOST_CORNERS], count: 0 };
+        corners.iter().for_each(|corner| patch.push(*corner));
+        patch
+    }
+
+    fn push(&mut self, corner: DVec3) {
+        if self.count < MOST_CORNERS {
+            self.at[self.count] = corner;
+            self.count += 1;
+        }
+    }
+
+    pub(super) fn corners(&self) -> &[DVec3] {
+        &self.at[..self.count]
+    }
+
+    pub(super) fn area(&self) -> f64 {
+        if self.count < 3 { 0.0 } else { area(self.corners()) }
+    }
+
+    /// What is before and what is behind an event.
+    fn split(&self, event: &Event) -> [Self; 2] {
+        let mut parts = [Self::of(&[]); 2];
+        let Some(mut a) = self.corners().last().copied() else { return parts };
+        let mut there = event.height(a);
+        for &b in self.corners() {
+            let here = event.height(b);
+            if (there < 0.0 && here > 0.0) || (there > 0.0 && here < 0.0) {
+                let at = a + (b - a) * (there / (there - here));
+                parts.iter_mut().for_each(|part| part.push(at));
+            }
+            if here >= 0.0 {
+                parts[0].push(b);
+            }
+            if here <= 0.0 {
+                parts[1].push(b);
             }
             (a, there) = (b, here);
         }
-        Some([ends[0]?, ends[1]?])
+        parts
     }
 }
 
 /// The events on a cell, and whether they are all.
-pub(super) fn events(cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Occluder]) -> (Vec<Event>, bool) {
-    let seen: Vec<Silhouette> = occluders.iter().map(|occluder| Silhouette::from_any(occluder, cell)).collect();
-    let mut found = Vec::new();
+pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -> (Vec<Event>, bool) {
+    let cell = patch.corners();
+    let seen: Vec<Silhouette> =
+        occluders.iter().map(|occluder| Silhouette::from_any(occluder, cell)).collect();
+    let mut found: Vec<(Event, [DVec3; 2])> = Vec::new();
+    let near = CLOSE * cell[0].distance(cell[cell.len() / 2]);
     let mut add = |event: Event| {
-        if event.passes(cell) {
-            found.push(event);
+        let Some(chord) = event.chord(patch) else { return };
+        if event.is_met(chord) {
+            let alike = |[a, b]: [DVec3; 2]| a.abs_diff_eq(chord[0], near) && b.abs_diff_eq(chord[1], near);
+            match found.iter_mut().find(|(_, [a, b])| alike([*a, *b]) || alike([*b, *a])) {
+                // Each may meet its edge elsewhere on the common line.
+                Some((known, _)) => known.line = None,
+                None => found.push((event, chord)),
+            }
         }
     };
     for (occluder, silhouette) in occluders.iter().zip(&seen) {
         for piece in pieces {
             let edges = piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]);
             edges.for_each(|edge| silhouette.vertices.iter().for_each(|v| add(Event::through(*v, edge))));
-            piece.iter().for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
+            piece
+                .iter()
+                .for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
             if !occluder.is_plate {
-                let faces = occluder.faces.iter().map(|[on, normal]| Event { on: *on, normal: *normal, line: None });
-                faces.filter(|face| face.chord(piece).is_some()).for_each(&mut add);
+                let faces =
+                    occluder.faces.iter().map(|[on, normal]| Event { on: *on, normal: *normal, line: None });
+                faces.filter(|face| face.crosses(piece)).for_each(&mut add);
             }
         }
     }
@@ -85,14 +172,27 @@ pub(super) fn events(cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Occlude
     let are_all = vertices * vertices <= MOST;
     if are_all {
         for (i, one) in seen.iter().enumerate() {
-            for other in &seen[..i] {
+            for (j, other) in seen[..i].iter().enumerate() {
+                if !may_overlap(cell, &occluders[i], &occluders[j]) {
+                    continue;
+                }
                 for (corners, edges) in [(&one.vertices, &other.edges), (&other.vertices, &one.edges)] {
                     corners.iter().for_each(|v| edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
                 }
             }
         }
     }
-    (found, are_all)
+    (found.into_iter().map(|(event, _)| event).collect(), are_all)
+}
+
+/// Whether some point of a cell may see one occluder before another one, by the balls around them.
+fn may_overlap(cell: &[DVec3], one: &Occluder, other: &Occluder) -> bool {
+    let middle = cell.iter().sum::<DVec3>() / cell.len() as f64;
+    let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
+    let [to_one, to_other] = [one, other].map(|occluder| occluder.middle - middle);
+    let sine = |occluder: &Occluder, way: DVec3| (occluder.radius + radius) / way.length();
+    let [wide, wide_too] = [sine(one, to_one), sine(other, to_other)];
+    wide >= 1.0 || wide_too >= 1.0 || to_one.angle_between(to_other) <= wide.asin() + wide_too.asin()
 }
 
 /// The edges of an occluder that are part of its silhouette from some corner of a cell, and their ends.
@@ -122,47 +222,25 @@ impl Silhouette {
     }
 }
 
-/// A convex polygon cut along events where they pass through it and cut off pieces that are `worth` it, each by its share of
-/// the polygon's area.
-pub(super) fn cut(polygon: Vec<DVec3>, events: &[Event], most: usize, worth: impl Fn(f64) -> bool) -> Option<Vec<Vec<DVec3>>> {
-    let mut pieces = vec![polygon];
+/// A patch cut along events where they pass through it and both sides are at least of an area `least`; `None` when there are too
+/// many pieces.
+pub(super) fn cut(patch: Patch, events: &[Event], least: f64) -> Option<Vec<Patch>> {
+    let mut pieces = vec![patch];
     for event in events {
-        let mut next = Vec::with_capacity(pieces.len() + 1);
-        for piece in pieces {
-            match event.passes(&piece).then(|| split(&piece, event)) {
-                Some([left, right]) if worth(size(&left)) && worth(size(&right)) => next.extend([left, right]),
-                _ => next.push(piece),
+        for i in 0..pieces.len() {
+            let piece = &pieces[i];
+            if piece.count == MOST_CORNERS || !event.chord(piece).is_some_and(|chord| event.is_met(chord)) {
+                continue;
+            }
+            let [left, right] = piece.split(event);
+            if left.area() > least && right.area() > least {
+                pieces[i] = left;
+                pieces.push(right);
             }
         }
-        pieces = next;
-        if pieces.len() > most {
+        if pieces.len() > MOST_CUTS {
             return None;
         }
     }
     Some(pieces)
-}
-
-fn size(polygon: &[DVec3]) -> f64 {
-    if polygon.len() < 3 { 0.0 } else { crate::scene::surfaces::area(polygon) }
-}
-
-fn split(polygon: &[DVec3], event: &Event) -> [Vec<DVec3>; 2] {
-    let mut parts = [Vec::with_capacity(polygon.len() + 1), Vec::with_capacity(polygon.len() + 1)];
-    let Some(mut a) = polygon.last().copied() else { return parts };
-    let mut there = event.height(a);
-    for &b in polygon {
-        let here = event.height(b);
-        if (there < 0.0 && here > 0.0) || (there > 0.0 && here < 0.0) {
-            let at = a + (b - a) * (there / (there - here));
-            parts.iter_mut().for_each(|part| part.push(at));
-        }
-        if here >= 0.0 {
-            parts[0].push(b);
-        }
-        if here <= 0.0 {
-            parts[1].push(b);
-        }
-        (a, there) = (b, here);
-    }
-    parts
 }

@@ -5,6 +5,7 @@
 mod contour;
 mod cubature;
 mod events;
+mod integral;
 mod kernel;
 mod pair;
 mod point;
@@ -12,7 +13,8 @@ mod tolerance;
 
 use crate::error::Error;
 use crate::scene::{enclosure::Enclosure, surfaces::Surface};
-use pair::{Allowed, Integral, Outlook};
+use integral::{Allowed, Integral};
+use pair::Outlook;
 use point::Eye;
 use std::cmp::Ordering;
 
@@ -139,7 +141,13 @@ impl Enclosure {
     }
 
     /// Both directions between a polygon and each that comes after it and sees it; `None` when stopped.
-    fn later(&self, from: usize, tolerance: &Tolerance, limits: &Limits, eye: &mut Eye) -> Option<Vec<(usize, [AreaFormFactor; 2])>> {
+    fn later(
+        &self,
+        from: usize,
+        tolerance: &Tolerance,
+        limits: &Limits,
+        eye: &mut Eye,
+    ) -> Option<Vec<(usize, [AreaFormFactor; 2])>> {
         let outlook = Outlook::from(self.surfaces(), from);
         let mut found = Vec::new();
         for to in from + 1..self.polygons().len() {

@@ -1,47 +1,22 @@
 //! One pair of polygons.
 use super::cubature::Cubature;
-use super::point::{Eye, lambert};
+use super::integral::{Allowed, Integral, least_whole};
+use super::point::{Eye, Near, lambert};
 use super::{contour, kernel};
+use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
-use crate::scene::occluder::{Before, Face, Occluder};
-use crate::scene::surfaces::{Owner, Surface, Surfaces};
+use crate::scene::occluder::{Before, Face};
+use crate::scene::surfaces::{Origin, Surface, Surfaces};
 use crate::shapes::cell::nodes;
-use crate::numeric::gauss::{GAUSS_4, RULE_3, RULE_6};
 use glam::DVec3;
-use std::borrow::Cow;
-
-/// An integral, an estimate of its error, and how many values of the integrand it took.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Integral {
-    pub(super) value: f64,
-    pub(super) error: f64,
-    pub(super) evaluations: u64,
-}
-
-/// What a pair is allowed to err by.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Allowed {
-    /// Of the integral over both.
-    pub(super) absolute: f64,
-    /// Of its value.
-    pub(super) relative: f64,
-    /// Of its value were nothing in between.
-    pub(super) of_whole: f64,
-    pub(super) evaluations: u64,
-}
-
-impl Allowed {
-    pub(super) fn error(&self, value: f64, whole: f64) -> f64 {
-        self.absolute.max(self.relative * value).min(self.of_whole * whole)
-    }
-}
+use std::{borrow::Cow, f64::consts::PI};
 
 /// A polygon, and what is before its plane.
 #[derive(Debug)]
 pub(super) struct Outlook<'e> {
     surfaces: &'e Surfaces,
     id: usize,
-    near: Vec<(Owner, Cow<'e, Occluder>)>,
+    near: Vec<(Origin, Near<'e>)>,
 }
 
 impl<'e> Outlook<'e> {
@@ -73,15 +48,17 @@ impl<'e> Outlook<'e> {
                 return Some(found);
             }
         }
+        let unhidden =
+            if occluders.is_empty() { None } else { unobstructed(one, other, &allowed.part(0.25)) };
         let (one, other) = in_order(one, other, &occluders);
         if occluders.iter().any(|occluder| eye.is_covered(&one.pieces, &other.pieces, occluder)) {
             return Some(Integral::default());
         }
-        Cubature::new(one, other, &owners, &occluders, eye).integrate(allowed, is_cancelled)
+        Cubature::new(one, other, &owners, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
     }
 
     /// What can stand between this polygon and another one.
-    fn between(&self, other: &Surface) -> (Vec<Owner>, Vec<Occluder>) {
+    fn between(&self, other: &Surface) -> (Vec<Origin>, Vec<Near<'_>>) {
         let one = &self.surfaces.surfaces[self.id];
         let mut hull: Vec<DVec3> = Vec::new();
         let (mut owners, mut found) = (Vec::new(), Vec::new());
@@ -100,8 +77,8 @@ impl<'e> Outlook<'e> {
                 continue;
             }
             match occluder.before(other.face) {
-                Before::All => found.push(occluder.clone().into_owned()),
-                Before::Part(part) => found.push(part),
+                Before::All => found.push(Cow::Borrowed(occluder.as_ref())),
+                Before::Part(part) => found.push(Cow::Owned(part)),
                 Before::Nothing => continue,
             }
             owners.push(*owner);
@@ -111,13 +88,17 @@ impl<'e> Outlook<'e> {
 }
 
 /// The two with the one first that is small as the occluders see it: its points see them alike.
-fn in_order<'s>(one: &'s Surface, other: &'s Surface, occluders: &[Occluder]) -> (&'s Surface, &'s Surface) {
+fn in_order<'s>(one: &'s Surface, other: &'s Surface, occluders: &[Near]) -> (&'s Surface, &'s Surface) {
     let size = |surface: &Surface| {
         let each = occluders.iter().map(|o| surface.radius / o.middle.distance(surface.middle));
         each.fold(0.0, f64::max)
     };
     let sizes = [size(one), size(other)];
-    if sizes[1] < sizes[0] || (sizes[1] == sizes[0] && other.area < one.area) { (other, one) } else { (one, other) }
+    if sizes[1] < sizes[0] || (sizes[1] == sizes[0] && other.area < one.area) {
+        (other, one)
+    } else {
+        (one, other)
+    }
 }
 
 /// Whether all of a surface is before a plane.
@@ -128,33 +109,33 @@ fn is_wholly_before(surface: &Surface, [on, normal]: Face) -> bool {
         || surface.pieces.iter().flatten().all(|p| normal.dot(*p - on) >= least)
 }
 
-/// With nothing in between: the cheapest rule that is good enough.
+/// With nothing in between and each wholly before the other's plane: the cheapest rule that is good enough.
 fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Integral> {
+    if !(is_wholly_before(one, other.face) && is_wholly_before(other, one.face)) {
+        return None;
+    }
     let square = one.middle.distance_squared(other.middle);
     let ratio = (one.radius + other.radius).powi(2) / square;
     // The largest that the kernel may be.
-    let most = one.area * other.area / (std::f64::consts::PI * square);
-    if ratio < 0.5 && is_wholly_before(one, other.face) && is_wholly_before(other, one.face) {
+    let most = one.area * other.area / (PI * square);
+    let rough = kernel::exchange(one, other).min(one.area).min(other.area);
+    let tolerance = allowed.error(rough, rough.max(least_whole(one, other)));
+    if ratio < 0.5 {
         let error = kernel::ERROR * ratio * ratio * most;
-        if error <= allowed.error(0.0, most) {
-            return Some(Integral { value: kernel::exchange(one, other), error, evaluations: 0 });
+        if error <= tolerance {
+            return Some(Integral { value: rough, error, evaluations: 0 });
         }
-        for (rule, constant, power) in [(&RULE_3[..], 0.1, 3), (&GAUSS_4[..], 0.1, 4), (&RULE_6[..], 0.1, 6)] {
-            let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
-            let ratio = near.radius / (square.sqrt() - far.radius).max(near.radius);
-            let error = constant * ratio.powi(2 * power) * most;
-            if error <= allowed.error(0.0, most) {
+        let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
+        let ratio = near.radius / (square.sqrt() - far.radius).max(near.radius);
+        for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4), (&RULE_6[..], 6)] {
+            let error = ratio.powi(2 * power) * most;
+            if error <= tolerance {
                 return Some(Integral { value: points(near, far, rule), error, evaluations: 0 });
             }
         }
     }
-    if is_wholly_before(one, other.face) && is_wholly_before(other, one.face) {
-        let whole = most.min(one.area).min(other.area);
-        let tolerance = allowed.error(0.0, whole);
-        let [value, error] = contour::exchange(one, other, tolerance);
-        return (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 });
-    }
-    None
+    let [value, error] = contour::exchange(one, other, tolerance);
+    (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 })
 }
 
 /// By exact point factors.

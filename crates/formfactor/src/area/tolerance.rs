@@ -28,7 +28,8 @@ impl From<f64> for Tolerance {
 impl Tolerance {
     pub(super) fn check(&self) -> Result<(), Error> {
         let all = [self.absolute, self.relative, self.row];
-        let is_good = all.iter().all(|t| *t >= 0.0) && self.absolute.max(self.relative) > 0.0 && self.row > 0.0;
+        let is_good =
+            all.iter().all(|t| *t >= 0.0) && self.absolute.max(self.relative) > 0.0 && self.row > 0.0;
         if is_good { Ok(()) } else { Err(Error::BadTolerance) }
     }
 }

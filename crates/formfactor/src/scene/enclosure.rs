@@ -6,7 +6,7 @@ use crate::pipeline::{self, Reach};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
-use std::{cmp::Ordering, sync::OnceLock};
+use std::cmp::Ordering;
 
 /// A set of polygons, each of which is a target and an occluder of the others.
 ///
@@ -33,8 +33,8 @@ pub struct Enclosure {
     /// The largest deviation of a vertex from where it stands.
     deviation: f64,
     pool: Pool,
-    /// What form factors between areas need, found with the first of them.
-    surfaces: OnceLock<Surfaces>,
+    /// What form factors between areas need.
+    surfaces: Surfaces,
 }
 
 impl Enclosure {
@@ -43,14 +43,15 @@ impl Enclosure {
     /// Takes O(n log^2 n) for n vertices.
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
+        let bodies = Bodies::among(&polygons);
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
         Self {
             tree: Tree::over(&polygons),
-            bodies: Bodies::among(&polygons),
+            surfaces: Surfaces::of(&polygons, &bodies),
+            bodies,
             polygons,
             deviation,
             pool: Pool::default(),
-            surfaces: OnceLock::new(),
         }
     }
 
@@ -66,7 +67,7 @@ impl Enclosure {
     }
 
     pub(crate) fn surfaces(&self) -> &Surfaces {
-        self.surfaces.get_or_init(|| Surfaces::of(&self.polygons, &self.bodies))
+        &self.surfaces
     }
 
     /// The form factor from `from` to polygon `id`, with all other polygons as occluders.

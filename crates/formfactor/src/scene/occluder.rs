@@ -59,13 +59,24 @@ impl Occluder {
         facing.extend(self.faces.iter().map(|[on, normal]| normal.dot(point - *on) > 0.0));
     }
 
+    /// Whether all points of a cell see the same faces.
+    pub(crate) fn turns_alike(&self, cell: &[DVec3]) -> bool {
+        self.faces.iter().all(|[on, normal]| {
+            let heights = cell.iter().map(|p| normal.dot(*p - *on));
+            let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+            -low <= SLIGHT * high || high <= -SLIGHT * low
+        })
+    }
+
     /// The silhouette as a point sees it that sees the faces `facing`: edges that run counter-clockwise.
     pub(crate) fn silhouette<'o>(&'o self, facing: &'o [bool]) -> impl Iterator<Item = [DVec3; 2]> + 'o {
         let sees = |side: usize| side != CAP && facing[side];
-        self.ridges.iter().filter_map(move |Ridge { ends: [a, b], sides: [left, right] }| match (sees(*left), sees(*right)) {
-            (true, false) => Some([*a, *b]),
-            (false, true) => Some([*b, *a]),
-            _ => None,
+        self.ridges.iter().filter_map(move |Ridge { ends: [a, b], sides: [left, right] }| {
+            match (sees(*left), sees(*right)) {
+                (true, false) => Some([*a, *b]),
+                (false, true) => Some([*b, *a]),
+                _ => None,
+            }
         })
     }
 
@@ -73,11 +84,15 @@ impl Occluder {
     pub(crate) fn before(&self, [on, normal]: Face) -> Before {
         let height = |p: DVec3| normal.dot(p - on);
         let middle = height(self.middle);
-        let least = SLIGHT * (self.radius + self.middle.distance(on));
+        let least = LEAST * (self.radius + self.middle.distance(on));
         if middle > self.radius {
             return Before::All;
         }
-        let (low, high) = self.corners.iter().map(|p| height(*p)).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
+        let (low, high) = self
+            .corners
+            .iter()
+            .map(|p| height(*p))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
         if high <= least || middle < -self.radius {
             Before::Nothing
         } else if low >= -least {
@@ -98,10 +113,22 @@ impl Occluder {
                 continue;
             }
             let at = *a + (*b - *a) * (from / (from - to));
-            let ends = if from < 0.0 { [at, *b] } else if to < 0.0 { [*a, at] } else { [*a, *b] };
+            let ends = if from < 0.0 {
+                [at, *b]
+            } else if to < 0.0 {
+                [*a, at]
+            } else {
+                [*a, *b]
+            };
             if from <= 0.0 || to <= 0.0 {
                 let leaves = to <= 0.0;
-                let point = if from == 0.0 { *a } else if to == 0.0 { *b } else { at };
+                let point = if from == 0.0 {
+                    *a
+                } else if to == 0.0 {
+                    *b
+                } else {
+                    at
+                };
                 for (side, is_left) in sides.iter().zip([true, false]) {
                     if *side != CAP {
                         cuts[*side][usize::from(leaves != is_left)] = Some(point);
@@ -112,7 +139,8 @@ impl Occluder {
         }
         for (face, cut) in cuts.iter().enumerate().take(if self.is_plate { 1 } else { usize::MAX }) {
             if let [Some(out), Some(back)] = cut {
-                ridges.push(Ridge { ends: [*out, *back], sides: [face, if self.is_plate { 1 } else { CAP }] });
+                ridges
+                    .push(Ridge { ends: [*out, *back], sides: [face, if self.is_plate { 1 } else { CAP }] });
             }
         }
         Self::of(ridges, self.faces.clone(), self.is_plate)
@@ -120,7 +148,10 @@ impl Occluder {
 }
 
 /// What lies behind a plane by no more than this of its distance from the plane's point counts as before it.
-const SLIGHT: f64 = 1e-13;
+const LEAST: f64 = 1e-13;
+
+/// What lies behind a plane by no more than this of another distance counts as on it.
+const SLIGHT: f64 = 1e-9;
 
 /// What of an occluder is before a plane.
 #[derive(Clone, Debug)]

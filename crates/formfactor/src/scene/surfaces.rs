@@ -35,12 +35,12 @@ pub(crate) struct Surface {
 #[derive(Clone, Debug)]
 pub(crate) struct Hider {
     pub(crate) shape: Occluder,
-    pub(crate) of: Owner,
+    pub(crate) of: Origin,
 }
 
 /// What an occluder is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Owner {
+pub(crate) enum Origin {
     /// A closed convex body.
     Body(usize),
     /// Polygons in a plane.
@@ -58,10 +58,18 @@ impl Surfaces {
     /// Takes O(n log n) for n vertices where few planes have all polygons on one side, plus the unions of coplanar polygons.
     pub(crate) fn of(polygons: &[PlanarPolygon], bodies: &Bodies) -> Self {
         let planes = planes(polygons);
-        let surfaces = polygons.iter().zip(&planes).enumerate()
-            .map(|(id, (polygon, plane))| Surface::new(polygon, *plane, bodies.body_of(id))).collect();
-        let mut hiders: Vec<Hider> =
-            (0..bodies.count()).map(|body| Hider { shape: of_body(polygons, &planes, bodies.faces(body)), of: Owner::Body(body) }).collect();
+        let surfaces = polygons
+            .iter()
+            .zip(&planes)
+            .enumerate()
+            .map(|(id, (polygon, plane))| Surface::new(polygon, *plane, bodies.body_of(id)))
+            .collect();
+        let mut hiders: Vec<Hider> = (0..bodies.count())
+            .map(|body| Hider {
+                shape: of_body(polygons, &planes, bodies.faces(body)),
+                of: Origin::Body(body),
+            })
+            .collect();
         let points: Vec<DVec3> = polygons.iter().flat_map(PlanarPolygon::points).copied().collect();
         let mut in_plane: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (id, plane) in planes.iter().enumerate().filter(|(id, _)| bodies.body_of(*id).is_none()) {
@@ -70,7 +78,7 @@ impl Surfaces {
         in_plane.retain(|plane, _| !supports(&polygons[*plane], &points));
         for (plane, ids) in in_plane {
             let plates = plates(polygons, &ids);
-            hiders.extend(plates.into_iter().map(|shape| Hider { shape, of: Owner::Plane(plane) }));
+            hiders.extend(plates.into_iter().map(|shape| Hider { shape, of: Origin::Plane(plane) }));
         }
         Self { surfaces, hiders }
     }
@@ -84,14 +92,25 @@ impl Surface {
         let area = pieces.iter().map(|piece| area(piece)).sum();
         let cells: Vec<Cell> = pieces.iter().flat_map(|piece| fan(piece)).collect();
         let nodes = cells.iter().map(Nodes::of).collect();
-        Self { face: [points[0], polygon.normal()], middle, radius, area, plane, body, edges: edges(polygon), pieces, cells, nodes }
+        Self {
+            face: [points[0], polygon.normal()],
+            middle,
+            radius,
+            area,
+            plane,
+            body,
+            edges: edges(polygon),
+            pieces,
+            cells,
+            nodes,
+        }
     }
 
     /// Whether it is a part of an occluder, or lies in its plane: then the occluder hides nothing of it.
-    pub(crate) fn is_of(&self, owner: Owner) -> bool {
+    pub(crate) fn is_of(&self, owner: Origin) -> bool {
         match owner {
-            Owner::Body(body) => self.body == Some(body),
-            Owner::Plane(plane) => self.plane == plane,
+            Origin::Body(body) => self.body == Some(body),
+            Origin::Plane(plane) => self.plane == plane,
         }
     }
 }

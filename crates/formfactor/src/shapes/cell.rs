@@ -52,11 +52,29 @@ pub(crate) struct Nodes {
 }
 
 impl Nodes {
+    /// Exact up to degree 3 in a parallelogram and in a triangle, which has its own rule across.
     pub(crate) fn of(cell: &Cell) -> Self {
+        let [a, b, c, d] = cell;
         let mut all = Self::default();
-        for (i, (point, weight)) in nodes(cell, &RULE_2).enumerate() {
-            (all.x[i], all.y[i], all.z[i], all.weights[i]) = (point.x, point.y, point.z, weight);
+        let rows = if c == d { TO_A_CORNER } else { RULE_2 };
+        for (i, [v, across]) in rows.into_iter().enumerate() {
+            let (left, right) = (a.lerp(*d, v), b.lerp(*c, v));
+            for (j, [u, along]) in RULE_2.into_iter().enumerate() {
+                let point = left.lerp(right, u);
+                let size = if c == d {
+                    area(cell)
+                } else {
+                    (right - left).cross((*d - *a).lerp(*c - *b, u)).length()
+                };
+                let k = 2 * i + j;
+                (all.x[k], all.y[k], all.z[k], all.weights[k]) =
+                    (point.x, point.y, point.z, along * across * size);
+            }
         }
         all
     }
 }
+
+/// Two nodes from a side of a triangle to the corner across, for the weight 2 - 2 v [Gauss and Jacobi].
+const TO_A_CORNER: [[f64; 2]; 2] =
+    [[0.155_051_025_721_682_2, 0.636_082_763_487_954_2], [0.644_948_974_278_317_8, 0.363_917_236_512_045_8]];

@@ -1,7 +1,7 @@
 //! Polygons, the differential area that sees them, and boxes around them.
+pub(crate) mod cell;
 pub(crate) mod differential_area;
 pub(crate) mod extent;
 pub(crate) mod loops;
-pub(crate) mod polygon;
-pub(crate) mod cell;
 pub(crate) mod pieces;
+pub(crate) mod polygon;

@@ -1,7 +1,7 @@
 //! Rows of form factors.
 use crate::failure::Failure;
 use radiosity::Scene;
-use radiosity::formfactor::{DifferentialArea, Enclosure};
+use radiosity::formfactor::{DifferentialArea, Enclosure, Limits};
 use rayon::prelude::*;
 
 /// A form factor to a patch, by its index.

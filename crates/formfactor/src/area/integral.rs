@@ -1,0 +1,42 @@
+//! Integrals over two surfaces, and what they may err by.
+use crate::scene::surfaces::Surface;
+use std::f64::consts::PI;
+
+/// An integral, an estimate of its error, and how many values of the integrand it took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Integral {
+    pub(super) value: f64,
+    pub(super) error: f64,
+    pub(super) evaluations: u64,
+}
+
+/// What a pair is allowed to err by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowed {
+    /// Of the integral over both.
+    pub(super) absolute: f64,
+    /// Of its value.
+    pub(super) relative: f64,
+    /// Of its value were nothing in between.
+    pub(super) of_whole: f64,
+    pub(super) evaluations: u64,
+}
+
+impl Allowed {
+    /// A part of it.
+    pub(super) fn part(&self, share: f64) -> Self {
+        let [absolute, relative, of_whole] = [self.absolute, self.relative, self.of_whole].map(|x| x * share);
+        Self { absolute, relative, of_whole, ..*self }
+    }
+
+    pub(super) fn error(&self, value: f64, whole: f64) -> f64 {
+        self.absolute.max(self.relative * value).min(self.of_whole * whole)
+    }
+}
+
+/// Surfaces that see each other at a flat angle count as if they saw each other at a steeper one in a row's tolerance: an eighth of
+/// the largest integral that there may be.
+pub(super) fn least_whole(one: &Surface, other: &Surface) -> f64 {
+    let most = one.area * other.area / (PI * one.middle.distance_squared(other.middle));
+    (most / 8.0).min(one.area).min(other.area)
+}
