@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use formfactor::glam::DMat3;
 use formfactor::{
-    AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, Limits, PlanarPolygon, unoccluded,
+    AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, Limits, PlanarPolygon, Tolerance, unoccluded,
 };
 
 fn rectangle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> PlanarPolygon {
@@ -281,9 +281,10 @@ fn many_points_see_what_each_sees() {
 #[test]
 fn a_matrix_is_its_pairs_bit_for_bit() {
     let room = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));
-    let rows = room.area_matrix(3e-4, &Limits::default()).unwrap().unwrap();
+    let tolerance = Tolerance { absolute: 1e-4, relative: 0.0, row: f64::INFINITY };
+    let rows = room.area_matrix(tolerance, &Limits::default()).unwrap().unwrap();
     for (from, row) in rows.iter().enumerate() {
-        assert_eq!(*row, room.area_row(from, 3e-4, &Limits::default()).unwrap().unwrap());
+        assert_eq!(*row, room.area_row(from, tolerance, &Limits::default()).unwrap().unwrap());
         for (to, factor) in row {
             assert_eq!(*factor, room.area_form_factor(from, *to, 1e-4).unwrap());
         }

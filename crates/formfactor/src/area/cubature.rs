@@ -85,8 +85,15 @@ fn error(focus: Focus, order: usize, ratio: f64) -> f64 {
     if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6][order]) }
 }
 
+/// What is left after two differences between rules: where the integrand is smooth they fall by a factor, and ten times what the next
+/// one would be is taken. One small difference alone may be chance.
+fn fallen(first: f64, second: f64, is_smooth: bool) -> f64 {
+    let second = second.max(1e-4 * first);
+    if is_smooth && second < 0.1 * first { (10.0 * second / first).max(1e-3) * second } else { second }
+}
+
 /// A kink at a share p of an area from its side changes an integral by less than this times p^2.
-const KINK: f64 = 40.0;
+const KINK: f64 = 400.0;
 
 /// The share of the tolerance that any cell may take at first.
 const START: f64 = 0.1;
@@ -242,11 +249,14 @@ impl<'p> Cubature<'p> {
         let allowed = self.tolerance * (share / 2.0).max(START);
         let flat = if cell[2] == cell[3] { 1.0 / ratio.min(1.0) } else { 1.0 };
         let a_priori = |order: usize| flat * share * self.scale * error(focus, order, ratio);
-        let order = (least..RULES.len()).find(|order| a_priori(*order) <= allowed).unwrap_or(least.max(2));
+        let order = (least..RULES.len()).find(|order| a_priori(*order) <= allowed).unwrap_or(RULES.len() - 1);
         let mut error = a_priori(order);
         let (mut value, seen) = self.product(&cell, order, focus, is_smooth);
-        if focus == Focus::Part && (seen.is_joint || !is_smooth || ratio > 0.5) {
-            let (finer, _) = self.product(&cell, (order + 1).min(RULES.len() - 1), focus, is_smooth);
+        if order + 1 == RULES.len() {
+            let [coarse, middle] = [2, 3].map(|order| self.product(&cell, order, focus, is_smooth).0);
+            error = fallen((middle - coarse).abs(), (value - middle).abs(), is_smooth);
+        } else if seen.is_joint || !is_smooth || ratio > 0.5 {
+            let (finer, _) = self.product(&cell, order + 1, focus, is_smooth);
             error = error.max((finer - value).abs());
             value = finer;
         }

@@ -13,7 +13,8 @@ const MOST: usize = 1 << 14;
 /// At most so many pieces of one patch.
 const MOST_CUTS: usize = 64;
 
-/// Chords that differ by less than this share of the cell are one.
+/// Chords that differ by less than this share of the cell are one, and an edge is this much longer: what stands on the source's plane
+/// meets edges at their ends.
 const CLOSE: f64 = 1e-9;
 
 /// A plane through a vertex and an edge, or one of a face.
@@ -43,7 +44,11 @@ impl Event {
             low = if *height < low { *height } else { low };
             high = if *height > high { *height } else { high };
         }
-        if low >= 0.0 || high <= 0.0 {
+        let is_flat = || {
+            high - low <= CLOSE * self.normal.length() * polygon.at[0].distance(polygon.at[polygon.count / 2])
+        };
+        // A plane that nearly is the polygon's own makes no line.
+        if low >= 0.0 || high <= 0.0 || is_flat() {
             return None;
         }
         let mut ends = [DVec3::ZERO; 2];
@@ -73,7 +78,7 @@ impl Event {
         });
         let is_out = |[part, whole]: [f64; 2]| {
             let (part, whole) = if whole < 0.0 { (-part, -whole) } else { (part, whole) };
-            (part < 0.0, part > whole)
+            (part < -CLOSE * whole, part > (1.0 + CLOSE) * whole)
         };
         let ((before, after), (before_too, after_too)) = (is_out(first), is_out(last));
         first[1].signum() != last[1].signum() || !((before && before_too) || (after && after_too))
@@ -161,11 +166,9 @@ pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -
             piece
                 .iter()
                 .for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
-            if !occluder.is_plate {
-                let faces =
-                    occluder.faces.iter().map(|[on, normal]| Event { on: *on, normal: *normal, line: None });
-                faces.filter(|face| face.crosses(piece)).for_each(&mut add);
-            }
+            let faces =
+                occluder.faces.iter().map(|[on, normal]| Event { on: *on, normal: *normal, line: None });
+            faces.filter(|face| face.crosses(piece)).for_each(&mut add);
         }
     }
     let vertices: usize = seen.iter().map(|silhouette| silhouette.vertices.len()).sum();
