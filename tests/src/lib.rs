@@ -11,6 +11,7 @@ pub mod corpus;
 pub mod enclosures;
 pub mod exact;
 pub mod generators;
+pub mod obstructed;
 pub mod oracle;
 pub mod random;
 pub mod retelling;
