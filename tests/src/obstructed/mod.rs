@@ -34,6 +34,12 @@ pub enum Setting {
 }
 
 impl Pair {
+    /// Plates as they are.
+    pub fn upright(name: String, plates: Plates) -> Pair {
+        let pose = (DMat3::IDENTITY, DVec3::ZERO);
+        Pair { name, family: "", setting: Setting::Plates(plates), pose }
+    }
+
     /// The form factor from the first polygon to the second.
     pub fn form_factor(&self) -> f64 {
         match &self.setting {
