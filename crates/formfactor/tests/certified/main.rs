@@ -72,7 +72,7 @@ fn last_digit(text: &str) -> f64 {
 }
 
 #[test]
-fn what_is_printed_is_as_right_as_the_page_says() {
+fn what_is_said_elsewhere_is_as_right_as_the_page_says() {
     for key in parts().iter().flat_map(|(_, keys)| keys) {
         let Some(published) = &key.published else { continue };
         let (printed, exact): (f64, f64) = (published.text.parse().unwrap(), key.exact * key.unit.0);

@@ -50,7 +50,9 @@ fn line(key: &Key, found: &Found) -> String {
         return format!("| {} | 0 | 0 | {} |\n", key.name, rest(key).join(" | "));
     }
     let error = round_up((found.error * factor).max(f64::MIN_POSITIVE));
-    let digits = usize::try_from(-error.log10().floor() as i64).unwrap_or(0).min(17);
+    // To the place of the error's only digit.
+    let digits = (0..17).find(|d| 10.0_f64.powi(-d) <= error).unwrap_or(17);
+    let digits = usize::try_from(digits).unwrap_or(0);
     let value = format!("{:.digits$}", found.value * factor);
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     format!("| {} | {value}{unit} | {error:e} | {} |\n", key.name, rest(key).join(" | "))
