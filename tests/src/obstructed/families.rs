@@ -27,7 +27,8 @@ pub fn pair(seed: u64) -> Pair {
     let (family, make) = MAKERS[usize::try_from(seed % families).expect("below a few")];
     let mut random = Random::new(seed);
     let setting = make(&mut random);
-    let pose = if (seed / families).is_multiple_of(2) { (DMat3::IDENTITY, DVec3::ZERO) } else { pose(&mut random) };
+    let pose =
+        if (seed / families).is_multiple_of(2) { (DMat3::IDENTITY, DVec3::ZERO) } else { pose(&mut random) };
     Pair { name: format!("{family}, seed {seed}"), family, setting, pose }
 }
 
