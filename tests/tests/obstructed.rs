@@ -98,10 +98,10 @@ fn named_cases_are_within_their_tolerances() {
     assert!(NAMED_CASES_HOLD || !failures.is_empty(), "they hold: say so in NAMED_CASES_HOLD");
 }
 
-/// The references of the named cases are by product quadrature, from outside of this project.
+/// The references of the named cases are by product quadrature; those of fuzzed ones are the closed form itself.
 #[test]
 fn the_closed_form_is_that_of_product_quadrature() {
-    for (pair, _, exact) in named() {
+    for (pair, _, exact) in named().into_iter().filter(|case| !case.0.name.starts_with("fuzzed")) {
         let error = (pair.form_factor() - exact).abs();
         // The far one's terms are 4e3 times as large as those of the others.
         assert!(
