@@ -4,13 +4,14 @@
 //! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
 //! cases of `tests/corpus`, [`company`] sends them down every path. [`against`] sets a result of `polycsg` beside the oracle's, [`shrink`] makes a failing case small, [`survey`] counts how a kind of
 //! input fares, [`trees`] makes expressions, [`retelling`] tells them in other words, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
-//! factors, which uses nothing of `formfactor`.
+//! factors and [`obstructed`] that for factors from area to area: they use nothing of `formfactor`.
 pub mod against;
 pub mod company;
 pub mod corpus;
 pub mod enclosures;
 pub mod exact;
 pub mod generators;
+pub mod obstructed;
 pub mod oracle;
 pub mod random;
 pub mod retelling;

@@ -28,6 +28,7 @@ fn every_path_on_a_page_exists() {
         "README.md",
         "ARCHITECTURE.md",
         "CONTRIBUTING.md",
+        "docs/certified.md",
         "docs/glossary.md",
         "docs/releasing.md",
         "crates/exactfloat/README.md",
