@@ -4,10 +4,10 @@ use super::integral::{Allowed, Integral, least_whole};
 use super::point::{Eye, Focus, Near, Seen};
 use crate::numeric::gauss::{RULE_1, RULE_2, RULE_3, RULE_4, RULE_6};
 use crate::scene::occluder::Face;
-use crate::scene::surfaces::{Origin, Surface, area as area_of};
+use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves, nodes};
 use glam::DVec3;
-use std::{cmp::Ordering, collections::BinaryHeap};
+use std::{cmp::Ordering, collections::BinaryHeap, f64::consts::PI};
 
 /// The form factor from the points of a source to a target.
 #[derive(Debug)]
@@ -18,8 +18,10 @@ pub(super) struct Cubature<'p> {
     target: Vec<Vec<DVec3>>,
     to: &'p Surface,
     occluders: &'p [Near<'p>],
-    /// Whether occluders of more than one owner may leave gaps between them.
-    is_joint: bool,
+    /// Whether three edges in three directions may open a gap where no vertex is.
+    is_skew: bool,
+    /// No point of the source has a larger factor to the target.
+    most: f64,
     eye: &'p mut Eye,
     size: f64,
     /// The integral with nothing in between, if it is known, and roughly.
@@ -44,8 +46,9 @@ struct Open {
     cell: Cell,
     value: f64,
     error: f64,
-    /// Whether all events were cut, and its rule's place in the list.
-    is_smooth: bool,
+    /// What cuts that were not made may change, if events were cut.
+    left_out: Option<f64>,
+    /// Its rule's place in the list.
     order: usize,
     number: usize,
 }
@@ -92,8 +95,8 @@ fn fallen(first: f64, second: f64, is_smooth: bool) -> f64 {
     if is_smooth && second < 0.1 * first { (10.0 * second / first).max(1e-3) * second } else { second }
 }
 
-/// A kink at a share p of an area from its side changes an integral by less than this times p^2.
-const KINK: f64 = 400.0;
+/// The share of the tolerance that any cut which is not made may take.
+const UNCUT: f64 = 1e-3;
 
 /// The share of the tolerance that any cell may take at first.
 const START: f64 = 0.1;
@@ -105,7 +108,6 @@ impl<'p> Cubature<'p> {
     pub(super) fn new(
         from: &Surface,
         to: &'p Surface,
-        owners: &[Origin],
         occluders: &'p [Near<'p>],
         eye: &'p mut Eye,
     ) -> Self {
@@ -117,7 +119,8 @@ impl<'p> Cubature<'p> {
             target: before(&to.pieces, from.face),
             to,
             occluders,
-            is_joint: owners.windows(2).any(|pair| pair[0] != pair[1]),
+            is_skew: are_skew(to, occluders),
+            most: most(from, to),
             eye,
             size,
             unhidden: None,
@@ -186,35 +189,34 @@ impl<'p> Cubature<'p> {
 
     /// Cuts a piece of the source at events, and integrates over what comes of it.
     fn begin(&mut self, piece: &[DVec3]) {
-        let all = self.least_cut();
+        let least = self.tolerance * UNCUT;
         let mut coarse: Vec<(Cell, u32)> = Vec::new();
         let patch = Patch::of(piece);
-        if patch.corners().len() < piece.len() || !self.cut(patch, all) {
+        if patch.corners().len() < piece.len() || !self.cut(patch, least) {
             coarse.extend(fan(piece).into_iter().map(|cell| (cell, BLIND_HALVINGS)));
         }
         while let Some((cell, halvings)) = coarse.pop() {
-            if self.cut(Patch::of(&cell), all) {
+            if self.cut(Patch::of(&cell), least) {
                 continue;
             }
             if halvings > 0 {
                 coarse.extend(halves(cell).map(|half| (half, halvings - 1)));
             } else {
-                self.add(cell, false, 2);
+                self.add(cell, None, 2);
             }
         }
     }
 
-    /// The least area that is worth a cut: where a kink is this near to a side it changes the integral by less than the tolerance.
-    fn least_cut(&self) -> f64 {
-        (self.tolerance / (KINK * self.whole)).sqrt().clamp(1e-9, 0.1) * self.size
-    }
-
-    /// Integrates over a patch cut at all events; whether they are few enough.
+    /// Integrates over a patch cut at all events, but for those that change less than `least` there; whether they are few enough.
     fn cut(&mut self, patch: Patch, least: f64) -> bool {
         let (events, are_all) = events(&patch, &self.target, self.occluders);
-        let Some(parts) = cut(patch, &events, least).filter(|_| are_all) else { return false };
-        for part in parts {
-            fan(part.corners()).into_iter().for_each(|cell| self.add(cell, true, 0));
+        let Some(parts) = cut(patch, &events, self.most, least).filter(|_| are_all) else { return false };
+        for (part, left_out) in parts {
+            let size = part.area();
+            for cell in fan(part.corners()) {
+                let left_out = if left_out > 0.0 { left_out * area(&cell) / size } else { 0.0 };
+                self.add(cell, Some(left_out), 0);
+            }
         }
         true
     }
@@ -235,14 +237,16 @@ impl<'p> Cubature<'p> {
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
-    fn add(&mut self, cell: Cell, is_smooth: bool, least: usize) {
+    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize) {
+        let is_smooth = left_out.is_some();
         let share = area(&cell) / self.size;
         if share == 0.0 {
             return;
         }
         let focus = if is_smooth { self.eye.focus(&cell, &self.target, self.occluders) } else { Focus::Part };
         if focus == self.adds_nothing() {
-            self.push(Open { cell, value: 0.0, error: 0.0, is_smooth, order: RULES.len(), number: 0 });
+            let error = left_out.unwrap_or(0.0);
+            self.push(Open { cell, value: 0.0, error, left_out, order: RULES.len(), number: 0 });
             return;
         }
         let ratio = self.ratio(&cell);
@@ -260,10 +264,12 @@ impl<'p> Cubature<'p> {
             error = error.max((finer - value).abs());
             value = finer;
         }
-        if self.is_joint && focus == Focus::Part && seen.whole - seen.hidden <= 1e-13 * seen.whole {
+        let is_dark = focus == Focus::Part && seen.whole - seen.hidden <= 1e-13 * seen.whole;
+        if is_dark && (self.is_skew || !is_smooth) {
             error = error.max(self.unseen(&cell));
         }
-        self.push(Open { cell, value, error, is_smooth, order, number: 0 });
+        error += left_out.unwrap_or(0.0);
+        self.push(Open { cell, value, error, left_out, order, number: 0 });
     }
 
     /// What a cell must see to add nothing.
@@ -310,17 +316,24 @@ impl<'p> Cubature<'p> {
         (value, all)
     }
 
-    /// A finer rule where the integrand is smooth and there is one, else two halves.
+    /// Makes cuts that were left out, or takes a finer rule where the integrand is smooth and there is one, else two halves.
     fn refine(&mut self, worst: &Open) {
-        if worst.is_smooth && worst.order + 1 < RULES.len() {
-            self.add(worst.cell, true, worst.order + 1);
+        let Some(left_out) = worst.left_out else {
+            for half in halves(worst.cell) {
+                if !self.cut(Patch::of(&half), self.tolerance * UNCUT) {
+                    self.add(half, None, 2);
+                }
+            }
+            return;
+        };
+        if 2.0 * left_out > worst.error && self.cut(Patch::of(&worst.cell), left_out * UNCUT) {
             return;
         }
-        for half in halves(worst.cell) {
-            if worst.is_smooth || !self.cut(Patch::of(&half), 1e-9 * self.size) {
-                self.add(half, worst.is_smooth, 2);
-            }
+        if worst.order + 1 < RULES.len() {
+            self.add(worst.cell, Some(left_out), worst.order + 1);
+            return;
         }
+        halves(worst.cell).into_iter().for_each(|half| self.add(half, Some(left_out), 2));
     }
 
     /// The cells in the order in which they came about.
@@ -330,6 +343,33 @@ impl<'p> Cubature<'p> {
         let error: f64 = self.open.iter().map(|open| open.error).sum();
         (parts.iter().map(|part| part.1).sum(), error + self.unhidden.map_or(0.0, |unhidden| unhidden.error))
     }
+}
+
+/// Whether edges run in three directions or more, with three convex shapes at least to have them.
+///
+/// What is seen begins as a point where a vertex meets an edge, or where edges of three shapes meet, or all along edges in one plane,
+/// where vertices meet edges too.
+fn are_skew(to: &Surface, occluders: &[Near]) -> bool {
+    let mut known: Vec<DVec3> = Vec::new();
+    let of_occluders = occluders.iter().flat_map(|o| o.ridges.iter().map(|ridge| ridge.ends));
+    for [a, b] in of_occluders.chain(to.edges.iter().copied()) {
+        let way = (b - a).normalize_or_zero();
+        if known.iter().all(|other| other.cross(way).length_squared() > PARALLEL * PARALLEL) {
+            known.push(way);
+        }
+    }
+    occluders.len() > 1 && known.len() > 2
+}
+
+/// Edges count as parallel up to this sine of their angle.
+const PARALLEL: f64 = 1e-9;
+
+/// What no point factor from one surface to the other exceeds, by its size and the distance.
+fn most(one: &Surface, other: &Surface) -> f64 {
+    let away = one.middle.distance(other.middle) - one.radius - other.radius;
+    let above = |from: &Surface, to: &Surface| to.face[1].dot(from.middle - to.face[0]) - from.radius;
+    let away = away.max(above(one, other));
+    if away > 0.0 { (other.area / (PI * away * away)).min(1.0) } else { 1.0 }
 }
 
 /// The parts of convex polygons before a plane.

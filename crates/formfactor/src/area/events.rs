@@ -4,7 +4,8 @@
 //! or a vertex of one occluder behind or before an edge of another; or an occluder's face that the target reaches across is
 //! seen edge-on. Kinks that three edges make together are curved, and weaker: they are left to the cubature.
 use super::point::Near;
-use crate::scene::{occluder::Occluder, surfaces::area};
+use crate::scene::occluder::{CAP, Face, Occluder, Ridge};
+use crate::scene::surfaces::area;
 use glam::DVec3;
 
 /// More candidates than this are not looked at: halving cells does better.
@@ -24,11 +25,24 @@ pub(super) struct Event {
     normal: DVec3,
     /// The vertex and the edge.
     line: Option<(DVec3, [DVec3; 2])>,
+    /// How far what moves there is away from the patch at least.
+    away: f64,
+}
+
+/// How far a point is from a segment.
+fn distance(point: DVec3, [a, b]: [DVec3; 2]) -> f64 {
+    let way = b - a;
+    let share = ((point - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+    point.distance(a + way * share)
 }
 
 impl Event {
     fn through(vertex: DVec3, [a, b]: [DVec3; 2]) -> Self {
-        Self { on: vertex, normal: (a - vertex).cross(b - vertex), line: Some((vertex, [a, b])) }
+        Self { on: vertex, normal: (a - vertex).cross(b - vertex), line: Some((vertex, [a, b])), away: 0.0 }
+    }
+
+    fn of_face([on, normal]: Face) -> Self {
+        Self { on, normal, line: None, away: 0.0 }
     }
 
     fn height(&self, point: DVec3) -> f64 {
@@ -145,16 +159,21 @@ impl Patch {
 pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -> (Vec<Event>, bool) {
     let cell = patch.corners();
     let seen: Vec<Silhouette> =
-        occluders.iter().map(|occluder| Silhouette::from_any(occluder, cell)).collect();
+        occluders.iter().map(|occluder| Silhouette::from_some(occluder, cell)).collect();
     let mut found: Vec<(Event, [DVec3; 2])> = Vec::new();
     let near = CLOSE * cell[0].distance(cell[cell.len() / 2]);
-    let mut add = |event: Event| {
+    let (middle, radius) = ball_of(cell);
+    let mut add = |mut event: Event, nearest: f64| {
         let Some(chord) = event.chord(patch) else { return };
         if event.is_met(chord) {
+            let to_line = |(vertex, edge): (DVec3, _)| middle.distance(vertex).min(distance(middle, edge));
+            event.away = (event.line.map_or(nearest, to_line) - radius).max(0.0);
             let alike = |[a, b]: [DVec3; 2]| a.abs_diff_eq(chord[0], near) && b.abs_diff_eq(chord[1], near);
             match found.iter_mut().find(|(_, [a, b])| alike([*a, *b]) || alike([*b, *a])) {
                 // Each may meet its edge elsewhere on the common line.
-                Some((known, _)) => known.line = None,
+                Some((known, _)) => {
+                    (known.line, known.away) = (None, known.away.min(event.away));
+                }
                 None => found.push((event, chord)),
             }
         }
@@ -162,13 +181,14 @@ pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -
     for (occluder, silhouette) in occluders.iter().zip(&seen) {
         for piece in pieces {
             let edges = piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]);
-            edges.for_each(|edge| silhouette.vertices.iter().for_each(|v| add(Event::through(*v, edge))));
+            edges
+                .for_each(|edge| silhouette.vertices.iter().for_each(|v| add(Event::through(*v, edge), 0.0)));
             piece
                 .iter()
-                .for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
-            let faces =
-                occluder.faces.iter().map(|[on, normal]| Event { on: *on, normal: *normal, line: None });
-            faces.filter(|face| face.crosses(piece)).for_each(&mut add);
+                .for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge), 0.0)));
+            let faces = occluder.faces.iter().map(|face| Event::of_face(*face));
+            let nearest = middle.distance(occluder.middle) - occluder.radius;
+            faces.filter(|face| face.crosses(piece)).for_each(|face| add(face, nearest));
         }
     }
     let vertices: usize = seen.iter().map(|silhouette| silhouette.vertices.len()).sum();
@@ -180,7 +200,9 @@ pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -
                     continue;
                 }
                 for (corners, edges) in [(&one.vertices, &other.edges), (&other.vertices, &one.edges)] {
-                    corners.iter().for_each(|v| edges.iter().for_each(|edge| add(Event::through(*v, *edge))));
+                    corners
+                        .iter()
+                        .for_each(|v| edges.iter().for_each(|edge| add(Event::through(*v, *edge), 0.0)));
                 }
             }
         }
@@ -188,34 +210,42 @@ pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -
     (found.into_iter().map(|(event, _)| event).collect(), are_all)
 }
 
+/// A ball around the corners of a cell.
+fn ball_of(cell: &[DVec3]) -> (DVec3, f64) {
+    let middle = cell.iter().sum::<DVec3>() / cell.len() as f64;
+    (middle, cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt())
+}
+
 /// Whether some point of a cell may see one occluder before another one, by the balls around them.
 fn may_overlap(cell: &[DVec3], one: &Occluder, other: &Occluder) -> bool {
-    let middle = cell.iter().sum::<DVec3>() / cell.len() as f64;
-    let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
+    let (middle, radius) = ball_of(cell);
     let [to_one, to_other] = [one, other].map(|occluder| occluder.middle - middle);
     let sine = |occluder: &Occluder, way: DVec3| (occluder.radius + radius) / way.length();
     let [wide, wide_too] = [sine(one, to_one), sine(other, to_other)];
     wide >= 1.0 || wide_too >= 1.0 || to_one.angle_between(to_other) <= wide.asin() + wide_too.asin()
 }
 
-/// The edges of an occluder that are part of its silhouette from some corner of a cell, and their ends.
+/// The edges of an occluder that may be part of its silhouette from some point of a cell, and their ends.
 struct Silhouette {
     edges: Vec<[DVec3; 2]>,
     vertices: Vec<DVec3>,
 }
 
 impl Silhouette {
-    fn from_any(occluder: &Occluder, cell: &[DVec3]) -> Self {
-        let mut facing = Vec::new();
-        let (mut edges, mut vertices): (Vec<[DVec3; 2]>, Vec<DVec3>) = (Vec::new(), Vec::new());
-        for corner in cell {
-            occluder.facing(*corner, &mut facing);
-            for [a, b] in occluder.silhouette(&facing) {
-                if !edges.iter().any(|edge| *edge == [a, b] || *edge == [b, a]) {
-                    edges.push([a, b]);
-                }
-            }
-        }
+    /// Those with a face that some of the cell may see and one that some may not.
+    fn from_some(occluder: &Occluder, cell: &[DVec3]) -> Self {
+        let faces = occluder.faces.iter().map(|[on, normal]| {
+            let heights = cell.iter().map(|p| normal.dot(*p - *on));
+            heights.fold([false; 2], |[seen, unseen], h| [seen || h > 0.0, unseen || h <= 0.0])
+        });
+        let faces: Vec<[bool; 2]> = faces.collect();
+        let of = |side: usize| if side == CAP { [false, true] } else { faces[side] };
+        let may_turn = |ridge: &&Ridge| {
+            let [[left, not_left], [right, not_right]] = ridge.sides.map(of);
+            (left && not_right) || (right && not_left)
+        };
+        let edges: Vec<[DVec3; 2]> = occluder.ridges.iter().filter(may_turn).map(|ridge| ridge.ends).collect();
+        let mut vertices: Vec<DVec3> = Vec::new();
         for vertex in edges.iter().flatten() {
             if !vertices.contains(vertex) {
                 vertices.push(*vertex);
@@ -225,25 +255,33 @@ impl Silhouette {
     }
 }
 
-/// A patch cut along events where they pass through it and both sides are at least of an area `least`; `None` when there are too
-/// many pieces.
-pub(super) fn cut(patch: Patch, events: &[Event], least: f64) -> Option<Vec<Patch>> {
-    let mut pieces = vec![patch];
+/// A patch cut along events, and for each part what the cuts that were not made may change its integral by, at most `least` each;
+/// `None` when there are too many parts.
+///
+/// Where the integrand has a kink its sides go on in two ways. At a distance w from it they differ by no more than w / a, a how
+/// far what moves there is away: a straight edge's apparent length is pi at most, each of its points moves by w / a, and
+/// factors weigh directions by cos / pi. They never differ by more than the largest factor, `most`.
+pub(super) fn cut(patch: Patch, events: &[Event], most: f64, least: f64) -> Option<Vec<(Patch, f64)>> {
+    let mut parts = vec![(patch, 0.0)];
     for event in events {
-        for i in 0..pieces.len() {
-            let piece = &pieces[i];
-            if piece.count == MOST_CORNERS || !event.chord(piece).is_some_and(|chord| event.is_met(chord)) {
-                continue;
-            }
-            let [left, right] = piece.split(event);
-            if left.area() > least && right.area() > least {
-                pieces[i] = left;
-                pieces.push(right);
+        for i in 0..parts.len() {
+            let (part, left_out) = &parts[i];
+            let Some(chord) = event.chord(part).filter(|chord| event.is_met(*chord)) else { continue };
+            let [left, right] = part.split(event);
+            let small = left.area().min(right.area());
+            let width = 2.0 * small / chord[0].distance(chord[1]);
+            let change = small * if width < most * event.away { width / event.away } else { most };
+            if part.count == MOST_CORNERS || change <= least {
+                parts[i].1 = left_out + change;
+            } else {
+                let left_out = *left_out;
+                parts[i] = (left, left_out);
+                parts.push((right, left_out));
             }
         }
-        if pieces.len() > MOST_CUTS {
+        if parts.len() > MOST_CUTS {
             return None;
         }
     }
-    Some(pieces)
+    Some(parts)
 }

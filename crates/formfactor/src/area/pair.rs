@@ -42,7 +42,7 @@ impl<'e> Outlook<'e> {
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
         let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
-        let (owners, occluders) = self.between(other);
+        let occluders = self.between(other);
         if occluders.is_empty() {
             if let Some(found) = unobstructed(one, other, allowed) {
                 return Some(found);
@@ -54,15 +54,15 @@ impl<'e> Outlook<'e> {
         if occluders.iter().any(|occluder| eye.is_covered(&one.pieces, &other.pieces, occluder)) {
             return Some(Integral::default());
         }
-        Cubature::new(one, other, &owners, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
+        Cubature::new(one, other, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
     }
 
     /// What can stand between this polygon and another one.
-    fn between(&self, other: &Surface) -> (Vec<Origin>, Vec<Near<'_>>) {
+    fn between(&self, other: &Surface) -> Vec<Near<'_>> {
         let one = &self.surfaces.surfaces[self.id];
         let mut hull: Vec<DVec3> = Vec::new();
-        let (mut owners, mut found) = (Vec::new(), Vec::new());
-        for (owner, occluder) in self.near.iter().filter(|(owner, _)| !other.is_of(*owner)) {
+        let mut found = Vec::new();
+        for (_, occluder) in self.near.iter().filter(|(owner, _)| !other.is_of(*owner)) {
             let axis = other.middle - one.middle;
             let share = ((occluder.middle - one.middle).dot(axis) / axis.length_squared()).clamp(0.0, 1.0);
             let away = occluder.middle - (one.middle + axis * share);
@@ -79,11 +79,10 @@ impl<'e> Outlook<'e> {
             match occluder.before(other.face) {
                 Before::All => found.push(Cow::Borrowed(occluder.as_ref())),
                 Before::Part(part) => found.push(Cow::Owned(part)),
-                Before::Nothing => continue,
+                Before::Nothing => (),
             }
-            owners.push(*owner);
         }
-        (owners, found)
+        found
     }
 }
 
