@@ -88,12 +88,18 @@ fn error(focus: Focus, order: usize, ratio: f64) -> f64 {
     if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6][order]) }
 }
 
-/// What is left after two differences between rules: where the integrand is smooth they fall by a factor, and ten times what the next
-/// one would be is taken. One small difference alone may be chance.
-fn fallen(first: f64, second: f64, is_smooth: bool) -> f64 {
-    let second = second.max(1e-4 * first);
-    if is_smooth && second < 0.1 * first { (10.0 * second / first).max(1e-3) * second } else { second }
+/// What a rule of six nodes a side leaves, by the differences from four to three and from six to four.
+///
+/// Where the integrand is analytic at all points of an ellipse around the foci -1 and 1 with semiaxes that add to r, n nodes err by less than
+/// C r^(-2n) [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3]. So the differences are of the sizes C r^-6
+/// and C r^-8, and each says what C is; the larger counts, as one alone may be small by chance, eight times.
+fn left(coarse: f64, fine: f64, apart: f64) -> f64 {
+    let step = (apart + apart.hypot(1.0)).powi(-2);
+    SURE * (coarse * step.powi(3)).max(fine * step.powi(2))
 }
+
+/// By so much what differences say is raised.
+const SURE: f64 = 8.0;
 
 /// The share of the tolerance that any cut which is not made may take.
 const UNCUT: f64 = 1e-3;
@@ -221,19 +227,19 @@ impl<'p> Cubature<'p> {
         true
     }
 
-    /// How far it is at least to what a cell looks at, by the cell's radius.
-    fn ratio(&self, cell: &Cell) -> f64 {
+    /// How far a cell is at least from what it looks at, by its radius.
+    fn apart(&self, cell: &Cell) -> f64 {
         let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
         let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
-        let away = |at: DVec3, size: f64| middle.distance(at) - size;
-        let above = |[on, normal]: &Face| normal.dot(middle - *on);
+        let away = |at: DVec3, size: f64| middle.distance(at) - size - radius;
+        let above = |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
         let to_target = away(self.to.middle, self.to.radius).max(above(&self.to.face));
         let to_occluder = |o: &Near| {
             let plane = o.faces.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
             away(o.middle, o.radius).max(plane)
         };
         let nearest = self.occluders.iter().map(to_occluder).fold(to_target, f64::min);
-        radius / nearest.max(radius / 4.0)
+        nearest.max(0.0) / radius
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
@@ -249,7 +255,8 @@ impl<'p> Cubature<'p> {
             self.push(Open { cell, value: 0.0, error, left_out, order: RULES.len(), number: 0 });
             return;
         }
-        let ratio = self.ratio(&cell);
+        let apart = self.apart(&cell);
+        let ratio = 1.0 / apart.max(0.25);
         let allowed = self.tolerance * (share / 2.0).max(START);
         let flat = if cell[2] == cell[3] { 1.0 / ratio.min(1.0) } else { 1.0 };
         let a_priori = |order: usize| flat * share * self.scale * error(focus, order, ratio);
@@ -258,7 +265,8 @@ impl<'p> Cubature<'p> {
         let (mut value, seen) = self.product(&cell, order, focus, is_smooth);
         if order + 1 == RULES.len() {
             let [coarse, middle] = [2, 3].map(|order| self.product(&cell, order, focus, is_smooth).0);
-            error = fallen((middle - coarse).abs(), (value - middle).abs(), is_smooth);
+            let apart = if is_smooth { apart } else { 0.0 };
+            error = left((middle - coarse).abs(), (value - middle).abs(), apart);
         } else if seen.is_joint || !is_smooth || ratio > 0.5 {
             let (finer, _) = self.product(&cell, order + 1, focus, is_smooth);
             error = error.max((finer - value).abs());
