@@ -55,51 +55,67 @@ fn parallel([a, b]: Segment, [c, d]: Segment, size: f64) -> [f64; 2] {
     let height = (c - a - direction * from).length();
     let (low, high) = (from.min(to), from.max(to));
     let terms = [(length - low, 1.0), (length - high, -1.0), (-low, -1.0), (-high, 1.0)];
-    let each = terms.map(|(z, sign)| sign * second_integral(z / size, height / size) * size * size);
-    [each.iter().sum(), 8.0 * f64::EPSILON * each.iter().map(|x| x.abs()).sum::<f64>()]
+    let each = terms.map(|(z, sign)| {
+        let [value, rounding] = second_integral(z / size, height / size);
+        [sign * value, rounding].map(|x| x * size * size)
+    });
+    each.into_iter().fold([0.0; 2], |[sum, error], [value, rounding]| [sum + value, error + rounding])
 }
 
-/// G of the module's text.
-fn second_integral(z: f64, h: f64) -> f64 {
+/// What rounding may change of terms like these: logarithms near 0 and arcs cancel, but no argument is off by more than some
+/// roundings.
+fn rounding(size: f64, square: f64) -> f64 {
+    8.0 * f64::EPSILON * size * (1.0 + square.ln().abs())
+}
+
+/// G of the module's text, and its rounding.
+fn second_integral(z: f64, h: f64) -> [f64; 2] {
     let square = z * z + h * h;
     if square == 0.0 {
-        return 0.0;
+        return [0.0; 2];
     }
-    (z * z - h * h) * square.ln() / 4.0 - 0.75 * z * z + h * z * z.atan2(h)
+    let value = (z * z - h * h) * square.ln() / 4.0 - 0.75 * z * z + h * z * z.atan2(h);
+    [value, rounding(square, square)]
 }
 
-/// The integral of ln(r / size) from a point over an edge.
-fn along(point: DVec3, [c, d]: Segment, size: f64) -> f64 {
+/// The integral of ln(r / size) from a point over an edge, and its rounding.
+fn along(point: DVec3, [c, d]: Segment, size: f64) -> [f64; 2] {
     let direction = (d - c).normalize();
     let from = direction.dot(c - point);
     let (low, high) = (from / size, direction.dot(d - point) / size);
     let height = (c - point - direction * from).length() / size;
     let primitive = |s: f64| {
         let square = s * s + height * height;
-        let logarithm = if square == 0.0 { 0.0 } else { s * square.ln() / 2.0 };
-        logarithm - s + height * s.atan2(height)
+        if square == 0.0 {
+            return [0.0; 2];
+        }
+        [s * square.ln() / 2.0 - s + height * s.atan2(height), rounding(square.sqrt(), square)]
     };
-    size * (primitive(high) - primitive(low))
+    let ([upper, rounded], [lower, rounded_too]) = (primitive(high), primitive(low));
+    [size * (upper - lower), size * (rounded + rounded_too)]
 }
 
 /// Halvings of one stretch before its difference counts as error.
 const DEEPEST: u32 = 40;
 
 /// The integral over [0, 1], and the differences that were left.
-fn adaptive(f: &impl Fn(f64) -> f64, tolerance: f64) -> [f64; 2] {
-    let rule = |low: f64, high: f64| -> f64 {
+fn adaptive(f: &impl Fn(f64) -> [f64; 2], tolerance: f64) -> [f64; 2] {
+    let rule = |low: f64, high: f64| -> [f64; 2] {
         let width = high - low;
-        width * RULE_8.iter().map(|[x, weight]| weight * f(low + width * x)).sum::<f64>()
+        RULE_8.iter().fold([0.0; 2], |[value, rounded], [x, weight]| {
+            let [own, own_rounded] = f(low + width * x);
+            [value + width * weight * own, rounded + width * weight * own_rounded]
+        })
     };
     let (mut value, mut error) = (0.0, 0.0);
     let mut open = vec![(0.0, 1.0, rule(0.0, 1.0), 0)];
     while let Some((low, high, coarse, depth)) = open.pop() {
         let middle = f64::midpoint(low, high);
         let parts = [rule(low, middle), rule(middle, high)];
-        let difference = (parts[0] + parts[1] - coarse).abs();
-        let rounding = 8.0 * f64::EPSILON * (parts[0].abs() + parts[1].abs());
+        let difference = (parts[0][0] + parts[1][0] - coarse[0]).abs();
+        let rounding = parts[0][1] + parts[1][1];
         if difference <= (tolerance * (high - low)).max(rounding) || depth == DEEPEST {
-            value += parts[0] + parts[1];
+            value += parts[0][0] + parts[1][0];
             error += difference.max(rounding);
         } else {
             open.push((middle, high, parts[1], depth + 1));

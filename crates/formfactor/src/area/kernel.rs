@@ -1,17 +1,34 @@
 //! Pairs that are far apart: a few samples of the plain kernel.
 use crate::scene::surfaces::Surface;
-use crate::shapes::cell::Nodes;
+use crate::shapes::cell::{Nodes, nodes};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The rule errs by less than this times the fourth power of the surfaces' radii over their distance, by the largest value that the
-/// kernel can have there.
+/// A rule of n nodes a side errs by less than this times the power 2n of the surfaces' radii over their distance, by the largest value
+/// that the kernel can have there.
 pub(super) const ERROR: f64 = 0.1;
 
 /// The double integral of cos cos / (pi r^2) over two surfaces by four nodes of each cell.
 pub(super) fn exchange(one: &Surface, other: &Surface) -> f64 {
     let normals = [one.face[1], other.face[1]];
     one.nodes.iter().map(|p| other.nodes.iter().map(|q| cells(p, q, normals)).sum::<f64>()).sum()
+}
+
+/// The same by a rule's nodes on both sides of each cell.
+pub(super) fn exchange_by(one: &Surface, other: &Surface, rule: &[[f64; 2]]) -> f64 {
+    let [n, m] = [one.face[1], other.face[1]];
+    let of = |surface: &Surface| -> Vec<(DVec3, f64)> {
+        surface.cells.iter().flat_map(|cell| nodes(cell, rule).collect::<Vec<_>>()).collect()
+    };
+    let others = of(other);
+    let from = |(p, weight): (DVec3, f64)| {
+        let each = others.iter().map(|(q, own)| {
+            let way = *q - p;
+            -own * n.dot(way) * m.dot(way) / way.length_squared().powi(2)
+        });
+        weight * each.sum::<f64>()
+    };
+    of(one).into_iter().map(from).sum::<f64>() / PI
 }
 
 /// Over two cells.

@@ -124,10 +124,21 @@ fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Int
         if error <= tolerance {
             return Some(Integral { value: rough, error, evaluations: 0 });
         }
+        let is_flat = one.cells.iter().chain(&other.cells).any(|cell| cell[2] == cell[3]);
+        for (rule, power) in [(&RULE_3[..], 3.0), (&RULE_4[..], 4.0)] {
+            let error = kernel::ERROR * ratio.powf(if is_flat { power - 0.5 } else { power }) * most;
+            if error <= tolerance {
+                let value = kernel::exchange_by(one, other, rule);
+                return Some(Integral { value, error, evaluations: 0 });
+            }
+        }
         let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
-        let ratio = near.radius / (square.sqrt() - far.radius).max(near.radius);
+        let away = square.sqrt() - far.radius;
+        let ratio = near.radius / away.max(near.radius);
+        // An edge's part is its angle at most, and they cancel where the view is flat.
+        let rounding = 4.0 * f64::EPSILON * far.edges.len() as f64 * (far.radius / away).min(1.0) * near.area;
         for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4), (&RULE_6[..], 6)] {
-            let error = ratio.powi(2 * power) * most;
+            let error = ratio.powi(2 * power) * most + rounding;
             if error <= tolerance {
                 return Some(Integral { value: points(near, far, rule), error, evaluations: 0 });
             }
