@@ -2,7 +2,7 @@
 use super::events::{Patch, cut, events};
 use super::integral::{Allowed, Integral, least_whole};
 use super::point::{Eye, Focus, Near, Seen};
-use crate::numeric::gauss::{RULE_1, RULE_2, RULE_3, RULE_4, RULE_6};
+use crate::numeric::gauss::{RULE_1, RULE_2, RULE_3, RULE_4, RULE_6, RULE_8};
 use crate::scene::occluder::Face;
 use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves, nodes};
@@ -74,7 +74,10 @@ impl Ord for Open {
 }
 
 /// Rules by order.
-const RULES: [&[[f64; 2]]; 5] = [&RULE_1, &RULE_2, &RULE_3, &RULE_4, &RULE_6];
+const RULES: [&[[f64; 2]]; 6] = [&RULE_1, &RULE_2, &RULE_3, &RULE_4, &RULE_6, &RULE_8];
+
+/// From this place on differences to the two rules before say what a rule may err by.
+const FINE: usize = 4;
 
 /// What a rule may err by on a cell, as a share of what it were with nothing in between, by the cell's radius over the distance to what it looks at.
 ///
@@ -82,20 +85,22 @@ const RULES: [&[[f64; 2]]; 5] = [&RULE_1, &RULE_2, &RULE_3, &RULE_4, &RULE_6];
 /// takes away one or two digits. The constants are three times the errors that 99 of 100 cells stayed below.
 fn error(focus: Focus, order: usize, ratio: f64) -> f64 {
     if focus == Focus::Part {
-        return [0.3, 0.06 * ratio, 3e-3 * ratio.powi(2), 3e-4 * ratio.powi(3), 3e-6 * ratio.powi(4)][order];
+        return [0.3, 0.06 * ratio, 3e-3 * ratio.powi(2), 3e-4 * ratio.powi(3), 3e-6 * ratio.powi(4), 0.0][order];
     }
     // A single node says little where a plane cuts the polygons off.
-    if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6][order]) }
+    if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6, 8][order]) }
 }
 
-/// What a rule of six nodes a side leaves, by the differences from four to three and from six to four.
+/// What a fine rule leaves, by its value and those of the two rules before.
 ///
 /// Where the integrand is analytic at all points of an ellipse around the foci -1 and 1 with semiaxes that add to r, n nodes err by less than
-/// C r^(-2n) [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3]. So the differences are of the sizes C r^-6
-/// and C r^-8, and each says what C is; the larger counts, as one alone may be small by chance, eight times.
-fn left(coarse: f64, fine: f64, apart: f64) -> f64 {
+/// C r^(-2n) [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3]. So each difference says what C is, as
+/// that of the coarser one's error; the larger counts, as one alone may be small by chance, eight times.
+fn left(values: [f64; 3], order: usize, apart: f64) -> f64 {
     let step = (apart + apart.hypot(1.0)).powi(-2);
-    SURE * (coarse * step.powi(3)).max(fine * step.powi(2))
+    let beyond = |before: usize| step.powf((RULES[order].len() - RULES[before].len()) as f64);
+    let [coarse, middle, fine] = values;
+    SURE * ((middle - coarse).abs() * beyond(order - 2)).max((fine - middle).abs() * beyond(order - 1))
 }
 
 /// By so much what differences say is raised.
@@ -260,13 +265,12 @@ impl<'p> Cubature<'p> {
         let allowed = self.tolerance * (share / 2.0).max(START);
         let flat = if cell[2] == cell[3] { 1.0 / ratio.min(1.0) } else { 1.0 };
         let a_priori = |order: usize| flat * share * self.scale * error(focus, order, ratio);
-        let order = (least..RULES.len()).find(|order| a_priori(*order) <= allowed).unwrap_or(RULES.len() - 1);
+        let order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
         let mut error = a_priori(order);
         let (mut value, seen) = self.product(&cell, order, focus, is_smooth);
-        if order + 1 == RULES.len() {
-            let [coarse, middle] = [2, 3].map(|order| self.product(&cell, order, focus, is_smooth).0);
-            let apart = if is_smooth { apart } else { 0.0 };
-            error = left((middle - coarse).abs(), (value - middle).abs(), apart);
+        if order >= FINE {
+            let [coarse, middle] = [2, 1].map(|back| self.product(&cell, order - back, focus, is_smooth).0);
+            error = left([coarse, middle, value], order, if is_smooth { apart } else { 0.0 });
         } else if seen.is_joint || !is_smooth || ratio > 0.5 {
             let (finer, _) = self.product(&cell, order + 1, focus, is_smooth);
             error = error.max((finer - value).abs());
