@@ -2,7 +2,7 @@
 use super::events::{Patch, cut, events};
 use super::integral::{Allowed, Integral, least_whole};
 use super::point::{Eye, Focus, Near, Seen};
-use crate::numeric::gauss::{RULE_1, RULE_2, RULE_3, RULE_4, RULE_6, RULE_8};
+use crate::numeric::gauss::{RULE_1, RULE_2, RULE_3, RULE_4, RULE_6, RULE_8, RULE_12};
 use crate::scene::occluder::Face;
 use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves, nodes};
@@ -50,6 +50,10 @@ struct Open {
     left_out: Option<f64>,
     /// Its rule's place in the list.
     order: usize,
+    /// The values by the rule before and by this one, where this one is fine.
+    values: [f64; 2],
+    /// What the finest rule may leave.
+    last: f64,
     number: usize,
 }
 
@@ -74,7 +78,7 @@ impl Ord for Open {
 }
 
 /// Rules by order.
-const RULES: [&[[f64; 2]]; 6] = [&RULE_1, &RULE_2, &RULE_3, &RULE_4, &RULE_6, &RULE_8];
+const RULES: [&[[f64; 2]]; 7] = [&RULE_1, &RULE_2, &RULE_3, &RULE_4, &RULE_6, &RULE_8, &RULE_12];
 
 /// From this place on differences to the two rules before say what a rule may err by.
 const FINE: usize = 4;
@@ -85,10 +89,11 @@ const FINE: usize = 4;
 /// takes away one or two digits. The constants are three times the errors that 99 of 100 cells stayed below.
 fn error(focus: Focus, order: usize, ratio: f64) -> f64 {
     if focus == Focus::Part {
-        return [0.3, 0.06 * ratio, 3e-3 * ratio.powi(2), 3e-4 * ratio.powi(3), 3e-6 * ratio.powi(4), 0.0][order];
+        return [0.3, 0.06 * ratio, 3e-3 * ratio.powi(2), 3e-4 * ratio.powi(3), 3e-6 * ratio.powi(4)]
+            [order.min(FINE)];
     }
     // A single node says little where a plane cuts the polygons off.
-    if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6, 8][order]) }
+    if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6, 8, 12][order]) }
 }
 
 /// What a fine rule leaves, by its value and those of the two rules before.
@@ -97,10 +102,15 @@ fn error(focus: Focus, order: usize, ratio: f64) -> f64 {
 /// C r^(-2n) [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3]. So each difference says what C is, as
 /// that of the coarser one's error; the larger counts, as one alone may be small by chance, eight times.
 fn left(values: [f64; 3], order: usize, apart: f64) -> f64 {
-    let step = (apart + apart.hypot(1.0)).powi(-2);
-    let beyond = |before: usize| step.powf((RULES[order].len() - RULES[before].len()) as f64);
+    let beyond = |before: usize| rate(apart, before, order);
     let [coarse, middle, fine] = values;
     SURE * ((middle - coarse).abs() * beyond(order - 2)).max((fine - middle).abs() * beyond(order - 1))
+}
+
+/// What a rule leaves of the error of one before, by how far a cell is from what it looks at.
+fn rate(apart: f64, before: usize, order: usize) -> f64 {
+    let step = (apart + apart.hypot(1.0)).powi(-2);
+    step.powi(i32::try_from(RULES[order].len() - RULES[before].len()).unwrap_or(i32::MAX))
 }
 
 /// By so much what differences say is raised.
@@ -116,12 +126,7 @@ const START: f64 = 0.1;
 const BLIND_HALVINGS: u32 = 4;
 
 impl<'p> Cubature<'p> {
-    pub(super) fn new(
-        from: &Surface,
-        to: &'p Surface,
-        occluders: &'p [Near<'p>],
-        eye: &'p mut Eye,
-    ) -> Self {
+    pub(super) fn new(from: &Surface, to: &'p Surface, occluders: &'p [Near<'p>], eye: &'p mut Eye) -> Self {
         let source = before(&from.pieces, to.face);
         let size = source.iter().map(|piece| area_of(piece)).sum();
         Self {
@@ -213,7 +218,7 @@ impl<'p> Cubature<'p> {
             if halvings > 0 {
                 coarse.extend(halves(cell).map(|half| (half, halvings - 1)));
             } else {
-                self.add(cell, None, 2);
+                self.add(cell, None, 2, None);
             }
         }
     }
@@ -226,29 +231,31 @@ impl<'p> Cubature<'p> {
             let size = part.area();
             for cell in fan(part.corners()) {
                 let left_out = if left_out > 0.0 { left_out * area(&cell) / size } else { 0.0 };
-                self.add(cell, Some(left_out), 0);
+                self.add(cell, Some(left_out), 0, None);
             }
         }
         true
     }
 
-    /// How far a cell is at least from what it looks at, by its radius.
+    /// How far a cell is at least from what it looks at, by half of its longest side.
     fn apart(&self, cell: &Cell) -> f64 {
         let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
         let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
         let away = |at: DVec3, size: f64| middle.distance(at) - size - radius;
-        let above = |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
+        let above =
+            |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
         let to_target = away(self.to.middle, self.to.radius).max(above(&self.to.face));
         let to_occluder = |o: &Near| {
             let plane = o.faces.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
             away(o.middle, o.radius).max(plane)
         };
         let nearest = self.occluders.iter().map(to_occluder).fold(to_target, f64::min);
-        nearest.max(0.0) / radius
+        let sides = cell.iter().zip(cell.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b));
+        2.0 * nearest.max(0.0) / sides.fold(0.0, f64::max)
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
-    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize) {
+    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<[f64; 2]>) {
         let is_smooth = left_out.is_some();
         let share = area(&cell) / self.size;
         if share == 0.0 {
@@ -257,10 +264,11 @@ impl<'p> Cubature<'p> {
         let focus = if is_smooth { self.eye.focus(&cell, &self.target, self.occluders) } else { Focus::Part };
         if focus == self.adds_nothing() {
             let error = left_out.unwrap_or(0.0);
-            self.push(Open { cell, value: 0.0, error, left_out, order: RULES.len(), number: 0 });
+            let values = [0.0; 2];
+            self.push(Open { cell, value: 0.0, error, left_out, order: 0, values, last: 0.0, number: 0 });
             return;
         }
-        let apart = self.apart(&cell);
+        let apart = if is_smooth { self.apart(&cell) } else { 0.0 };
         let ratio = 1.0 / apart.max(0.25);
         let allowed = self.tolerance * (share / 2.0).max(START);
         let flat = if cell[2] == cell[3] { 1.0 / ratio.min(1.0) } else { 1.0 };
@@ -268,9 +276,13 @@ impl<'p> Cubature<'p> {
         let order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
         let mut error = a_priori(order);
         let (mut value, seen) = self.product(&cell, order, focus, is_smooth);
+        let (mut values, mut last) = ([value; 2], 0.0);
         if order >= FINE {
-            let [coarse, middle] = [2, 1].map(|back| self.product(&cell, order - back, focus, is_smooth).0);
-            error = left([coarse, middle, value], order, if is_smooth { apart } else { 0.0 });
+            let [coarse, middle] = known
+                .unwrap_or_else(|| [2, 1].map(|back| self.product(&cell, order - back, focus, is_smooth).0));
+            values[0] = middle;
+            error = left([coarse, middle, value], order, apart);
+            last = error * rate(apart, order, RULES.len() - 1);
         } else if seen.is_joint || !is_smooth || ratio > 0.5 {
             let (finer, _) = self.product(&cell, order + 1, focus, is_smooth);
             error = error.max((finer - value).abs());
@@ -281,7 +293,7 @@ impl<'p> Cubature<'p> {
             error = error.max(self.unseen(&cell));
         }
         error += left_out.unwrap_or(0.0);
-        self.push(Open { cell, value, error, left_out, order, number: 0 });
+        self.push(Open { cell, value, error, left_out, order, values, last, number: 0 });
     }
 
     /// What a cell must see to add nothing.
@@ -333,7 +345,7 @@ impl<'p> Cubature<'p> {
         let Some(left_out) = worst.left_out else {
             for half in halves(worst.cell) {
                 if !self.cut(Patch::of(&half), self.tolerance * UNCUT) {
-                    self.add(half, None, 2);
+                    self.add(half, None, 2, None);
                 }
             }
             return;
@@ -341,11 +353,13 @@ impl<'p> Cubature<'p> {
         if 2.0 * left_out > worst.error && self.cut(Patch::of(&worst.cell), left_out * UNCUT) {
             return;
         }
-        if worst.order + 1 < RULES.len() {
-            self.add(worst.cell, Some(left_out), worst.order + 1);
+        let is_near = worst.last <= self.tolerance * (area(&worst.cell) / self.size).max(START);
+        if worst.order < FINE || (worst.order + 1 < RULES.len() && is_near) {
+            let known = (worst.order >= FINE).then_some(worst.values);
+            self.add(worst.cell, Some(left_out), worst.order + 1, known);
             return;
         }
-        halves(worst.cell).into_iter().for_each(|half| self.add(half, Some(left_out), 2));
+        halves(worst.cell).into_iter().for_each(|half| self.add(half, Some(left_out), 2, None));
     }
 
     /// The cells in the order in which they came about.

@@ -244,7 +244,8 @@ impl Silhouette {
             let [[left, not_left], [right, not_right]] = ridge.sides.map(of);
             (left && not_right) || (right && not_left)
         };
-        let edges: Vec<[DVec3; 2]> = occluder.ridges.iter().filter(may_turn).map(|ridge| ridge.ends).collect();
+        let edges: Vec<[DVec3; 2]> =
+            occluder.ridges.iter().filter(may_turn).map(|ridge| ridge.ends).collect();
         let mut vertices: Vec<DVec3> = Vec::new();
         for vertex in edges.iter().flatten() {
             if !vertices.contains(vertex) {
