@@ -35,12 +35,12 @@ pub(super) fn exchange_by(one: &Surface, other: &Surface, rule: &[[f64; 2]]) -> 
 fn cells(p: &Nodes, q: &Nodes, [n, m]: [DVec3; 2]) -> f64 {
     let mut sums = [0.0; 4];
     for i in 0..4 {
-        for j in 0..4 {
+        for (j, sum) in sums.iter_mut().enumerate() {
             let (x, y, z) = (q.x[j] - p.x[i], q.y[j] - p.y[i], q.z[j] - p.z[i]);
             let square = x * x + y * y + z * z;
             let rise = n.x * x + n.y * y + n.z * z;
             let fall = m.x * x + m.y * y + m.z * z;
-            sums[j] -= p.weights[i] * q.weights[j] * rise * fall / (square * square);
+            *sum -= p.weights[i] * q.weights[j] * rise * fall / (square * square);
         }
     }
     sums.iter().sum::<f64>() / PI
