@@ -21,7 +21,7 @@ use crate::base::id::index;
 use crate::contacts::contact::{Contact, Partner, PartnerKind};
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
-use crate::predicates::{Segment, Side, lexicographic, turn};
+use crate::predicates::{Segment, angle_order, lexicographic};
 use std::{cmp::Ordering, ops::Range};
 
 /// No sub-edge, no node.
@@ -146,12 +146,12 @@ impl Arrangement {
             let half_edges = span.clone().map(|place| self.around(place));
             leaving.clear();
             leaving.extend(half_edges.map(|half_edge| (self.direction(edges, half_edge), half_edge)));
-            leaving.sort_unstable_by(|g, h| by_angle(g.0, h.0).then(g.1.cmp(&h.1)));
+            leaving.sort_unstable_by(|g, h| angle_order(g.0, h.0).then(g.1.cmp(&h.1)));
             for (place, (_, half_edge)) in span.zip(&leaving) {
                 self.around[place as usize] = *half_edge;
             }
             leaving
-                .chunk_by(|g, h| by_angle(g.0, h.0) == Ordering::Equal)
+                .chunk_by(|g, h| angle_order(g.0, h.0) == Ordering::Equal)
                 .for_each(|overlapping| self.unite(overlapping));
         }
         self.leaving = leaving;
@@ -343,19 +343,8 @@ impl Arrangement {
         let junctions = (0..index(self.junction_count())).all(|junction| {
             let directions: Vec<Segment> =
                 self.span(junction).map(|place| self.direction(edges, self.around(place))).collect();
-            directions.windows(2).all(|pair| by_angle(pair[0], pair[1]) != Ordering::Greater)
+            directions.windows(2).all(|pair| angle_order(pair[0], pair[1]) != Ordering::Greater)
         });
         crossings && junctions
     }
-}
-
-/// By angle in (-90°, 270°].
-#[inline]
-fn by_angle(g: Segment, h: Segment) -> Ordering {
-    let leftward = |s: Segment| lexicographic(s[0], s[1]) == Ordering::Greater;
-    leftward(g).cmp(&leftward(h)).then_with(|| match turn(g, h) {
-        Side::Left => Ordering::Less,
-        Side::On => Ordering::Equal,
-        Side::Right => Ordering::Greater,
-    })
 }

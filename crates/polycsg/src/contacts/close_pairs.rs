@@ -9,7 +9,7 @@ use super::contact::{Contact, PartnerKind};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
 use crate::spatial::{chains::LONGEST, slabs::SlabDecomposition};
-use glam::DVec2;
+use glam::{DVec2, Vec2Swizzles};
 
 /// See the module's page.
 #[derive(Debug, Default)]
@@ -177,32 +177,54 @@ impl ClosePairs {
             if self.are_flat_at(a, b, start) {
                 self.add(edge, before);
             }
-            if (start.x - a.x).abs() <= self.margins.close {
-                self.find_beyond(edges, edge, before, |other| ring.edge_before(other));
-            }
+            self.find_beyond(edges, edge, before, start - a, |other| ring.edge_before(other));
         }
         if let Some(after) = ring.edge_after(edge) {
             let end = edges.point(after + 1);
             if self.are_flat_at(b, a, end) {
                 self.add(edge, after);
             }
-            if (end.x - b.x).abs() <= self.margins.close {
-                self.find_beyond(edges, edge, after, |other| ring.edge_after(other));
-            }
+            self.find_beyond(edges, edge, after, end - b, |other| ring.edge_after(other));
         }
     }
 
-    /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, and were not compared with it,
-    /// and are not apart from it.
-    fn find_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> Option<u32>) {
-        let s = edges.segment(edge);
+    /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, to the side or upward, and were not
+    /// compared with it, and are not apart from it, where the neighbour's extent keeps them less than a margin away.
+    #[inline]
+    fn find_beyond(
+        &mut self,
+        edges: &Edges,
+        edge: u32,
+        neighbour: u32,
+        extent: DVec2,
+        step: impl Fn(u32) -> Option<u32>,
+    ) {
+        if extent.x.abs() <= self.margins.close {
+            self.find_along_chain(edges, edge, neighbour, |p| p, &step);
+        }
+        if extent.y.abs() <= self.margins.close {
+            self.find_along_chain(edges, edge, neighbour, DVec2::yx, &step);
+        }
+    }
+
+    /// The same for chains to the side, or for others that are so as seen.
+    fn find_along_chain(
+        &mut self,
+        edges: &Edges,
+        edge: u32,
+        neighbour: u32,
+        seen: impl Fn(DVec2) -> DVec2,
+        step: impl Fn(u32) -> Option<u32>,
+    ) {
+        let segment = |edge: u32| edges.segment(edge).map(&seen);
+        let s = segment(edge);
         let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
-        if !leads_on(edges.segment(neighbour)) {
+        if !leads_on(segment(neighbour)) {
             return; // another chain, whose boxes were looked at
         }
         let others = std::iter::successors(step(neighbour), |&other| step(other));
         for other in others.take(LONGEST as usize) {
-            let t = edges.segment(other);
+            let t = segment(other);
             let gap = (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
             if gap > self.margins.close || !leads_on(t) {
                 break;

@@ -74,6 +74,25 @@ pub(crate) fn turn(e: Segment, g: Segment) -> Side {
     }
 }
 
+/// The order of two directions by angle in (-90°, 270°].
+#[inline]
+pub(crate) fn angle_order(e: Segment, g: Segment) -> Ordering {
+    let [a, b] = [e, g].map(|[start, end]| eighth(start, end));
+    a.cmp(&b).then_with(|| match if a % 2 == 1 { Side::On } else { turn(e, g) } {
+        Side::Left => Ordering::Less,
+        Side::On => Ordering::Equal,
+        Side::Right => Ordering::Greater,
+    })
+}
+
+/// Counted counter-clockwise from just above straight down: the even ones are quadrants, the odd ones the axes between them.
+#[inline]
+fn eighth(start: DVec2, end: DVec2) -> u8 {
+    const PLACES: [[u8; 3]; 3] = [[6, 5, 4], [7, 8, 3], [0, 1, 2]];
+    let place = |a: f64, b: f64| usize::from(a <= b) + usize::from(a < b);
+    PLACES[place(start.x, end.x)][place(start.y, end.y)]
+}
+
 /// The sign of `l - r` from the signs of the four factors `l = p q`, `r = s t`, where those suffice.
 fn sign_of_difference(p: Ordering, q: Ordering, s: Ordering, t: Ordering) -> Option<Side> {
     let (l, r) = (p as i8 * q as i8, s as i8 * t as i8);

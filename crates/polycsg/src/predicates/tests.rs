@@ -1,10 +1,11 @@
 //! Every predicate against rationals, over the whole range of exponents and close to degeneracy.
 
-use super::*;
+use super::{orient::turn, *};
 use glam::DVec2;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
+use std::cmp::Ordering;
 
 fn exact(x: f64) -> BigRational {
     BigRational::from_float(x).expect("finite")
@@ -164,4 +165,18 @@ fn where_robust_alone_is_wrong() {
     assert_eq!(side(p(0.0, 0.0), p(3e-170, 3e-170), p(1e-170, 2e-170)), Side::Left);
     assert_eq!(side(p(0.0, 0.0), p(3e160, 3e160), p(1e160, 2e160)), Side::Left);
     assert_eq!(side(p(0.0, 0.0), p(3e160, 3e160), p(1e160, 1e160)), Side::On);
+}
+
+#[test]
+fn directions_are_ordered_from_just_above_straight_down() {
+    let steps = || (-3..=3).map(f64::from);
+    let points = steps().flat_map(|x| steps().map(move |y| DVec2::new(x, y))).filter(|p| *p != DVec2::ZERO);
+    // Angles of small integers are far apart, or equal.
+    let angle =
+        |p: DVec2| if p.y < 0.0 && p.x <= 0.0 { p.to_angle() + std::f64::consts::TAU } else { p.to_angle() };
+    for (p, q) in points.clone().flat_map(|p| points.clone().map(move |q| (p, q))) {
+        let gap = angle(p) - angle(q);
+        let order = if gap.abs() < 1e-9 { Ordering::Equal } else { gap.total_cmp(&0.0) };
+        assert_eq!(angle_order([DVec2::ONE, p + 1.0], [DVec2::NEG_ONE, q - 1.0]), order, "{p} {q}");
+    }
 }

@@ -1,14 +1,14 @@
-//! Monotone chains: consecutive edges of a ring that lead from left to right or from right to left, with their boxes.
+//! Monotone chains: consecutive edges of a ring that all lead to the right, to the left, upward or downward, with their boxes.
 //!
 //! ```text
-//!        ______            Lexicographically monotone: x never turns back (upright edges lead upward or downward,
-//!   ____/  |   \___        all of a chain the same way). So the edges of one chain meet in their common ends only,
-//!   chain 1|   chain 2     at every abscissa a chain has one edge, and of two chains only what lies in both boxes meets.
+//!        ______            Lexicographically monotone: to the right, x never turns back (upright edges lead upward or
+//!   ____/  |   \___        downward, all of a chain the same way). So the edges of one chain meet in their common ends
+//!   chain 1|   chain 2     only, and of two chains only what lies in both boxes meets.
 //! ```
 
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
-use std::{cmp::Ordering, ops::Range};
+use std::ops::Range;
 
 /// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;
@@ -24,7 +24,6 @@ pub(crate) struct MonotoneChain {
     /// The slots of its points, in the order of the ring.
     first: u32,
     last: u32,
-    rightward: bool,
     pub(crate) low: DVec2,
     pub(crate) high: DVec2,
 }
@@ -36,29 +35,15 @@ impl MonotoneChain {
         self.last - self.first
     }
 
-    /// The i-th edge from the left.
-    #[inline]
-    pub(crate) fn edge(&self, i: u32) -> u32 {
-        if self.rightward { self.first + i } else { self.last - 1 - i }
-    }
-
-    /// The slot of the i-th point from the left.
-    #[inline]
-    pub(crate) fn slot(&self, i: u32) -> u32 {
-        if self.rightward { self.first + i } else { self.last - i }
-    }
-
-    #[inline]
-    fn point(&self, points: &[DVec2], i: u32) -> DVec2 {
-        points[self.slot(i) as usize]
-    }
-
-    /// The edge, as an index and directed to the right, whose leftmost end lies at or left of `x` and whose rightmost end lies
+    /// The edges, each as an index and directed to the right, whose left ends lie at or left of `x` and whose right ends lie
     /// right of it.
-    pub(crate) fn edge_at(&self, points: &[DVec2], x: f64) -> Option<(u32, Segment)> {
-        let right = (0..=self.len()).find(|&i| self.point(points, i).x > x)?;
-        let i = right.checked_sub(1)?;
-        Some((self.edge(i), [self.point(points, i), self.point(points, right)]))
+    #[inline]
+    pub(crate) fn edges_at(&self, points: &[DVec2], x: f64) -> impl Iterator<Item = (u32, Segment)> {
+        let ends = points[self.first as usize..=self.last as usize].windows(2);
+        (self.first..).zip(ends).filter_map(move |(edge, ends)| {
+            let (left, right) = if ends[0].x < ends[1].x { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+            (left.x <= x && x < right.x).then_some((edge, [left, right]))
+        })
     }
 
     /// Calls `visit` for each edge of this chain and each of another whose boxes meet; those of the chains do.
@@ -170,13 +155,13 @@ impl MonotoneChains {
 
     fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
         let last = slots.end - 1;
-        let mut leftmost = slots.start;
-        let mut start = slots.start;
+        let (mut leftmost, mut start) = (slots.start, slots.start);
+        let by_place = |v: &u32, w: &u32| lexicographic(points[*v as usize], points[*w as usize]);
         while start < last {
             let chain = longest_chain(points, start, last.min(start + longest));
-            let left = chain.slot(0);
-            if lexicographic(points[left as usize], points[leftmost as usize]) == Ordering::Less {
-                leftmost = left;
+            if chain.low.x <= points[leftmost as usize].x {
+                let slots = std::iter::once(leftmost).chain(chain.first..chain.last + 1);
+                leftmost = slots.min_by(by_place).unwrap_or(leftmost);
             }
             self.chains.push(chain);
             start = chain.last;
@@ -186,30 +171,34 @@ impl MonotoneChains {
     }
 }
 
+/// Where an edge leads, in bits: to the right or the left, and upward or downward.
+#[inline]
+fn ways(a: DVec2, b: DVec2) -> u8 {
+    let rightward = (a.x < b.x) | ((a.x == b.x) & (a.y < b.y));
+    let upward = (a.y < b.y) | ((a.y == b.y) & (a.x < b.x));
+    (1 << u8::from(rightward)) | (4 << u8::from(upward))
+}
+
 /// The longest chain from a slot on that does not go beyond another slot.
 #[inline]
 fn longest_chain(points: &[DVec2], first: u32, end: u32) -> MonotoneChain {
     let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
-    let rightward = lexicographic(a, b) == Ordering::Less;
-    let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
-    let area = |a: DVec2, b: DVec2| ((b.x - a.x) * (b.y - a.y)).abs();
-    let mut areas = area(a, b);
+    let mut common = ways(a, b);
+    let (mut low, mut high) = bounds(a, b);
+    let area = |sides: DVec2| (sides.x * sides.y).abs();
+    let mut areas = area(b - a);
     let mut last = first + 1;
     while last < end {
         let c = points[last as usize + 1];
-        if (lexicographic(b, c) == Ordering::Less) != rightward {
+        common &= ways(b, c);
+        areas += area(c - b);
+        let around = (low.min(c), high.max(c));
+        if common == 0 || area(around.1 - around.0) > widest * areas {
             break;
         }
-        areas += area(b, c);
-        let around = area(DVec2::new(a.x, bottom.min(c.y)), DVec2::new(c.x, top.max(c.y)));
-        if around > widest * areas {
-            break;
-        }
-        (bottom, top) = (bottom.min(c.y), top.max(c.y));
-        b = c;
+        ((low, high), b) = (around, c);
         last += 1;
     }
-    let (left, right) = if rightward { (a.x, b.x) } else { (b.x, a.x) };
-    MonotoneChain { first, last, rightward, low: DVec2::new(left, bottom), high: DVec2::new(right, top) }
+    MonotoneChain { first, last, low, high }
 }

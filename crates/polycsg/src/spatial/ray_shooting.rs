@@ -66,8 +66,8 @@ fn nearest_below(
     strips.below(p.x, p.y, left, |chain| {
         let chain = chains.chain(chain);
         if chain.low.x <= p.x && p.x < chain.high.x && chain.low.y <= p.y {
-            let found = chain.edge_at(points, p.x).filter(|&(_, [a, b])| side(a, b, p) == Side::Left);
-            best = higher(best, found, p.x);
+            let below = chain.edges_at(points, p.x).filter(|&(_, [a, b])| side(a, b, p) == Side::Left);
+            best = below.fold(best, |best, edge| higher(best, Some(edge), p.x));
         }
         best.map(|(_, [a, b])| a.y.min(b.y))
     });
