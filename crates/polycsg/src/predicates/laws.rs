@@ -1,7 +1,7 @@
 //! What each predicate must answer, from big integers on the configuration's own grid. For tests and for fuzzing.
 
 use super::configurations::{Configuration, stepped};
-use super::{orient::turn, *};
+use super::*;
 use glam::DVec2;
 use num_bigint::BigInt;
 use num_traits::{Float, Signed, Zero};

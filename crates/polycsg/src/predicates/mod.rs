@@ -6,7 +6,8 @@
 //! | predicate | question | degree |
 //! | --- | --- | --- |
 //! | [`side`] | on which side of a directed line does a point lie | 2 |
-//! | [`angle_order`] | which of two directions comes first counter-clockwise | 2 |
+//! | [`turn`] | does one direction turn left or right of another | 2 |
+//! | [`Compass`] | along which axis or into which quadrant does a direction point | 1 |
 //! | [`crossing_order`] | which of two crossings comes first along an edge | 4 |
 //! | [`height_order`] | which of two edges is lower at an abscissa | 3 |
 //! | [`crossing_x_order`] | does a crossing lie left of an abscissa | 3 |
@@ -39,7 +40,7 @@ pub(crate) use exactfloat::Ratio;
 pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
 };
-pub(crate) use orient::{Area, angle_order, doubled_area, side, side_of};
+pub(crate) use orient::{Area, Compass, doubled_area, side, side_of, turn};
 pub(crate) use parameter::Parameter;
 pub(crate) use round::{crossing_point, crossing_ratio};
 pub(crate) use segment::{Segment, Side};

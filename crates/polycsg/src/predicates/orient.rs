@@ -74,23 +74,33 @@ pub(crate) fn turn(e: Segment, g: Segment) -> Side {
     }
 }
 
-/// The order of two directions by angle in (-90°, 270°].
-#[inline]
-pub(crate) fn angle_order(e: Segment, g: Segment) -> Ordering {
-    let [a, b] = [e, g].map(|[start, end]| eighth(start, end));
-    a.cmp(&b).then_with(|| match if a % 2 == 1 { Side::On } else { turn(e, g) } {
-        Side::Left => Ordering::Less,
-        Side::On => Ordering::Equal,
-        Side::Right => Ordering::Greater,
-    })
+/// Where a direction points, counter-clockwise from just above straight down: along an axis or into a quadrant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Compass {
+    SouthEast,
+    East,
+    NorthEast,
+    North,
+    NorthWest,
+    West,
+    SouthWest,
+    South,
 }
 
-/// Counted counter-clockwise from just above straight down: the even ones are quadrants, the odd ones the axes between them.
-#[inline]
-fn eighth(start: DVec2, end: DVec2) -> u8 {
-    const PLACES: [[u8; 3]; 3] = [[6, 5, 4], [7, 8, 3], [0, 1, 2]];
-    let place = |a: f64, b: f64| usize::from(a <= b) + usize::from(a < b);
-    PLACES[place(start.x, end.x)][place(start.y, end.y)]
+impl Compass {
+    #[inline]
+    pub(crate) fn of([start, end]: Segment) -> Compass {
+        use Compass::{East, North, NorthEast, NorthWest, South, SouthEast, SouthWest, West};
+        const WAYS: [[Compass; 3]; 3] =
+            [[SouthWest, West, NorthWest], [South, North, North], [SouthEast, East, NorthEast]];
+        let place = |a: f64, b: f64| usize::from(a <= b) + usize::from(a < b);
+        WAYS[place(start.x, end.x)][place(start.y, end.y)]
+    }
+
+    /// Whether all such directions are one.
+    pub(crate) fn is_axis(self) -> bool {
+        matches!(self, Compass::East | Compass::North | Compass::West | Compass::South)
+    }
 }
 
 /// The sign of `l - r` from the signs of the four factors `l = p q`, `r = s t`, where those suffice.

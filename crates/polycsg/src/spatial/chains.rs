@@ -8,10 +8,13 @@
 
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;
+
+/// So many edges are a run.
+const RUN: u32 = 8;
 
 /// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a
 /// rectangle. Among few points anything is quick.
@@ -114,6 +117,21 @@ impl MonotoneChains {
         self.cut(points, rings, 1);
     }
 
+    /// Cuts rings into runs that need not be monotone: enough for vertical rays.
+    pub(crate) fn cut_to_runs(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.chains.clear();
+        for slots in rings {
+            let end = slots.end - 1;
+            for first in (slots.start..end).step_by(RUN as usize) {
+                let last = end.min(first + RUN);
+                let around = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
+                let run = &points[first as usize..=last as usize];
+                let (low, high) = run.iter().fold((DVec2::MAX, DVec2::MIN), around);
+                self.chains.push(MonotoneChain { first, last, low, high });
+            }
+        }
+    }
+
     fn cut(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>, longest: u32) {
         self.chains.clear();
         self.leftmost.clear();
@@ -154,14 +172,12 @@ impl MonotoneChains {
     }
 
     fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
-        let last = slots.end - 1;
-        let (mut leftmost, mut start) = (slots.start, slots.start);
-        let by_place = |v: &u32, w: &u32| lexicographic(points[*v as usize], points[*w as usize]);
+        let (mut start, last) = (slots.start, slots.end - 1);
+        let mut leftmost = start;
         while start < last {
-            let chain = longest_chain(points, start, last.min(start + longest));
-            if chain.low.x <= points[leftmost as usize].x {
-                let slots = std::iter::once(leftmost).chain(chain.first..chain.last + 1);
-                leftmost = slots.min_by(by_place).unwrap_or(leftmost);
+            let (chain, left) = longest_chain(points, start, last.min(start + longest));
+            if lexicographic(points[left as usize], points[leftmost as usize]) == Ordering::Less {
+                leftmost = left;
             }
             self.chains.push(chain);
             start = chain.last;
@@ -171,34 +187,42 @@ impl MonotoneChains {
     }
 }
 
-/// Where an edge leads, in bits: to the right or the left, and upward or downward.
+/// Whether an edge leads to the right rather than the left, and upward rather than downward.
 #[inline]
-fn ways(a: DVec2, b: DVec2) -> u8 {
-    let rightward = (a.x < b.x) | ((a.x == b.x) & (a.y < b.y));
-    let upward = (a.y < b.y) | ((a.y == b.y) & (a.x < b.x));
-    (1 << u8::from(rightward)) | (4 << u8::from(upward))
+fn ways(step: DVec2) -> [bool; 2] {
+    let DVec2 { x, y } = step;
+    [(x > 0.0) | ((x == 0.0) & (y > 0.0)), (y > 0.0) | ((y == 0.0) & (x > 0.0))]
 }
 
-/// The longest chain from a slot on that does not go beyond another slot.
+/// The longest chain from a slot on that does not go beyond another slot, and its lexicographically smallest slot.
 #[inline]
-fn longest_chain(points: &[DVec2], first: u32, end: u32) -> MonotoneChain {
+fn longest_chain(points: &[DVec2], first: u32, end: u32) -> (MonotoneChain, u32) {
     let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
-    let mut common = ways(a, b);
+    // The sign of a difference of doubles is that of the exact one.
+    let [rightward, upward] = ways(b - a);
+    let mut turned = [false; 2];
     let (mut low, mut high) = bounds(a, b);
     let area = |sides: DVec2| (sides.x * sides.y).abs();
     let mut areas = area(b - a);
     let mut last = first + 1;
     while last < end {
         let c = points[last as usize + 1];
-        common &= ways(b, c);
+        let way = ways(c - b);
+        let turns = [turned[0] | (way[0] != rightward), turned[1] | (way[1] != upward)];
         areas += area(c - b);
         let around = (low.min(c), high.max(c));
-        if common == 0 || area(around.1 - around.0) > widest * areas {
+        if turns == [true; 2] || area(around.1 - around.0) > widest * areas {
             break;
         }
-        ((low, high), b) = (around, c);
+        ((low, high), b, turned) = (around, c, turns);
         last += 1;
     }
-    MonotoneChain { first, last, low, high }
+    let by_place = |v: &u32, w: &u32| lexicographic(points[*v as usize], points[*w as usize]);
+    let left = match (turned[0], rightward) {
+        (true, _) => (first..=last).min_by(by_place).unwrap_or(first),
+        (false, true) => first,
+        (false, false) => last,
+    };
+    (MonotoneChain { first, last, low, high }, left)
 }
