@@ -6,6 +6,7 @@
 //!   chain 1|   chain 2     at every abscissa a chain has one edge, and of two chains only what lies in both boxes meets.
 //! ```
 
+use super::strips::boxes_meet;
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range};
@@ -13,10 +14,12 @@ use std::{cmp::Ordering, ops::Range};
 /// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;
 
+/// Of so few points each edge is a chain.
+const FEW: usize = 16;
+
 /// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a
-/// rectangle. Among few points anything is quick.
+/// rectangle.
 const WIDEST: f64 = 32.0;
-const FEW: usize = 64;
 
 /// A run of edges and its box.
 #[derive(Clone, Copy, Debug)]
@@ -67,47 +70,55 @@ impl MonotoneChain {
         if self.len() == 1 && other.len() == 1 {
             return visit(self.first, other.first);
         }
+        for (chain, next) in [(self, other), (other, self)] {
+            if chain.goes_on_in(next, points) {
+                return visit(chain.last - 1, next.first);
+            }
+        }
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         let (mut these, those) =
             (self.edges_within(points, low, high), other.edges_within(points, low, high));
         while these != 0 {
             let e = self.first + these.trailing_zeros();
             these &= these - 1;
-            let (low, high) = bounds(points[e as usize], points[e as usize + 1]);
+            let around = bounds(points[e as usize], points[e as usize + 1]);
             let mut left = those;
             while left != 0 {
                 let f = other.first + left.trailing_zeros();
                 left &= left - 1;
-                if meets(points[f as usize], points[f as usize + 1], low, high) {
+                if boxes_meet(bounds(points[f as usize], points[f as usize + 1]), around) {
                     visit(e, f);
                 }
             }
         }
     }
 
-    /// The edges whose boxes meet a box, as bits in the order of the ring.
+    /// Whether another chain leads on from the end of this one, and neither is upright there: then only the two edges there meet.
+    #[inline]
+    fn goes_on_in(&self, next: &MonotoneChain, points: &[DVec2]) -> bool {
+        let is_upright = |edge: u32| points[edge as usize].x == points[edge as usize + 1].x;
+        self.last == next.first
+            && self.rightward == next.rightward
+            && !is_upright(self.last - 1)
+            && !is_upright(next.first)
+    }
+
+    /// The edges whose boxes meet a box, as bits in the order of the ring; of one or two edges all.
     #[inline]
     fn edges_within(&self, points: &[DVec2], low: DVec2, high: DVec2) -> u32 {
-        if self.len() == 1 {
-            return 1;
+        if self.len() <= 2 {
+            return (1 << self.len()) - 1;
         }
         let ends = points[self.first as usize..=self.last as usize].windows(2);
-        (0..).zip(ends).fold(0, |edges, (i, ends)| edges | u32::from(meets(ends[0], ends[1], low, high)) << i)
+        let meets = |ends: &[DVec2]| u32::from(boxes_meet(bounds(ends[0], ends[1]), [low, high]));
+        ends.rev().fold(0, |edges, ends| edges << 1 | meets(ends))
     }
 }
 
 /// The box around two points.
 #[inline]
-fn bounds(a: DVec2, b: DVec2) -> (DVec2, DVec2) {
-    (a.min(b), a.max(b))
-}
-
-/// Whether the box around two points meets another one.
-#[inline]
-fn meets(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> bool {
-    let (left, right) = if a.x < b.x { (a.x, b.x) } else { (b.x, a.x) };
-    let (bottom, top) = if a.y < b.y { (a.y, b.y) } else { (b.y, a.y) };
-    (left <= high.x) & (right >= low.x) & (bottom <= high.y) & (top >= low.y)
+fn bounds(a: DVec2, b: DVec2) -> [DVec2; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// The chains of rings, ring by ring.
@@ -121,7 +132,7 @@ pub(crate) struct MonotoneChains {
 impl MonotoneChains {
     /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
     pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
-        self.cut(points, rings, LONGEST);
+        self.cut(points, rings, if points.len() <= FEW { 1 } else { LONGEST });
     }
 
     /// Makes each edge a chain.
@@ -143,7 +154,7 @@ impl MonotoneChains {
     }
 
     /// The lower left and upper right corner of each chain's box.
-    pub(crate) fn boxes(&self) -> impl Iterator<Item = [DVec2; 2]> + Clone + '_ {
+    pub(crate) fn boxes(&self) -> impl ExactSizeIterator<Item = [DVec2; 2]> + Clone + '_ {
         self.chains.iter().map(|chain| [chain.low, chain.high])
     }
 
@@ -189,25 +200,21 @@ impl MonotoneChains {
 /// The longest chain from a slot on that does not go beyond another slot.
 #[inline]
 fn longest_chain(points: &[DVec2], first: u32, end: u32) -> MonotoneChain {
-    let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
-    let rightward = lexicographic(a, b) == Ordering::Less;
+    // The sign of a difference of doubles is that of the exact one.
+    let leads_right = |step: DVec2| (step.x > 0.0) | ((step.x == 0.0) & (step.y > 0.0));
+    let rightward = leads_right(b - a);
     let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
-    let area = |a: DVec2, b: DVec2| ((b.x - a.x) * (b.y - a.y)).abs();
-    let mut areas = area(a, b);
+    let area = |sides: DVec2| (sides.x * sides.y).abs();
+    let mut areas = area(b - a);
     let mut last = first + 1;
-    while last < end {
-        let c = points[last as usize + 1];
-        if (lexicographic(b, c) == Ordering::Less) != rightward {
+    for &c in &points[first as usize + 2..=end as usize] {
+        let (low, high) = (bottom.min(c.y), top.max(c.y));
+        areas += area(c - b);
+        if leads_right(c - b) != rightward || area(DVec2::new(c.x - a.x, high - low)) > WIDEST * areas {
             break;
         }
-        areas += area(b, c);
-        let around = area(DVec2::new(a.x, bottom.min(c.y)), DVec2::new(c.x, top.max(c.y)));
-        if around > widest * areas {
-            break;
-        }
-        (bottom, top) = (bottom.min(c.y), top.max(c.y));
-        b = c;
+        (b, bottom, top) = (c, low, high);
         last += 1;
     }
     let (left, right) = if rightward { (a.x, b.x) } else { (b.x, a.x) };
