@@ -48,7 +48,7 @@ impl Crossing {
 #[inline]
 pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
     let (s, t) = (edges.segment(e), edges.segment(f));
-    // Most neighbours along a ring meet in their common end alone, which less tells than what follows.
+    // Most neighbours along a ring meet in their common end alone, as their corner tells.
     let corner = if f == e + 1 {
         Some([s[0], s[1], t[1]])
     } else {

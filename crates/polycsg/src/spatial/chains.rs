@@ -175,8 +175,8 @@ impl MonotoneChains {
 
     /// The largest absolute coordinate.
     pub(crate) fn size(&self) -> f64 {
-        let largest = |size: f64, p: DVec2| p.abs().max_element().max(size);
-        self.chains.iter().flat_map(|chain| [chain.low, chain.high]).fold(0.0, largest)
+        let larger = |size: DVec2, chain: &MonotoneChain| size.max(chain.low.abs()).max(chain.high.abs());
+        self.chains.iter().fold(DVec2::ZERO, larger).max_element()
     }
 
     fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
@@ -201,22 +201,21 @@ impl MonotoneChains {
 #[inline]
 fn longest_chain(points: &[DVec2], first: u32, end: u32) -> MonotoneChain {
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
-    // The sign of a difference of doubles is that of the exact one.
-    let leads_right = |step: DVec2| (step.x > 0.0) | ((step.x == 0.0) & (step.y > 0.0));
-    let rightward = leads_right(b - a);
-    let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
+    let leads_right = |a: DVec2, b: DVec2| a.x < b.x || (a.x == b.x && a.y < b.y);
+    let rightward = leads_right(a, b);
+    let [mut low, mut high] = bounds(a, b);
     let area = |sides: DVec2| (sides.x * sides.y).abs();
     let mut areas = area(b - a);
     let mut last = first + 1;
     for &c in &points[first as usize + 2..=end as usize] {
-        let (low, high) = (bottom.min(c.y), top.max(c.y));
+        let around = [low.min(c), high.max(c)];
         areas += area(c - b);
-        if leads_right(c - b) != rightward || area(DVec2::new(c.x - a.x, high - low)) > WIDEST * areas {
+        if leads_right(b, c) != rightward || area(around[1] - around[0]) > WIDEST * areas {
             break;
         }
-        (b, bottom, top) = (c, low, high);
+        b = c;
+        [low, high] = around;
         last += 1;
     }
-    let (left, right) = if rightward { (a.x, b.x) } else { (b.x, a.x) };
-    MonotoneChain { first, last, rightward, low: DVec2::new(left, bottom), high: DVec2::new(right, top) }
+    MonotoneChain { first, last, rightward, low, high }
 }
