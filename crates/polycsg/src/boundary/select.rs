@@ -148,9 +148,11 @@ impl Selection {
     fn round(&mut self, edges: &Edges, contacts: &Contacts) {
         self.rounded.clear();
         self.rounded.resize(contacts.node_count(), UNUSED);
-        for &node in self.pieces.iter().flat_map(|piece| &piece.nodes).flatten() {
-            if let Place::Crossing(..) = contacts.place(node) {
-                self.rounded[node as usize] = WANTED;
+        for nodes in self.pieces.iter().filter_map(|piece| piece.nodes) {
+            for node in nodes.map(|node| node as usize) {
+                if let Place::Crossing(..) = Place::of(contacts.nodes()[node]) {
+                    self.rounded[node] = WANTED;
+                }
             }
         }
         let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));

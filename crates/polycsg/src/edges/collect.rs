@@ -23,15 +23,17 @@ pub(crate) struct RingKey {
     ring: u32,
 }
 
-/// The rings of all operands, or of those alone that are not prepared.
-fn ring_keys<'a>(csg: &'a Csg<'_>, all: bool) -> impl Iterator<Item = RingKey> + 'a {
-    let leaves = (0..).zip(csg.postfix()).filter(|(_, leaf): &(u32, &Token<'_>)| leaf.rings().is_some());
-    let wanted = leaves.zip(0..).filter(move |((_, leaf), _)| all || !matches!(leaf, Token::Prepared(_)));
-    let read = wanted.filter_map(|((token, leaf), operand)| Some((token, leaf.rings()?, operand)));
-    read.flat_map(|(token, rings, operand)| {
-        let place = move |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
-        (0..).zip(rings.iter()).map(place)
-    })
+/// Lists the rings of all operands, or of those alone that are not prepared.
+fn list_rings(csg: &Csg<'_>, all: bool, keys: &mut Vec<RingKey>) {
+    let mut operand = 0;
+    for (token, leaf) in (0..).zip(csg.postfix()) {
+        let Some(rings) = leaf.rings() else { continue };
+        if all || !matches!(leaf, Token::Prepared(_)) {
+            let key = |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
+            keys.extend((0..).zip(rings.iter()).map(key));
+        }
+        operand += 1;
+    }
 }
 
 /// Whether each ring lies about as near to the one before it as it would when sorted by columns.
@@ -73,7 +75,7 @@ impl Edges {
         self.clear();
         all.clear();
         let window = bounds.window();
-        all.extend(ring_keys(csg, window.is_none()));
+        list_rings(csg, window.is_none(), all);
         if all.len() > FEW_RINGS && !are_near(all) {
             sort_by_place(all);
         }
@@ -157,7 +159,9 @@ impl Edges {
     /// Stores the origin of each slot.
     pub(super) fn store_origins(&mut self) {
         if self.origins.is_empty() {
-            self.origins = (0..index(self.points.len())).map(|slot| self.origin(slot)).collect();
+            let mut origins = std::mem::take(&mut self.origins);
+            origins.extend((0..index(self.points.len())).map(|slot| self.origin(slot)));
+            self.origins = origins;
         }
     }
 

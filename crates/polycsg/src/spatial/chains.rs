@@ -6,6 +6,7 @@
 //!   chain 1|   chain 2     only, and of two chains only what lies in both boxes meets.
 //! ```
 
+use super::strips::boxes_meet;
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range};
@@ -13,13 +14,15 @@ use std::{cmp::Ordering, ops::Range};
 /// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;
 
+/// Of so few points each edge is a chain.
+const FEW: usize = 16;
+
 /// So many edges are a run.
 const RUN: u32 = 8;
 
 /// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a
-/// rectangle. Among few points anything is quick.
+/// rectangle.
 const WIDEST: f64 = 32.0;
-const FEW: usize = 64;
 
 /// A run of edges and its box.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +30,8 @@ pub(crate) struct MonotoneChain {
     /// The slots of its points, in the order of the ring.
     first: u32,
     last: u32,
+    /// Whether it leads to the right or the left, and upward or downward, where it is monotone so.
+    ways: [Option<bool>; 2],
     pub(crate) low: DVec2,
     pub(crate) high: DVec2,
 }
@@ -55,47 +60,59 @@ impl MonotoneChain {
         if self.len() == 1 && other.len() == 1 {
             return visit(self.first, other.first);
         }
+        for (chain, next) in [(self, other), (other, self)] {
+            if chain.goes_on_in(next, points) {
+                return visit(chain.last - 1, next.first);
+            }
+        }
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         let (mut these, those) =
             (self.edges_within(points, low, high), other.edges_within(points, low, high));
         while these != 0 {
             let e = self.first + these.trailing_zeros();
             these &= these - 1;
-            let (low, high) = bounds(points[e as usize], points[e as usize + 1]);
+            let around = bounds(points[e as usize], points[e as usize + 1]);
             let mut left = those;
             while left != 0 {
                 let f = other.first + left.trailing_zeros();
                 left &= left - 1;
-                if meets(points[f as usize], points[f as usize + 1], low, high) {
+                if boxes_meet(bounds(points[f as usize], points[f as usize + 1]), around) {
                     visit(e, f);
                 }
             }
         }
     }
 
-    /// The edges whose boxes meet a box, as bits in the order of the ring.
+    /// Whether another chain leads on from the end of this one, the edges there too: then only these two edges meet.
+    #[inline]
+    fn goes_on_in(&self, next: &MonotoneChain, points: &[DVec2]) -> bool {
+        let leads_on = |edge: u32| {
+            let step = points[edge as usize + 1] - points[edge as usize];
+            [step.x != 0.0, step.y != 0.0]
+        };
+        self.last == next.first && {
+            let (before, behind) = (leads_on(self.last - 1), leads_on(next.first));
+            let goes_on = |way: usize| self.ways[way].is_some() && self.ways[way] == next.ways[way];
+            [0, 1].iter().any(|&way| goes_on(way) && before[way] && behind[way])
+        }
+    }
+
+    /// The edges whose boxes meet a box, as bits in the order of the ring; of one or two edges all.
     #[inline]
     fn edges_within(&self, points: &[DVec2], low: DVec2, high: DVec2) -> u32 {
-        if self.len() == 1 {
-            return 1;
+        if self.len() <= 2 {
+            return (1 << self.len()) - 1;
         }
         let ends = points[self.first as usize..=self.last as usize].windows(2);
-        (0..).zip(ends).fold(0, |edges, (i, ends)| edges | u32::from(meets(ends[0], ends[1], low, high)) << i)
+        let meets = |ends: &[DVec2]| u32::from(boxes_meet(bounds(ends[0], ends[1]), [low, high]));
+        ends.rev().fold(0, |edges, ends| edges << 1 | meets(ends))
     }
 }
 
 /// The box around two points.
 #[inline]
-fn bounds(a: DVec2, b: DVec2) -> (DVec2, DVec2) {
-    (a.min(b), a.max(b))
-}
-
-/// Whether the box around two points meets another one.
-#[inline]
-fn meets(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> bool {
-    let (left, right) = if a.x < b.x { (a.x, b.x) } else { (b.x, a.x) };
-    let (bottom, top) = if a.y < b.y { (a.y, b.y) } else { (b.y, a.y) };
-    (left <= high.x) & (right >= low.x) & (bottom <= high.y) & (top >= low.y)
+fn bounds(a: DVec2, b: DVec2) -> [DVec2; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// The chains of rings, ring by ring.
@@ -109,7 +126,7 @@ pub(crate) struct MonotoneChains {
 impl MonotoneChains {
     /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
     pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
-        self.cut(points, rings, LONGEST);
+        self.cut(points, rings, if points.len() <= FEW { 1 } else { LONGEST });
     }
 
     /// Makes each edge a chain.
@@ -127,7 +144,7 @@ impl MonotoneChains {
                 let around = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
                 let run = &points[first as usize..=last as usize];
                 let (low, high) = run.iter().fold((DVec2::MAX, DVec2::MIN), around);
-                self.chains.push(MonotoneChain { first, last, low, high });
+                self.chains.push(MonotoneChain { first, last, ways: [None; 2], low, high });
             }
         }
     }
@@ -146,7 +163,7 @@ impl MonotoneChains {
     }
 
     /// The lower left and upper right corner of each chain's box.
-    pub(crate) fn boxes(&self) -> impl Iterator<Item = [DVec2; 2]> + Clone + '_ {
+    pub(crate) fn boxes(&self) -> impl ExactSizeIterator<Item = [DVec2; 2]> + Clone + '_ {
         self.chains.iter().map(|chain| [chain.low, chain.high])
     }
 
@@ -167,8 +184,8 @@ impl MonotoneChains {
 
     /// The largest absolute coordinate.
     pub(crate) fn size(&self) -> f64 {
-        let largest = |size: f64, p: DVec2| p.abs().max_element().max(size);
-        self.chains.iter().flat_map(|chain| [chain.low, chain.high]).fold(0.0, largest)
+        let larger = |size: DVec2, chain: &MonotoneChain| size.max(chain.low.abs()).max(chain.high.abs());
+        self.chains.iter().fold(DVec2::ZERO, larger).max_element()
     }
 
     fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
@@ -197,25 +214,23 @@ fn ways(step: DVec2) -> [bool; 2] {
 /// The longest chain from a slot on that does not go beyond another slot, and its lexicographically smallest slot.
 #[inline]
 fn longest_chain(points: &[DVec2], first: u32, end: u32) -> (MonotoneChain, u32) {
-    let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
     // The sign of a difference of doubles is that of the exact one.
     let [rightward, upward] = ways(b - a);
     let mut turned = [false; 2];
-    let (mut low, mut high) = bounds(a, b);
+    let [mut low, mut high] = bounds(a, b);
     let area = |sides: DVec2| (sides.x * sides.y).abs();
     let mut areas = area(b - a);
     let mut last = first + 1;
-    while last < end {
-        let c = points[last as usize + 1];
+    for &c in &points[first as usize + 2..=end as usize] {
         let way = ways(c - b);
         let turns = [turned[0] | (way[0] != rightward), turned[1] | (way[1] != upward)];
+        let around = [low.min(c), high.max(c)];
         areas += area(c - b);
-        let around = (low.min(c), high.max(c));
-        if turns == [true; 2] || area(around.1 - around.0) > widest * areas {
+        if turns == [true; 2] || area(around[1] - around[0]) > WIDEST * areas {
             break;
         }
-        ((low, high), b, turned) = (around, c, turns);
+        ([low, high], b, turned) = (around, c, turns);
         last += 1;
     }
     let by_place = |v: &u32, w: &u32| lexicographic(points[*v as usize], points[*w as usize]);
@@ -224,5 +239,6 @@ fn longest_chain(points: &[DVec2], first: u32, end: u32) -> (MonotoneChain, u32)
         (false, true) => first,
         (false, false) => last,
     };
-    (MonotoneChain { first, last, low, high }, left)
+    let ways = [(!turned[0]).then_some(rightward), (!turned[1]).then_some(upward)];
+    (MonotoneChain { first, last, ways, low, high }, left)
 }
