@@ -246,7 +246,8 @@ impl Cycles {
         match (at_start, outline.points(chain)) {
             (true, &[_, next, ..]) => next,
             (true, points) => match self.next[chain as usize] {
-                NONE => DVec2::new(points[0].x, -f64::MAX.copysign(points[0].y)),
+                NONE if points[0] == DVec2::MAX => DVec2::MIN,
+                NONE => DVec2::MAX,
                 next => outline.points(next)[0],
             },
             (false, points) => points[points.len() - 1],

@@ -29,9 +29,24 @@
 //! too little. Two edges with a common end are reported only if they may meet elsewhere too, so that a fan of edges costs
 //! no more than other edges.
 //!
-//! The index can also report edges that come near one another without meeting. Then there is no such order: edges whose
-//! heights agree within a wider error are reported, and those that are as near to a stair from side to side count as
-//! coincident with it.
+//! The index can also report edges that come near one another without meeting. Then there is no such order: edges are *near*
+//! at a side where their computed heights differ by no more than a wider error, the slack. Those near a stair at both sides
+//! count as coincident with it. Two stairs are near one another only if they share an end:
+//!
+//! ```text
+//!      _____c    Stairs are not compared with one another. It is not enough that each is clear of the one before or shares an
+//!    b/___/      end with it: here b shares one with a, c the other one with b, and a and c are near. So each is clear
+//!     \___a      of all stairs but the one before.
+//! ```
+//!
+//! Edges that stay near would be found in slab after slab. So a pair is passed over where both come into a slab, from further
+//! left, and are near there. It was found before, or shares an end:
+//!
+//! Both span the last slab with a width before this one, so one of the slabs that hold it was the last that had both; call it
+//! `W`. It ends on the same vertical, where the heights are the same as here, bit for bit. In `W` both were compared: as a few
+//! edges, each with each; or one was a stair and the other not, and the search looks three slacks around the other; or both
+//! were coincident with stairs, which then are within three slacks, as far as coincident segments are compared; and two
+//! stairs are not near. Where the pair was passed over in `W`, it was near at its left side, and the same holds there.
 
 mod beside;
 mod column;

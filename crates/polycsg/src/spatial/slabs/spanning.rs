@@ -28,9 +28,7 @@ impl SlabDecomposition {
 
     /// Moves spanning segments, none of which meets another, to the stairs: from below each that is above the last one.
     ///
-    /// Stairs are not compared with one another. So where all that comes near is asked for, a stair is also higher than all
-    /// before the last one by more than the slack, at both sides: the last one may be near if they share an end, and
-    /// that one may share its other end with the stair before it.
+    /// Where all that comes near is asked for, each is higher than all but that one by more than the slack, at both sides.
     pub(super) fn choose_stairs(&mut self, slab: Slab) {
         let SlabDecomposition { spanning, stairs, fans, ends, slack, reach, .. } = self;
         let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
@@ -215,14 +213,8 @@ impl SlabDecomposition {
         meets.then(|| ([e.segment.id, f.segment.id], !self.was_found(e, f, slab)))
     }
 
-    /// Whether two edges come near one another where both come into a slab. Then they were found in a slab to the left, where
-    /// all that comes near is asked for, or share an end.
-    ///
-    /// For both span the last slab with a width before this one. So they were compared in a slab `W` that ends with that one,
-    /// and have the same heights at its right side as here. One is a stair there and the other not: then `near` has the
-    /// stair. Or they are coincident with stairs that are no further apart there than `compare_coincident` looks. Or they are
-    /// compared as a few, by `may_meet`. But not both are stairs: these are near one another only if they share
-    /// an end, see `choose_stairs`. If the pair was left out in `W` as found, so it was further left.
+    /// Whether two edges come near one another where both come into a slab, and all that does is asked for. Then they were
+    /// found further left, or share an end: see the module's page.
     pub(super) fn was_found(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> bool {
         let comes_in = |clipped: &ClippedSegment| {
             self.ends[clipped.segment.ranks[0] as usize].x < self.ends[slab[0] as usize].x
