@@ -120,17 +120,21 @@ impl SlabDecomposition {
         self.pass(slab[1], base);
     }
 
-    /// Finds what is asked for between the stairs of a slab and all else in it.
+    /// Finds what is asked for between the stairs of a slab and all else in it: at first all that spans it may be stairs.
     fn look_at_spanning(&mut self, slab: Slab, Search { quest, meter }: Search<'_>) {
         let is_last = slab[1] - slab[0] == 1;
         let mut round = 0;
-        while !self.spanning.is_empty() && (round < ROUNDS || is_last) && !self.found.is_over() {
+        while !self.stairs.is_empty() && !self.found.is_over() {
             round += 1;
-            self.found.allow(meter.spend(self.spanning.len()));
+            self.found.allow(meter.spend(self.stairs.len()));
             self.choose_stairs(slab);
             match quest {
                 Quest::Pairs => self.compare_stairs(slab),
                 Quest::Below => self.queries_in(slab).for_each(|query| self.look_at_stairs(query, slab)),
+            }
+            self.stairs.clear();
+            if round < ROUNDS || is_last {
+                self.stairs.append(&mut self.spanning);
             }
         }
     }
@@ -141,18 +145,18 @@ impl SlabDecomposition {
 
     /// Takes apart the edges that span a slab, in their order, and those that end or start in it.
     fn sort_out(&mut self, slab: Slab, base: usize, starts: Range<usize>) {
-        let (mut spanning, mut partial) =
-            (std::mem::take(&mut self.spanning), std::mem::take(&mut self.partial));
-        spanning.clear();
+        let (mut stairs, mut partial) = (std::mem::take(&mut self.stairs), std::mem::take(&mut self.partial));
+        self.spanning.clear();
+        stairs.clear();
         partial.clear();
         for passing in &self.passing[base..] {
             let right = passing.segment.ranks[1].min(slab[1]);
             let clipped =
                 ClippedSegment { heights: [passing.heights[0], self.height(passing, right)], ..*passing };
-            if right == slab[1] { spanning.push(clipped) } else { partial.push(clipped) }
+            if right == slab[1] { stairs.push(clipped) } else { partial.push(clipped) }
         }
         partial.extend(self.edges(starts).map(|segment| self.clip(segment, slab)));
-        (self.spanning, self.partial) = (spanning, partial);
+        (self.stairs, self.partial) = (stairs, partial);
         self.sort_ties(slab);
     }
 

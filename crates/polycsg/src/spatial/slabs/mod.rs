@@ -105,7 +105,7 @@ pub(crate) struct SlabDecomposition {
     passing: Vec<ClippedSegment>,
     /// What started in the slab just left behind and goes beyond it, in its order there.
     starting: Vec<ClippedSegment>,
-    /// The segments that span the slab at hand, those of them that are its stairs, and the edges that end or start in it.
+    /// Of the segments that span the slab at hand its stairs and the rest, and the edges that end or start in it.
     spanning: Vec<ClippedSegment>,
     stairs: Vec<ClippedSegment>,
     partial: Vec<ClippedSegment>,

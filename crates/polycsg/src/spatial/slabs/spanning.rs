@@ -11,10 +11,10 @@ impl SlabDecomposition {
     /// Sorts spanning segments whose heights at the left side do not tell them apart: exactly, unless all that comes near is
     /// asked for; those from one point by their other heights.
     pub(super) fn sort_ties(&mut self, slab: Slab) {
-        let SlabDecomposition { spanning, ends, slack, reach, .. } = self;
+        let SlabDecomposition { stairs, ends, slack, reach, .. } = self;
         let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
         let is_tied = |a: &ClippedSegment, b: &ClippedSegment| b.heights[0] - a.heights[0] <= order.slack;
-        for tied in spanning.chunk_by_mut(is_tied).filter(|tied| tied.len() > 1) {
+        for tied in stairs.chunk_by_mut(is_tied).filter(|tied| tied.len() > 1) {
             if order.is_exact {
                 tied.sort_by(|a, b| order.compare(a, b, slab));
             } else {
@@ -26,26 +26,26 @@ impl SlabDecomposition {
         }
     }
 
-    /// Moves spanning segments, none of which meets another, to the stairs: from below each that is above the last one.
-    ///
-    /// Where all that comes near is asked for, each is higher than all but that one by more than the slack, at both sides.
+    /// Leaves of the stairs those of which none meets another, from below each that is above the last one; the rest are
+    /// spanning segments still. Where all that comes near is asked for, each is higher than all but that one by more than
+    /// the slack, at both sides.
     pub(super) fn choose_stairs(&mut self, slab: Slab) {
         let SlabDecomposition { spanning, stairs, fans, ends, slack, reach, .. } = self;
         let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
-        let mut highest = DVec2::NEG_INFINITY;
-        stairs.clear();
+        let (mut highest, mut last) = (DVec2::NEG_INFINITY, None);
         fans.clear();
-        spanning.retain(|span| {
-            let heights = DVec2::from(span.heights);
-            let is_clear = order.is_exact || (highest + order.slack).cmplt(heights).all();
-            let fits = stairs.last().is_none_or(|last: &ClippedSegment| {
+        stairs.retain(|span| {
+            let is_clear = order.is_exact || (highest + order.slack).cmplt(DVec2::from(span.heights)).all();
+            let fits = last.as_ref().is_none_or(|last: &ClippedSegment| {
                 is_clear && order.is_below(last, span, 0, slab) && order.is_below(last, span, 1, slab)
             });
             if fits {
-                highest = stairs.last().map_or(highest, |last| highest.max(last.heights.into()));
-                stairs.push(*span);
+                let before = last.replace(*span);
+                highest = before.map_or(highest, |before| highest.max(before.heights.into()));
+            } else {
+                spanning.push(*span);
             }
-            !fits
+            fits
         });
     }
 

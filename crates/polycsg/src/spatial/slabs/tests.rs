@@ -57,6 +57,10 @@ fn once(segments: &[Segment]) -> Vec<Segment> {
     (0..segments.len()).filter(|&i| is_first(i)).map(|i| segments[i]).collect()
 }
 
+fn few_roundings((x, y): (u64, u64)) -> DVec2 {
+    DVec2::new(f64::from_bits(1.5_f64.to_bits() + x), f64::from_bits(2.5_f64.to_bits() + y))
+}
+
 fn lattice(size: i32) -> impl Strategy<Value = DVec2> + Clone {
     (0..size, 0..size).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
 }
@@ -207,11 +211,18 @@ proptest! {
 
     /// All points within a few roundings, so that all is near: paths from point to point, upright and slanted, that share ends.
     #[test]
-    fn paths_within_a_few_roundings(paths in prop::collection::vec(prop::collection::vec((0_u64..6, 0_u64..40), 3..9), 4..12)) {
-        let at = |&(x, y): &(u64, u64)| DVec2::new(f64::from_bits(1.5_f64.to_bits() + x), f64::from_bits(2.5_f64.to_bits() + y));
-        let paths = paths.iter().flat_map(|path| path.windows(2).map(|pair| [at(&pair[0]), at(&pair[1])]));
-        let segments = distinct(paths.collect());
-        check_near(&once(&segments));
+    fn paths_within_a_few_roundings(paths in prop::collection::vec(prop::collection::vec((0..6, 0..40), 3..9), 4..12)) {
+        let paths = paths.iter().flat_map(|path| path.windows(2).map(|ends| [ends[0], ends[1]].map(few_roundings)));
+        let segments = once(&distinct(paths.collect()));
+        check_near(&segments);
+        check(&segments);
+    }
+
+    /// The same from few points to few others, with most ends shared.
+    #[test]
+    fn fans_within_a_few_roundings(segments in prop::collection::vec([(0..3_u64, 0..6_u64), (4..7, 0..6)], 33..80)) {
+        let segments = once(&segments.into_iter().map(|ends| ends.map(few_roundings)).collect::<Vec<_>>());
+        check_near(&segments);
         check(&segments);
     }
 
