@@ -211,7 +211,7 @@ proptest! {
 
     /// All points within a few roundings, so that all is near: paths from point to point, upright and slanted, that share ends.
     #[test]
-    fn paths_within_a_few_roundings(paths in prop::collection::vec(prop::collection::vec((0..6, 0..40), 3..9), 4..12)) {
+    fn paths_within_a_few_roundings(paths in prop::collection::vec(prop::collection::vec((0..6_u64, 0..40_u64), 3..9), 4..12)) {
         let paths = paths.iter().flat_map(|path| path.windows(2).map(|ends| [ends[0], ends[1]].map(few_roundings)));
         let segments = once(&distinct(paths.collect()));
         check_near(&segments);
@@ -220,7 +220,7 @@ proptest! {
 
     /// The same from few points to few others, with most ends shared.
     #[test]
-    fn fans_within_a_few_roundings(segments in prop::collection::vec([(0..3_u64, 0..6_u64), (4..7, 0..6)], 33..80)) {
+    fn fans_within_a_few_roundings(segments in prop::collection::vec([(0..3_u64, 0..6_u64), (4..7_u64, 0..6_u64)], 33..80)) {
         let segments = once(&segments.into_iter().map(|ends| ends.map(few_roundings)).collect::<Vec<_>>());
         check_near(&segments);
         check(&segments);
