@@ -218,14 +218,6 @@ proptest! {
         check(&segments);
     }
 
-    /// The same from few points to few others, with most ends shared.
-    #[test]
-    fn fans_within_a_few_roundings(segments in prop::collection::vec([(0..3_u64, 0..6_u64), (4..7_u64, 0..6_u64)], 33..80)) {
-        let segments = once(&segments.into_iter().map(|ends| ends.map(few_roundings)).collect::<Vec<_>>());
-        check_near(&segments);
-        check(&segments);
-    }
-
     #[test]
     fn over_the_whole_range(segments in segments(
         [prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL, prop::num::f64::NORMAL].prop_map(|[x, y]| DVec2::new(x, y)), 60,
