@@ -2,3 +2,5 @@
 
 pub(crate) mod link;
 pub(crate) mod nest;
+#[cfg(test)]
+mod tests;

@@ -35,16 +35,17 @@ impl Found {
         self.refused.map_or(Ok(()), Err)
     }
 
-    /// Adds pairs, which may only come near one another; when there are too many, nothing.
+    /// Adds pairs, each with whether it may be new, which may only come near one another; when there are too many, nothing. Those
+    /// that are not new are counted, as looking at them takes as long.
     #[inline]
-    pub(super) fn add(&mut self, pairs: impl Iterator<Item = [u32; 2]>, is_near: bool) {
+    pub(super) fn add(&mut self, pairs: impl Iterator<Item = ([u32; 2], bool)>, is_near: bool) {
         if self.is_over {
             return;
         }
-        let before = self.pairs.len();
-        self.pairs.extend(pairs.map(|[i, j]| [i.min(j), i.max(j)]));
+        let mut count = 0;
+        let new = pairs.inspect(|_| count += 1).filter(|pair| pair.1);
+        self.pairs.extend(new.map(|([i, j], _)| [i.min(j), i.max(j)]));
         if is_near {
-            let count = self.pairs.len() - before;
             self.is_over = count > self.near;
             self.near = self.near.saturating_sub(count);
         }
