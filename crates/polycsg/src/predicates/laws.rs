@@ -114,11 +114,27 @@ pub(super) fn filtered([a, b]: Segment, [c, d]: Segment) -> Parameter {
     Parameter::of_crossing(doubled_area(c, d, a), doubled_area(c, d, b))
 }
 
+/// What the bounds of two parameters prove.
+pub(super) fn certain_order(p: Parameter, q: Parameter) -> Option<Ordering> {
+    order_of_bounds([p.low(), p.high()], [q.low(), q.high()])
+}
+
+fn order_of_bounds<B: PartialOrd>(p: [B; 2], q: [B; 2]) -> Option<Ordering> {
+    let (less, greater) = (p[1] < q[0], p[0] > q[1]);
+    (less || greater).then_some(if less { Ordering::Less } else { Ordering::Greater })
+}
+
 fn certain_parameters_are_in_order(all: &Configuration) -> Option<bool> {
     let &[a, b, c, d, g, h] = all;
     let exact = order_of_crossings(all)?;
-    let certain = filtered([a, b], [c, d]).certain_order(filtered([a, b], [g, h]));
-    Some(certain.is_none_or(|order| order == exact))
+    let certain = certain_order(filtered([a, b], [c, d]), filtered([a, b], [g, h]));
+    let [l, r] = [[c, d], [g, h]].map(|f| FineParameter::of_crossing([a, b], f));
+    Some(
+        [certain, order_of_bounds([l.low, l.high], [r.low, r.high])]
+            .iter()
+            .flatten()
+            .all(|&order| order == exact),
+    )
 }
 
 /// A point of an edge and a crossing on it: by the predicate, and by parameters where those are certain.
@@ -132,8 +148,11 @@ fn points_and_crossings_are_in_order(&[a, b, c, d, g, _]: &Configuration) -> Opt
     let axis = usize::from(run[0].is_zero());
     let scale = run[axis].signum();
     let exact = compare(&[&at[axis] * &scale, &run[axis] * &scale], &parameter([p, q], [r, s]));
-    let certain = Parameter::of_point([a, b], g).certain_order(filtered([a, b], [c, d]));
-    Some(point_crossing_order([a, b], g, [c, d]) == exact && certain.is_none_or(|order| order == exact))
+    let certain = certain_order(Parameter::of_point([a, b], g), filtered([a, b], [c, d]));
+    let (l, r) = (FineParameter::of_point([a, b], g), FineParameter::of_crossing([a, b], [c, d]));
+    let finely = order_of_bounds([l.low, l.high], [r.low, r.high]);
+    let mut told = [Some(point_crossing_order([a, b], g, [c, d])), certain, finely].into_iter().flatten();
+    Some(told.all(|order| order == exact))
 }
 
 fn heights_are_in_order(&[a, b, c, d, ..]: &Configuration) -> Option<bool> {

@@ -19,6 +19,7 @@ mod band;
 mod clear;
 #[cfg(any(test, fuzzing))]
 mod configurations;
+mod distance;
 mod fixed;
 #[cfg(any(test, fuzzing))]
 pub(crate) mod laws;
@@ -40,6 +41,6 @@ pub(crate) use order::{
     crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
 };
 pub(crate) use orient::{Area, doubled_area, side, side_of, turn};
-pub(crate) use parameter::Parameter;
+pub(crate) use parameter::{FineParameter, Parameter};
 pub(crate) use round::{crossing_point, crossing_ratio};
 pub(crate) use segment::{Segment, Side};
