@@ -73,18 +73,18 @@ impl Repair {
     ///
     /// # Errors
     /// Those of the limits of the index.
-    pub(crate) fn outline<'o>(
+    pub(crate) fn outline(
         &mut self,
         rounded: Rounded<'_>,
         close_pairs: &ClosePairs,
         mut index: Index<'_>,
-        outline: &'o mut Outline,
-    ) -> Result<&'o Outline, Error> {
+        outline: &mut Outline,
+    ) -> Result<(), Error> {
         if self.is_sound(rounded, close_pairs, &mut index)? {
             outline.take(rounded.edges, rounded.contacts, rounded.selection);
+            Ok(())
         } else {
-            self.cut(rounded, &mut index, outline)?;
+            self.cut(rounded, &mut index, outline)
         }
-        Ok(outline)
     }
 }
