@@ -11,12 +11,17 @@ use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic
 use crate::spatial::{chains::LONGEST, slabs::SlabDecomposition};
 use glam::DVec2;
 
+/// So many pairs for each edge are noted.
+const PAIRS: usize = 64;
+
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct ClosePairs {
     /// Whether all edges count as close.
     all: bool,
     pairs: Vec<[u32; 2]>,
+    /// More pairs take longer than all edges.
+    most: usize,
     margins: Margins,
     /// The places close together on an edge.
     pub(crate) close: Vec<ClosePlaces>,
@@ -47,9 +52,10 @@ pub(super) struct CloseGroups {
 }
 
 impl ClosePairs {
-    /// Starts over for coordinates up to a size; where pairs are not wanted, all edges count as close.
-    pub(crate) fn start(&mut self, size: f64, wanted: bool) {
+    /// Starts over for so many edges with coordinates up to a size; where pairs are not wanted, all edges count as close.
+    pub(crate) fn start(&mut self, edges: usize, size: f64, wanted: bool) {
         self.all = !wanted;
+        self.most = PAIRS * edges.max(PAIRS);
         self.pairs.clear();
         self.close.clear();
         self.margins = Margins::for_size(size);
@@ -69,6 +75,7 @@ impl ClosePairs {
     }
 
     pub(crate) fn add(&mut self, e: u32, f: u32) {
+        self.all |= self.pairs.len() > self.most;
         if !self.all {
             self.pairs.push([e, f]);
         }

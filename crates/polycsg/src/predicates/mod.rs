@@ -10,6 +10,7 @@
 //! | [`crossing_order`] | which of two crossings comes first along an edge | 4 |
 //! | [`height_order`] | which of two edges is lower at an abscissa | 3 |
 //! | [`crossing_x_order`] | does a crossing lie left of an abscissa | 3 |
+//! | [`crossings_x_order`] | which of two crossings lies further left | 6 |
 //! | [`Margins`] | do two edges cross, or not meet, whatever rounding does | 2 |
 //! | [`Window`], [`Band`] | does a box lie on one side of an edge, or of some points | 2 |
 //! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
@@ -38,7 +39,8 @@ pub(crate) use band::{Band, Window};
 pub(crate) use clear::{Clear, Margins};
 pub(crate) use exactfloat::Ratio;
 pub(crate) use order::{
-    crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
+    crossing_order, crossing_x_order, crossings_x_order, height_order, is_inside, lexicographic,
+    point_crossing_order, rightward,
 };
 pub(crate) use orient::{Area, doubled_area, side, side_of, turn};
 pub(crate) use parameter::{FineParameter, Parameter};

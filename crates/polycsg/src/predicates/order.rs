@@ -121,13 +121,34 @@ pub(crate) fn crossing_x_order(e: Segment, f: Segment, x: f64) -> Ordering {
     }
 }
 
-/// The crossing p of the two lines has u_e × p = -c_e and u_f × p = -c_f, so that p (u_e × u_f) = u_e c_f - u_f c_e.
 fn crossing_x_order_by_bounds(e: Segment, f: Segment, x: f64) -> Option<Ordering> {
+    let [shift, area] = abscissa([e, f]);
+    sided(shift.compare(area * Wide::from(x))?, [area])
+}
+
+/// The order of the abscissae of two crossings.
+pub(crate) fn crossings_x_order(at: [Segment; 2], other: [Segment; 2]) -> Ordering {
+    let by_bounds = || {
+        let ([s, a], [t, b]) = (abscissa(at), abscissa(other));
+        sided((s * b).compare(t * a)?, [a, b])
+    };
+    by_bounds()
+        .unwrap_or_else(|| crossing_ratio(at[0], at[1])[0].compare(&crossing_ratio(other[0], other[1])[0]))
+}
+
+/// The crossing p of the two lines has u_e × p = -c_e and u_f × p = -c_f, so that p (u_e × u_f) = u_e c_f - u_f c_e: the abscissa
+/// as a quotient.
+fn abscissa([e, f]: [Segment; 2]) -> [Wide; 2] {
     let [(ue, ce), (uf, cf)] = [e, f].map(from_origin);
-    let area = cross(ue, uf);
-    let order = (ue[0] * cf - uf[0] * ce).compare(area * Wide::from(x))?;
-    let is_turned = area.compare(Wide::from(0.0))? == Ordering::Less;
-    Some(if is_turned { order.reverse() } else { order })
+    [ue[0] * cf - uf[0] * ce, cross(ue, uf)]
+}
+
+/// The order of two quotients by that of their products with denominators, as far as the signs of these are known.
+fn sided<const N: usize>(order: Ordering, denominators: [Wide; N]) -> Option<Ordering> {
+    denominators.into_iter().try_fold(order, |order, denominator| {
+        let is_negative = denominator.compare(Wide::from(0.0))? == Ordering::Less;
+        Some(if is_negative { order.reverse() } else { order })
+    })
 }
 
 /// The edge directed from its lexicographically smaller end.

@@ -24,17 +24,19 @@ impl Repair {
         outline: &mut Outline,
     ) -> Result<(), Error> {
         let (mut may_coincide, mut overlap) = (false, false);
-        loop {
+        for round in 1.. {
             index.meter.spend(self.fragments.len() + self.conflicts.len())?;
             may_coincide |= self.classes.len() < self.alike.len();
-            let affected = self.list_cuts(rounded, &mut overlap);
+            let affected = self.list_cuts(rounded, round, &mut overlap);
             if self.cuts.is_empty() {
                 break;
             }
             rounded.cut_up(&self.cuts, &mut self.fragments);
             let mut near = Near::to(affected.into_iter());
-            self.find_alike(|fragment| near.meets(fragment.segment));
-            self.find_conflicts(index)?;
+            self.find_alike(|fragment| near.is_slow() || near.meets(fragment.segment));
+            if !self.find_conflicts_again(round, index)? {
+                self.find_conflicts(index)?;
+            }
         }
         debug_assert!(overlap || self.is_repaired(index)?);
         self.vertices = self.fragments.len() - self.parts.len();
@@ -69,7 +71,8 @@ impl Repair {
         for class in alike.chunk_by(|&i, &j| compare(i, j) == Ordering::Equal) {
             let end = start + class.len();
             let moved = class.iter().any(|&i| fragments[i as usize].moved);
-            classes.push(Class { members: start..end, moved });
+            let round = class.iter().map(|&i| fragments[i as usize].round).max().unwrap_or(0);
+            classes.push(Class { members: start..end, moved, round });
             start = end;
         }
     }
@@ -109,6 +112,32 @@ impl Repair {
         Ok(())
     }
 
+    /// The same where all conflicts are those of classes with fragments that were in conflict in a round; returns false, having
+    /// found some, where these are too many for boxes.
+    fn find_conflicts_again(&mut self, round: u32, index: &Index<'_>) -> Result<bool, Error> {
+        let is_again = |class: u32| self.classes[class as usize].round == round;
+        let all = 0..id::index(self.classes.len());
+        let again: Vec<u32> = all.clone().filter(|&class| is_again(class)).collect();
+        let mut near = Near::to(again.iter().map(|&class| self.one_of(class).segment));
+        let mut conflicts = std::mem::take(&mut self.conflicts);
+        conflicts.clear();
+        for class in all {
+            near.meeting(self.one_of(class).segment, |place| {
+                let other = again[place as usize];
+                if other < class || !is_again(class) {
+                    conflicts.extend(self.conflict(other.min(class), other.max(class)));
+                }
+                true
+            });
+            index.meter.spend(1)?;
+            if near.is_slow() {
+                break;
+            }
+        }
+        self.conflicts = conflicts;
+        Ok(!near.is_slow())
+    }
+
     /// The pair of classes, if they are in conflict.
     pub(super) fn conflict(&self, i: u32, j: u32) -> Option<[u32; 2]> {
         let moved = [i, j].iter().any(|&class| self.classes[class as usize].moved);
@@ -117,7 +146,7 @@ impl Repair {
 
     /// Lists cuts of the conflicting fragments at the common ends of those that they conflict with, and notes whether there
     /// are any that cannot be cut so; returns the segments of the others, in whose boxes their new fragments will lie.
-    fn list_cuts(&mut self, rounded: Rounded<'_>, overlap: &mut bool) -> Vec<Segment> {
+    fn list_cuts(&mut self, rounded: Rounded<'_>, round: u32, overlap: &mut bool) -> Vec<Segment> {
         let mut affected = Vec::new();
         let mut common = vec![None; self.classes.len()];
         let mut cuts = std::mem::take(&mut self.cuts);
@@ -132,13 +161,19 @@ impl Repair {
             if cuts.len() == before {
                 *overlap = true;
             } else {
-                affected.extend([i, j].map(|class| self.one_of(class).segment));
+                affected.extend([i, j]);
             }
         }
+        affected.sort_unstable();
+        affected.dedup();
+        let members = affected
+            .iter()
+            .flat_map(|&class| self.alike[self.classes[class as usize].members.clone()].iter());
+        members.for_each(|&i| self.fragments[i as usize].round = round);
         cuts.sort_unstable();
         cuts.dedup();
         self.cuts = cuts;
-        affected
+        affected.into_iter().map(|class| self.one_of(class).segment).collect()
     }
 
     /// The ends of the abscissae that all of a class have in common: the left end furthest right and the right end furthest
