@@ -75,10 +75,7 @@ impl ClosePairs {
     }
 
     pub(crate) fn add(&mut self, e: u32, f: u32) {
-        self.all |= self.pairs.len() > self.most;
-        if !self.all {
-            self.pairs.push([e, f]);
-        }
+        self.add_group(&[f, e]);
     }
 
     /// Notes what comes near an edge where the [`SlabDecomposition`] takes the place of boxes, and lets it report the rest. Where
@@ -144,6 +141,7 @@ impl ClosePairs {
         let is_crossing = |contact: &Contact| {
             matches!(contact.partner.kind(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
         };
+        self.all |= self.close.len() > self.most;
         if self.all || !contacts.iter().any(is_crossing) {
             return;
         }
@@ -169,7 +167,7 @@ impl ClosePairs {
     /// Notes all pairs of edges that meet close together; where they are many, all edges count as close.
     pub(crate) fn add_group(&mut self, group: &[u32]) {
         const MOST: usize = 64;
-        self.all |= group.len() > MOST;
+        self.all |= group.len() > MOST || self.pairs.len() > self.most;
         for (i, &e) in group.iter().enumerate().take_while(|_| !self.all) {
             self.pairs.extend(group[..i].iter().filter(|&&f| f != e).map(|&f| [e, f]));
         }
