@@ -56,22 +56,20 @@ impl Repair {
     /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
     pub(super) fn find_alike(&mut self, mut wanted: impl FnMut(&Fragment) -> bool) {
         let Repair { fragments, alike, classes, .. } = self;
+        let mut is_wanted = |f: &Fragment| f.segment[0] != f.segment[1] && wanted(f);
         alike.clear();
-        alike.extend((0..id::index(fragments.len())).filter(|&i| {
-            let fragment = &fragments[i as usize];
-            fragment.segment[0] != fragment.segment[1] && wanted(fragment)
-        }));
-        let compare = |i: u32, j: u32| {
-            let (s, t) = (rightward(fragments[i as usize].segment), rightward(fragments[j as usize].segment));
-            lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]))
-        };
-        alike.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
+        alike.extend(
+            fragments.iter().zip(0..).filter(|(f, _)| is_wanted(f)).map(|(f, i)| (rightward(f.segment), i)),
+        );
+        let compare =
+            |s: Segment, t: Segment| lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]));
+        alike.sort_unstable_by(|&(s, i), &(t, j)| compare(s, t).then(i.cmp(&j)));
         classes.clear();
         let mut start = 0;
-        for class in alike.chunk_by(|&i, &j| compare(i, j) == Ordering::Equal) {
+        for class in alike.chunk_by(|(s, _), (t, _)| s == t) {
             let end = start + class.len();
-            let moved = class.iter().any(|&i| fragments[i as usize].moved);
-            let round = class.iter().map(|&i| fragments[i as usize].round).max().unwrap_or(0);
+            let members = || class.iter().map(|&(_, i)| &fragments[i as usize]);
+            let (moved, round) = (members().any(|f| f.moved), members().map(|f| f.round).max().unwrap_or(0));
             classes.push(Class { members: start..end, moved, round });
             start = end;
         }
@@ -84,13 +82,13 @@ impl Repair {
         Ok(self.conflicts.is_empty())
     }
 
-    fn members(&self, class: u32) -> &[u32] {
-        &self.alike[self.classes[class as usize].members.clone()]
+    fn members(&self, class: u32) -> impl Iterator<Item = u32> + '_ {
+        self.alike[self.classes[class as usize].members.clone()].iter().map(|&(_, fragment)| fragment)
     }
 
-    /// The first of a class.
-    fn one_of(&self, class: u32) -> &Fragment {
-        &self.fragments[self.members(class)[0] as usize]
+    /// The ends of a class.
+    fn segment(&self, class: u32) -> Segment {
+        self.alike[self.classes[class as usize].members.start].0
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
@@ -98,7 +96,7 @@ impl Repair {
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
-            let segments = (0..self.classes.len()).map(|class| self.one_of(id::index(class)).segment);
+            let segments = (0..self.classes.len()).map(|class| self.segment(id::index(class)));
             let is_done = index.pairs_by_boxes(segments.clone(), |i, j| {
                 conflicts.extend(self.conflict(i, j));
                 true
@@ -118,11 +116,11 @@ impl Repair {
         let is_again = |class: u32| self.classes[class as usize].round == round;
         let all = 0..id::index(self.classes.len());
         let again: Vec<u32> = all.clone().filter(|&class| is_again(class)).collect();
-        let mut near = Near::to(again.iter().map(|&class| self.one_of(class).segment));
+        let mut near = Near::to(again.iter().map(|&class| self.segment(class)));
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         for class in all {
-            near.meeting(self.one_of(class).segment, |place| {
+            near.meeting(self.segment(class), |place| {
                 let other = again[place as usize];
                 if other < class || !is_again(class) {
                     conflicts.extend(self.conflict(other.min(class), other.max(class)));
@@ -141,7 +139,7 @@ impl Repair {
     /// The pair of classes, if they are in conflict.
     pub(super) fn conflict(&self, i: u32, j: u32) -> Option<[u32; 2]> {
         let moved = [i, j].iter().any(|&class| self.classes[class as usize].moved);
-        (moved && in_conflict([i, j].map(|class| self.one_of(class).segment))).then_some([i, j])
+        (moved && in_conflict([i, j].map(|class| self.segment(class)))).then_some([i, j])
     }
 
     /// Lists cuts of the conflicting fragments at the common ends of those that they conflict with, and notes whether there
@@ -166,27 +164,28 @@ impl Repair {
         }
         affected.sort_unstable();
         affected.dedup();
-        let members = affected
-            .iter()
-            .flat_map(|&class| self.alike[self.classes[class as usize].members.clone()].iter());
-        members.for_each(|&i| self.fragments[i as usize].round = round);
+        for i in
+            affected.iter().flat_map(|&class| self.alike[self.classes[class as usize].members.clone()].iter())
+        {
+            self.fragments[i.1 as usize].round = round;
+        }
         cuts.sort_unstable();
         cuts.dedup();
         self.cuts = cuts;
-        affected.into_iter().map(|class| self.one_of(class).segment).collect()
+        affected.into_iter().map(|class| self.segment(class)).collect()
     }
 
     /// The ends of the abscissae that all of a class have in common: the left end furthest right and the right end furthest
     /// left.
     fn common_ends(&self, rounded: Rounded<'_>, class: u32) -> Option<[u32; 2]> {
-        let ends = |&fragment: &u32| rounded.rightward(self.fragments[fragment as usize].ends);
+        let ends = |fragment: u32| rounded.rightward(self.fragments[fragment as usize].ends);
         let common =
             |[a, b]: [u32; 2], [c, d]: [u32; 2]| [rounded.rightward([a, c])[1], rounded.rightward([b, d])[0]];
-        self.members(class).iter().map(ends).reduce(common)
+        self.members(class).map(ends).reduce(common)
     }
 
     fn add_cuts(&self, rounded: Rounded<'_>, class: u32, vertices: [u32; 2], cuts: &mut Vec<CutAt>) {
-        for &fragment in self.members(class) {
+        for fragment in self.members(class) {
             let ends = self.fragments[fragment as usize].ends;
             let inside = vertices.into_iter().filter(|&vertex| rounded.is_strictly_between(ends, vertex));
             cuts.extend(inside.map(|vertex| (fragment, vertex)));
