@@ -22,7 +22,7 @@ pub(crate) fn check(mut word: impl FnMut() -> u64) -> Result<(), String> {
 }
 
 /// Each predicate's law.
-pub(super) const LAWS: [(&str, Law); 9] = [
+pub(super) const LAWS: [(&str, Law); 10] = [
     ("side", side_is_exact),
     ("turn", turn_is_exact),
     ("crossing_order", crossings_are_in_order),
@@ -30,6 +30,7 @@ pub(super) const LAWS: [(&str, Law); 9] = [
     ("point_crossing_order", points_and_crossings_are_in_order),
     ("height_order", heights_are_in_order),
     ("crossing_x_order", abscissae_are_in_order),
+    ("crossings_x_order", abscissae_of_crossings_are_in_order),
     ("crossing_point", crossings_are_nearest),
     ("margins", what_is_clear_is_so),
 ];
@@ -185,6 +186,13 @@ fn abscissae_are_in_order(&[a, b, c, d, g, _]: &Configuration) -> Option<bool> {
     let [p, q, r, s, at] = &points([a, b, c, d, DVec2::new(g.x, 0.0)]);
     let [x, _] = do_cross([p, q], [r, s]).then(|| crossing([p, q], [r, s]))?;
     Some(crossing_x_order([a, b], [c, d], g.x) == x[0].cmp(&(&at[0] * &x[1])))
+}
+
+fn abscissae_of_crossings_are_in_order(&[a, b, c, d, g, h]: &Configuration) -> Option<bool> {
+    let [p, q, r, s, t, u] = &points([a, b, c, d, g, h]);
+    let do_meet = do_cross([p, q], [r, s]) && do_cross([p, q], [t, u]);
+    let [[x, _], [other, _]] = do_meet.then(|| [[r, s], [t, u]].map(|f| crossing([p, q], f)))?;
+    Some(crossings_x_order([[a, b], [c, d]], [[g, h], [b, a]]) == compare(&x, &other))
 }
 
 /// Both coordinates are nearest, the even one of two as near, and neither order nor direction of the edges matters.
