@@ -66,14 +66,14 @@ fn odd_kinds_are_valid_and_right() {
 #[test]
 fn needles_through_a_few_ulps_are_right() {
     let mut random = Random::new(11);
-    for seed in 0..12 {
+    for seed in 0..8 {
         let mut needle = || {
             let along = DVec2::from_angle(random.angle());
             let middle = DVec2::ONE + along.perp() * random.range(-5e-15, 5e-15);
             vec![middle - along, middle + along, middle + along + along.perp() * 4e-15]
         };
         let [a, b] =
-            [0, 1].map(|_| Operand { rings: (0..5).map(|_| needle()).collect(), rule: Rule::NonZero });
+            [0, 1].map(|_| Operand { rings: (0..3).map(|_| needle()).collect(), rule: Rule::NonZero });
         let pair = Pair { name: format!("needles through a few ulps {seed}"), a, b };
         let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
         for operation in Operation::ALL {
