@@ -22,6 +22,7 @@ const ORDER: [&str; 37] = [
     "pipeline/scratch",
     "assemble/tests",
     "assemble/nest",
+    "assemble/positive",
     "assemble/link",
     "assemble",
     "boundary/repair",

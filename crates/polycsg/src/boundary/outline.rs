@@ -112,6 +112,30 @@ impl Outline {
         self.unsorted = kept;
     }
 
+    /// Keeps some of the chains of an outline that was built of edges.
+    pub(crate) fn retain(&mut self, mut is_wanted: impl FnMut(u32) -> bool) {
+        let mut wanted = (0..index(self.chains.len())).map(&mut is_wanted);
+        self.chains.retain(|_| wanted.next() == Some(true));
+        self.points.clear();
+        for chain in &mut self.chains {
+            chain.first = index(self.points.len());
+            self.points.push(self.numbered[chain.start as usize]);
+        }
+    }
+
+    /// The node where a chain starts, or that where it ends.
+    #[inline]
+    pub(crate) fn node(&self, chain: u32, leaves: bool) -> u32 {
+        let BoundaryChain { start, end, .. } = self.chains[chain as usize];
+        if leaves { start } else { end }
+    }
+
+    /// The point of a node of an outline that was built of edges.
+    #[inline]
+    pub(crate) fn node_point(&self, node: u32) -> DVec2 {
+        self.numbered[node as usize]
+    }
+
     pub(crate) fn node_count(&self) -> usize {
         self.node_count
     }

@@ -11,12 +11,17 @@ use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic
 use crate::spatial::{chains::LONGEST, slabs::SlabDecomposition};
 use glam::{DVec2, Vec2Swizzles};
 
+/// So many pairs for each edge are noted.
+const PAIRS: usize = 64;
+
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(crate) struct ClosePairs {
     /// Whether all edges count as close.
     all: bool,
     pairs: Vec<[u32; 2]>,
+    /// More pairs take longer than all edges.
+    most: usize,
     margins: Margins,
     /// The places close together on an edge.
     pub(crate) close: Vec<ClosePlaces>,
@@ -47,9 +52,10 @@ pub(super) struct CloseGroups {
 }
 
 impl ClosePairs {
-    /// Starts over for coordinates up to a size; where pairs are not wanted, all edges count as close.
-    pub(crate) fn start(&mut self, size: f64, wanted: bool) {
+    /// Starts over for so many edges with coordinates up to a size; where pairs are not wanted, all edges count as close.
+    pub(crate) fn start(&mut self, edges: usize, size: f64, wanted: bool) {
         self.all = !wanted;
+        self.most = PAIRS * edges.max(PAIRS);
         self.pairs.clear();
         self.close.clear();
         self.margins = Margins::for_size(size);
@@ -69,9 +75,7 @@ impl ClosePairs {
     }
 
     pub(crate) fn add(&mut self, e: u32, f: u32) {
-        if !self.all {
-            self.pairs.push([e, f]);
-        }
+        self.add_group(&[f, e]);
     }
 
     /// Notes what comes near an edge where the [`SlabDecomposition`] takes the place of boxes, and lets it report the rest. Where
@@ -137,6 +141,7 @@ impl ClosePairs {
         let is_crossing = |contact: &Contact| {
             matches!(contact.partner.kind(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
         };
+        self.all |= self.close.len() > self.most;
         if self.all || !contacts.iter().any(is_crossing) {
             return;
         }
@@ -162,7 +167,7 @@ impl ClosePairs {
     /// Notes all pairs of edges that meet close together; where they are many, all edges count as close.
     pub(crate) fn add_group(&mut self, group: &[u32]) {
         const MOST: usize = 64;
-        self.all |= group.len() > MOST;
+        self.all |= group.len() > MOST || self.pairs.len() > self.most;
         for (i, &e) in group.iter().enumerate().take_while(|_| !self.all) {
             self.pairs.extend(group[..i].iter().filter(|&&f| f != e).map(|&f| [e, f]));
         }

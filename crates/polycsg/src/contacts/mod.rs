@@ -6,6 +6,7 @@
 //! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
 //! that equality along each edge is all that is needed to unify them.
 
+mod along;
 pub(crate) mod budget;
 pub(crate) mod candidates;
 pub(crate) mod close_pairs;
@@ -22,8 +23,7 @@ use crate::spatial::slabs::SlabDecomposition;
 use budget::WorkBudget;
 use candidates::{BroadPhase, Candidates};
 use close_pairs::{CloseGroups, ClosePairs};
-use contact::{Contact, order};
-use std::cmp::Ordering;
+use contact::Contact;
 
 /// No edge, no node.
 const NONE: u32 = u32::MAX;
@@ -83,11 +83,11 @@ impl Contacts {
         let most = meter.contacts();
         let size = chains.size();
         self.start(edges);
-        close_pairs.start(size, wanted);
+        close_pairs.start(edges.len(), size, wanted);
         let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, meter)?;
         if !is_done && self.found.len() <= most {
             self.start(edges);
-            close_pairs.start(size, wanted);
+            close_pairs.start(edges.len(), size, wanted);
             self.find_by_slabs(edges, chains, slabs, close_pairs, meter)?;
         }
         if self.found.len() > most {
@@ -200,7 +200,7 @@ impl Contacts {
             rest = others;
             bucket
         });
-        let sort = |bucket: &mut [Contact]| bucket.sort_unstable_by(|a, b| order(edges, a, b));
+        let sort = |bucket: &mut [Contact]| along::sort(edges, bucket);
         Threads::for_edges(edges.len()).for_each(buckets.filter(|bucket| bucket.len() > 1), sort);
     }
 
@@ -209,8 +209,7 @@ impl Contacts {
         let mut kept = 0;
         for i in 0..self.found.len() {
             let contact = self.found[i];
-            let same = kept > 0 && order(edges, &self.found[kept - 1], &contact) == Ordering::Equal;
-            if same {
+            if contact.is_with_previous() {
                 self.degenerate = true;
                 self.classes.join(self.found[kept - 1].node, contact.node);
             } else {
