@@ -17,7 +17,7 @@
 
 pub(crate) mod labels;
 
-use crate::base::id::index;
+use crate::base::{id::index, threads::Threads};
 use crate::contacts::contact::{Contact, Partner, PartnerKind};
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
@@ -80,11 +80,15 @@ impl Arrangement {
 
     fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
         self.sub_edges.clear();
-        self.sub_edges.extend(contacts.sorted().iter().map(|&Contact { edge, node, partner, .. }| SubEdge {
+        let sub_edge = |&Contact { edge, node, partner, .. }: &Contact| SubEdge {
             edge,
             node: contacts.node(node),
             partner,
-        }));
+        };
+        let threads = Threads::for_edges(edges.len());
+        threads.list(contacts.sorted().len(), &mut self.sub_edges, |part, sub_edges| {
+            sub_edges.extend(contacts.sorted()[part].iter().map(sub_edge));
+        });
         self.first.clear();
         let mut sub_edge = 0;
         for ring in edges.rings() {

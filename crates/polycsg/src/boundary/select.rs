@@ -97,9 +97,10 @@ impl Selection {
     /// crossing is dropped; input vertices are kept.
     pub(crate) fn select(&mut self, arranged: LabelledArrangement<'_>) -> &Selection {
         self.pieces.clear();
-        for ring in 0..index(arranged.edges.rings().len()) {
-            arranged.select_along(ring, &mut self.pieces);
-        }
+        let threads = Threads::for_edges(arranged.edges.len());
+        threads.list(arranged.edges.rings().len(), &mut self.pieces, |rings, pieces| {
+            rings.for_each(|ring| arranged.select_along(index(ring), pieces));
+        });
         self.round(arranged.edges, arranged.contacts);
         self
     }

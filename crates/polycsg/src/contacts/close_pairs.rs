@@ -6,6 +6,7 @@
 //! than boxes do; what else comes near an edge is looked for there.
 
 use super::contact::{Contact, PartnerKind};
+use crate::base::threads::{Threads, ranges};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
 use crate::spatial::{chains::LONGEST, slabs::SlabDecomposition};
@@ -136,8 +137,36 @@ impl ClosePairs {
             && !self.margins.are_steep([[shared, p], [shared, q]], doubled_area(shared, p, q))
     }
 
+    /// Looks at the contacts of all edges.
+    pub(super) fn find_along_all(&mut self, edges: &Edges, contacts: &[Contact]) {
+        let along = |close_pairs: &mut ClosePairs, contacts: &[Contact]| {
+            contacts
+                .chunk_by(|a, b| a.edge == b.edge)
+                .for_each(|contacts| close_pairs.find_along(edges, contacts));
+        };
+        let threads = Threads::for_edges(edges.len());
+        if !threads.are_many() {
+            return along(self, contacts);
+        }
+        // A part goes on to the end of its last edge.
+        let next_edge = |at: usize| {
+            let last = contacts[..at].last().map(|contact| contact.edge);
+            at + contacts[at..].iter().take_while(|contact| Some(contact.edge) == last).count()
+        };
+        let parts = threads.map(ranges(contacts.len()), |part| {
+            let mut own = ClosePairs { pairs: Vec::new(), close: Vec::new(), ..*self };
+            along(&mut own, &contacts[next_edge(part.start)..next_edge(part.end)]);
+            own
+        });
+        for part in parts {
+            self.pairs.extend(part.pairs);
+            self.close.extend(part.close);
+            self.all |= part.all || self.pairs.len().max(self.close.len()) > self.most;
+        }
+    }
+
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
-    pub(crate) fn find_along(&mut self, edges: &Edges, contacts: &[Contact]) {
+    fn find_along(&mut self, edges: &Edges, contacts: &[Contact]) {
         let is_crossing = |contact: &Contact| {
             matches!(contact.partner.kind(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
         };

@@ -1,7 +1,7 @@
 //! Reads the operands' rings. Rings that are near in the plane are stored one after the other.
 
 use super::{END, EdgeRing, Edges, Origin};
-use crate::base::id::index;
+use crate::base::{id::index, threads::Threads};
 use crate::expression::{bounds::ResultBounds, csg::Csg, csg::Token, winding::WindingNumbers};
 use crate::predicates::Window;
 use crate::region::rings::Rings;
@@ -50,16 +50,17 @@ fn are_near(rings: &[RingKey]) -> bool {
 
 /// Sorts by columns of about as many rings as there are columns, up and down in turn.
 fn sort_by_place(rings: &mut [RingKey]) {
-    rings.sort_unstable_by(|a, b| {
+    let threads = Threads::for_edges(rings.len());
+    threads.sort(rings, |a, b| {
         a.point.x.total_cmp(&b.point.x).then((a.operand, a.ring).cmp(&(b.operand, b.ring)))
     });
     let column = rings.len().isqrt().max(1);
-    for (i, rings) in rings.chunks_mut(column).enumerate() {
+    threads.for_each(rings.chunks_mut(column).enumerate(), |(i, rings)| {
         rings.sort_unstable_by(|a, b| {
             let upward = a.point.y.total_cmp(&b.point.y).then((a.operand, a.ring).cmp(&(b.operand, b.ring)));
             if i % 2 == 0 { upward } else { upward.reverse() }
         });
-    }
+    });
 }
 
 impl Edges {

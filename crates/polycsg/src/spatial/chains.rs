@@ -7,6 +7,7 @@
 //! ```
 
 use super::strips::boxes_meet;
+use crate::base::threads::{Threads, ranges};
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range};
@@ -152,8 +153,19 @@ impl MonotoneChains {
     fn cut(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>, longest: u32) {
         self.chains.clear();
         self.leftmost.clear();
-        for slots in rings {
-            self.add_ring(points, slots, longest);
+        let threads = Threads::for_edges(points.len());
+        if !threads.are_many() {
+            return rings.for_each(|slots| self.add_ring(points, slots, longest));
+        }
+        let rings: Vec<Range<u32>> = rings.collect();
+        let parts = threads.map(ranges(rings.len()), |part| {
+            let mut own = MonotoneChains::default();
+            rings[part].iter().for_each(|slots| own.add_ring(points, slots.clone(), longest));
+            own
+        });
+        for part in parts {
+            self.chains.extend(part.chains);
+            self.leftmost.extend(part.leftmost);
         }
     }
 

@@ -10,7 +10,7 @@
 
 use super::SlabDecomposition;
 use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
-use crate::base::{id::index, meter::Meter};
+use crate::base::{id::index, meter::Meter, threads::Threads};
 use std::{cmp::Ordering, ops::Range};
 
 /// So many sequences of stairs are taken from a slab's spanning segments, before the rest is handed on.
@@ -39,7 +39,7 @@ pub(super) struct Search<'a> {
 }
 
 /// By their heights at the left side.
-fn by_height(a: &ClippedSegment, b: &ClippedSegment) -> Ordering {
+pub(super) fn by_height(a: &ClippedSegment, b: &ClippedSegment) -> Ordering {
     a.heights[0].total_cmp(&b.heights[0])
 }
 
@@ -67,7 +67,7 @@ impl SlabDecomposition {
     }
 
     /// Of edges, those that start before a rank.
-    fn starting_before(&self, edges: Range<usize>, rank: u32) -> Range<usize> {
+    pub(super) fn starting_before(&self, edges: Range<usize>, rank: u32) -> Range<usize> {
         let count = self.segments[edges.clone()].partition_point(|segment| segment.ranks[0] < rank);
         edges.start..edges.start + count
     }
@@ -78,6 +78,10 @@ impl SlabDecomposition {
         if self.passing.len() - base + starts.len() <= FEW_EDGES {
             self.look_at_few(slab, base, starts.clone(), search.quest);
             return self.pass_all(slab[1], base, starts);
+        }
+        let threads = Threads::for_edges(self.passing.len() - base + starts.len());
+        if threads.are_many() {
+            return self.fork(slab, base, starts, search, threads);
         }
         let mut rest = starts;
         for part in parts(slab) {
@@ -95,7 +99,7 @@ impl SlabDecomposition {
 
     /// Finds what is asked for between the stairs of a slab and all else in it; then, of what is left, in its parts. Leaves
     /// passing what goes beyond it, and in `starting` what started in it and does so.
-    fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
+    pub(super) fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
         let Search { quest, meter } = search;
         self.found.allow(meter.spend(self.passing.len() - base + starts.len()));
         let is_column = quest == Quest::Pairs && self.is_column(slab);

@@ -51,6 +51,7 @@
 mod beside;
 mod column;
 mod descent;
+mod fork;
 mod found;
 mod heights;
 mod order;
@@ -60,14 +61,14 @@ mod spanning;
 #[cfg(test)]
 mod tests;
 
-use crate::base::{id::index, meter::Meter};
+use crate::base::{id::index, meter::Meter, threads::Threads};
 use crate::error::Error;
 use crate::predicates::{Segment, Side, lexicographic, side};
 use descent::{Quest, Search};
 use found::Found;
 use glam::DVec2;
 use segments::{ClippedSegment, RankedSegment, Slab};
-use std::{cmp::Ordering, ops::Range};
+use std::{cmp::Ordering, ops::Range, sync::Arc};
 
 /// So many stairs near a place are taken as they are.
 const FEW: usize = 8;
@@ -85,13 +86,13 @@ const SLACK: f64 = 64.0 * (f64::EPSILON / 2.0);
 #[derive(Debug, Default)]
 pub(crate) struct SlabDecomposition {
     /// The distinct ends in their order.
-    ends: Vec<DVec2>,
+    ends: Arc<Vec<DVec2>>,
     sorted: Vec<(DVec2, u32)>,
     /// Per point its rank.
     ranks: Vec<u32>,
     /// The edges, those with the same ends one after the other; `segments` has the first of each kind.
     all: Vec<RankedSegment>,
-    segments: Vec<RankedSegment>,
+    segments: Arc<Vec<RankedSegment>>,
     /// Two heights that differ by more differ.
     error: f64,
     /// The same, or more where edges are reported that come near one another.
@@ -131,7 +132,7 @@ impl SlabDecomposition {
         points: impl Iterator<Item = DVec2>,
         edges: impl Iterator<Item = (u32, [u32; 2])>,
     ) {
-        self.rank(points);
+        let threads = self.rank(points);
         let segment = |(id, ends): (u32, [u32; 2])| {
             let [a, b] = ends.map(|point| self.ranks[point as usize]);
             RankedSegment { ranks: [a.min(b), a.max(b)], id }
@@ -139,9 +140,10 @@ impl SlabDecomposition {
         self.all.clear();
         self.all.extend(edges.map(segment).filter(|segment| segment.ranks[0] < segment.ranks[1]));
         let key = |ranks: [u32; 2]| u64::from(ranks[0]) << 32 | u64::from(ranks[1]);
-        self.all.sort_unstable_by_key(|segment| (key(segment.ranks), segment.id));
-        self.segments.clear();
-        self.segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
+        threads.sort(&mut self.all, |a, b| (key(a.ranks), a.id).cmp(&(key(b.ranks), b.id)));
+        let segments = Arc::make_mut(&mut self.segments);
+        segments.clear();
+        segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
         self.error = highest * SLACK + f64::MIN_POSITIVE;
         self.narrow();
@@ -149,19 +151,22 @@ impl SlabDecomposition {
         self.has_slopes = self.ends.iter().all(|p| is_moderate(p.x) && is_moderate(p.y));
     }
 
-    fn rank(&mut self, points: impl Iterator<Item = DVec2>) {
+    fn rank(&mut self, points: impl Iterator<Item = DVec2>) -> Threads {
         self.sorted.clear();
         self.sorted.extend(points.zip(0..));
-        self.sorted.sort_unstable_by(|a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
-        self.ends.clear();
+        let threads = Threads::for_edges(self.sorted.len());
+        threads.sort(&mut self.sorted, |a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
+        let ends = Arc::make_mut(&mut self.ends);
+        ends.clear();
         self.ranks.clear();
         self.ranks.resize(self.sorted.len(), 0);
         for &(point, number) in &self.sorted {
-            if self.ends.last() != Some(&point) {
-                self.ends.push(point);
+            if ends.last() != Some(&point) {
+                ends.push(point);
             }
-            self.ranks[number as usize] = index(self.ends.len() - 1);
+            self.ranks[number as usize] = index(ends.len() - 1);
         }
+        threads
     }
 
     /// The points by their numbers, those in one place together.
@@ -210,6 +215,7 @@ impl SlabDecomposition {
     pub(crate) fn find(&mut self, most: usize, meter: &Meter<'_>) -> Result<bool, Error> {
         let near = if self.reach > 0.0 { NEAR * self.segments.len() } else { usize::MAX };
         self.found.start(most, near);
+        self.queries.clear();
         self.look_into_all(Search { quest: Quest::Pairs, meter });
         self.found.allowed()?;
         Ok(!self.found.count())
