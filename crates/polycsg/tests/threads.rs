@@ -33,6 +33,37 @@ fn inside_one_job() {
     }
 }
 
+/// Asserts that a job has one result on any number of threads.
+fn is_one_on_any(job: &Csg<'_>) {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| job.evaluate())
+    };
+    let serial = on(1);
+    assert!(serial.area() > 0.0);
+    for threads in [2, 3, 8] {
+        assert!(on(threads) == serial, "{threads} threads");
+    }
+}
+
+/// Boxes do not prune long spikes: slabs find what meets, and what lies below each of the many rings of the result.
+#[test]
+fn inside_slabs() {
+    let stars = [0.0, 1e-5].map(|x| star(DVec2::new(x, 0.0), 6000));
+    is_one_on_any(&Csg::symmetric_difference(&stars));
+}
+
+/// Rings that nothing meets: chains, boxes and rays alone. In every other square lies another one.
+#[test]
+fn among_rings_that_nothing_meets() {
+    let square =
+        |(low, high): (DVec2, DVec2)| [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    let at = |i: u32| DVec2::new(f64::from(i % 80), f64::from(i / 80));
+    let outer = (0..4000).map(|i| square((at(i), at(i) + 0.8)));
+    let inner = (0..2000).map(|i| square((at(2 * i) + 0.2, at(2 * i) + 0.5)));
+    is_one_on_any(&Csg::from_rings(outer.chain(inner), FillRule::EvenOdd).expect("finite"));
+}
+
 #[test]
 fn any_number_of_threads() {
     let stars: Vec<Region> =

@@ -1,7 +1,7 @@
 //! Whether many edges coincide, by the ends of all edges where they are few, and of those at some points where they are many.
 //! The points are chosen by their digits, so that the order of the input, its scale and quarter turns do not matter.
 
-use crate::base::hash::mixed;
+use crate::base::{hash::mixed, id::index, threads::Threads};
 use crate::edges::Edges;
 use glam::DVec2;
 
@@ -59,10 +59,13 @@ impl EdgeSample {
     fn at_some_points(&mut self, edges: &Edges) -> bool {
         let shift = 64 - (edges.len() / POINTS).min(RAREST).ilog2();
         self.keys.clear();
-        for (slot, _) in (0..).zip(edges.points()).filter(|&(_, &p)| digits(p) >> shift == 0) {
-            let leaving = edges.is_vertex(slot).then(|| edges.at(slot));
-            self.keys.extend(leaving.into_iter().flatten().map(|edge| (key(edges, edge), edge)));
-        }
+        Threads::for_edges(edges.len()).list(edges.len(), &mut self.keys, |slots, keys| {
+            let points = edges.points()[slots.clone()].iter();
+            for (slot, _) in (index(slots.start)..).zip(points).filter(|&(_, &p)| digits(p) >> shift == 0) {
+                let leaving = edges.is_vertex(slot).then(|| edges.at(slot));
+                keys.extend(leaving.into_iter().flatten().map(|edge| (key(edges, edge), edge)));
+            }
+        });
         self.keys.sort_unstable();
         self.keys.dedup();
         let count = self.keys.len();
