@@ -11,9 +11,11 @@ use std::{cmp::Ordering, ops::Range};
 #[cfg(feature = "rayon")]
 const FEW: usize = if cfg!(any(test, fuzzing)) { 64 } else { 20_000 };
 
+/// A job has so many parts, or is cut into so many that each have some of its parts.
+const MOST: usize = 64;
+
 /// Parts of so many, the same for any number of threads.
 pub(crate) fn ranges(count: usize) -> impl Iterator<Item = Range<usize>> {
-    const MOST: usize = 64;
     let length = count.div_ceil(MOST).max(1);
     (0..count).step_by(length).map(move |start| start..count.min(start + length))
 }
@@ -65,7 +67,10 @@ impl Threads {
     ) -> Vec<R> {
         #[cfg(feature = "rayon")]
         if self.many {
-            return parts.collect::<Vec<P>>().into_par_iter().map(work).collect();
+            // Jobs this small leave little to wait for where a thread is late.
+            let parts: Vec<P> = parts.collect();
+            let longest = parts.len().div_ceil(MOST).max(1);
+            return parts.into_par_iter().with_max_len(longest).map(work).collect();
         }
         parts.map(work).collect()
     }
