@@ -9,7 +9,7 @@ use std::{cmp::Ordering, ops::Range};
 
 /// Fewer edges are quicker on one thread.
 #[cfg(feature = "rayon")]
-const FEW: usize = if cfg!(any(test, fuzzing)) { 64 } else { 20_000 };
+const FEW: usize = if cfg!(any(test, fuzzing)) { 64 } else { 50_000 };
 
 /// A job has so many parts, or is cut into so many that each have some of its parts.
 const MOST: usize = 64;
