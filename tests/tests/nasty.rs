@@ -6,7 +6,7 @@ use polycsg::{FillRule, Region};
 use tests::against::{self, Verdict, check_classify, check_locate, leaf};
 use tests::exact::{nearest, ratio};
 use tests::generators::{KINDS, Pair, nasty};
-use tests::oracle::{Arrangement, Operation};
+use tests::oracle::{Arrangement, Operand, Operation, Rule};
 use tests::random::Random;
 use tests::survey::survey;
 
@@ -59,6 +59,27 @@ fn even_kinds_are_valid_and_right() {
 #[test]
 fn odd_kinds_are_valid_and_right() {
     assert_kinds((1..KINDS.len()).step_by(2));
+}
+
+/// Needles in all directions through a box of some ulps: on each edge all crossings lie nearly in one place, and
+/// hardly one keeps its place where it is rounded.
+#[test]
+fn needles_through_a_few_ulps_are_right() {
+    let mut random = Random::new(11);
+    for seed in 0..8 {
+        let mut needle = || {
+            let along = DVec2::from_angle(random.angle());
+            let middle = DVec2::ONE + along.perp() * random.range(-5e-15, 5e-15);
+            vec![middle - along, middle + along, middle + along + along.perp() * 4e-15]
+        };
+        let [a, b] =
+            [0, 1].map(|_| Operand { rings: (0..3).map(|_| needle()).collect(), rule: Rule::NonZero });
+        let pair = Pair { name: format!("needles through a few ulps {seed}"), a, b };
+        let arrangement = Arrangement::of(&[pair.a.clone(), pair.b.clone()]);
+        for operation in Operation::ALL {
+            against::check(&pair, operation, &arrangement).expect(&pair.name);
+        }
+    }
 }
 
 fn all() -> impl Iterator<Item = Pair> {

@@ -72,7 +72,7 @@
 //! # Features
 //!
 //! - `geo-types`: conversions from and to `geo_types::{Polygon, MultiPolygon}`, which expressions also take as they are.
-//! - `rayon`: threads inside one job of 20 000 edges or more, over many jobs by
+//! - `rayon`: threads inside one job of 50 000 edges or more, over many jobs by
 //!   [`Csg::evaluate_all`](Csg#method.evaluate_all), and over many clips by [`PreparedRegion::clip_all`]. The results have the same bits as on one thread.
 //! - `serde`: a [`Region`] as nested sequences of coordinates, checked when it is read.
 //! - `triangulate`: [`Region::triangulate`](Region#method.triangulate), constrained Delaunay triangles.

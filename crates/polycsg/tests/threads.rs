@@ -15,9 +15,9 @@ fn star(center: DVec2, spikes: u32) -> Region {
 /// Enough edges for one job on many threads: stars over one another, on a lattice so that many meet in common points.
 #[test]
 fn inside_one_job() {
-    let at = |i: u32| DVec2::new(f64::from(i % 40) * 0.75, f64::from(i / 40) * 0.75);
-    let stars: Vec<Region> = (0..1600).map(|i| star(at(i), 7)).collect();
-    let (some, others) = stars.split_at(800);
+    let at = |i: u32| DVec2::new(f64::from(i % 60) * 0.75, f64::from(i / 60) * 0.75);
+    let stars: Vec<Region> = (0..3600).map(|i| star(at(i), 7)).collect();
+    let (some, others) = stars.split_at(1800);
     let job = Csg::union(some) ^ Csg::union(others) ^ Csg::union(&stars[..40]);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -31,6 +31,37 @@ fn inside_one_job() {
     for threads in [2, 3, 8] {
         assert!(on(threads) == serial, "{threads} threads");
     }
+}
+
+/// Asserts that a job has one result on any number of threads.
+fn is_one_on_any(job: &Csg<'_>) {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| job.evaluate())
+    };
+    let serial = on(1);
+    assert!(serial.area() > 0.0);
+    for threads in [2, 3, 8] {
+        assert!(on(threads) == serial, "{threads} threads");
+    }
+}
+
+/// Boxes do not prune long spikes: slabs find what meets, and what lies below each of the many rings of the result.
+#[test]
+fn inside_slabs() {
+    let stars = [0.0, 1e-5].map(|x| star(DVec2::new(x, 0.0), 13_000));
+    is_one_on_any(&Csg::symmetric_difference(&stars));
+}
+
+/// Rings that nothing meets: chains, boxes and rays alone. In every other square lies another one.
+#[test]
+fn among_rings_that_nothing_meets() {
+    let square =
+        |(low, high): (DVec2, DVec2)| [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    let at = |i: u32| DVec2::new(f64::from(i % 80), f64::from(i / 80));
+    let outer = (0..9000).map(|i| square((at(i), at(i) + 0.8)));
+    let inner = (0..4500).map(|i| square((at(2 * i) + 0.2, at(2 * i) + 0.5)));
+    is_one_on_any(&Csg::from_rings(outer.chain(inner), FillRule::EvenOdd).expect("finite"));
 }
 
 #[test]

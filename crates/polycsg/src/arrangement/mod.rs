@@ -17,11 +17,11 @@
 
 pub(crate) mod labels;
 
-use crate::base::id::index;
+use crate::base::{id::index, threads::Threads};
 use crate::contacts::contact::{Contact, Partner, PartnerKind};
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
-use crate::predicates::{Segment, Side, lexicographic, turn};
+use crate::predicates::{Compass, Segment, Side, lexicographic, turn};
 use std::{cmp::Ordering, ops::Range};
 
 /// No sub-edge, no node.
@@ -51,7 +51,7 @@ pub(crate) struct Arrangement {
     representatives: Vec<u32>,
     next: Vec<u32>,
     /// The half-edges that leave one junction.
-    leaving: Vec<(Segment, u32)>,
+    leaving: Vec<(Compass, u32)>,
 }
 
 /// Where a sub-edge starts.
@@ -80,11 +80,15 @@ impl Arrangement {
 
     fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
         self.sub_edges.clear();
-        self.sub_edges.extend(contacts.sorted().iter().map(|&Contact { edge, node, partner, .. }| SubEdge {
+        let sub_edge = |&Contact { edge, node, partner, .. }: &Contact| SubEdge {
             edge,
             node: contacts.node(node),
             partner,
-        }));
+        };
+        let threads = Threads::for_edges(edges.len());
+        threads.list(contacts.sorted().len(), &mut self.sub_edges, |part, sub_edges| {
+            sub_edges.extend(contacts.sorted()[part].iter().map(sub_edge));
+        });
         self.first.clear();
         let mut sub_edge = 0;
         for ring in edges.rings() {
@@ -140,21 +144,43 @@ impl Arrangement {
         }
         self.representatives.extend(0..index(self.sub_edges.len()));
         self.next.resize(self.sub_edges.len(), NONE);
-        let mut leaving = std::mem::take(&mut self.leaving);
+        let (mut around, mut leaving) = (std::mem::take(&mut self.around), std::mem::take(&mut self.leaving));
         for junction in 0..index(self.junction_count()) {
             let span = self.span(junction);
-            let half_edges = span.clone().map(|place| self.around(place));
+            let half_edges = &mut around[span.start as usize..span.end as usize];
+            let way = |&half_edge: &u32| (Compass::of(self.direction(edges, half_edge)), half_edge);
             leaving.clear();
-            leaving.extend(half_edges.map(|half_edge| (self.direction(edges, half_edge), half_edge)));
-            leaving.sort_unstable_by(|g, h| by_angle(g.0, h.0).then(g.1.cmp(&h.1)));
-            for (place, (_, half_edge)) in span.zip(&leaving) {
-                self.around[place as usize] = *half_edge;
+            leaving.extend(half_edges.iter().map(way));
+            leaving.sort_unstable();
+            for (half_edge, &(_, sorted)) in half_edges.iter_mut().zip(&leaving) {
+                *half_edge = sorted;
             }
-            leaving
-                .chunk_by(|g, h| by_angle(g.0, h.0) == Ordering::Equal)
-                .for_each(|overlapping| self.unite(overlapping));
+            let mut rest = half_edges;
+            for alike in leaving.chunk_by(|g, h| g.0 == h.0) {
+                let (half_edges, others) = rest.split_at_mut(alike.len());
+                rest = others;
+                if alike.len() > 1 {
+                    self.sort_within(edges, alike[0].0, half_edges);
+                }
+            }
         }
-        self.leaving = leaving;
+        (self.around, self.leaving) = (around, leaving);
+    }
+
+    /// Sorts half-edges that leave a junction alike by angle, and unites those that overlap.
+    fn sort_within(&mut self, edges: &Edges, way: Compass, half_edges: &mut [u32]) {
+        if way.is_axis() {
+            return self.unite(half_edges);
+        }
+        let order = |g: u32, h: u32| by_turn(self.direction(edges, g), self.direction(edges, h));
+        half_edges.sort_unstable_by(|&g, &h| order(g, h).then(g.cmp(&h)));
+        let mut rest = &*half_edges;
+        while let [first, others @ ..] = rest {
+            let order = |h: &u32| by_turn(self.direction(edges, *first), self.direction(edges, *h));
+            let count = 1 + others.iter().take_while(|h| order(h) == Ordering::Equal).count();
+            self.unite(&rest[..count]);
+            rest = &rest[count..];
+        }
     }
 
     /// Lists the half-edges junction by junction; afterwards `starts[j]..starts[j + 1]` are those of junction j.
@@ -180,10 +206,10 @@ impl Arrangement {
     }
 
     /// Links overlapping sub-edges, given by their half-edges in order; at their other ends it was or will be done alike.
-    fn unite(&mut self, overlapping: &[(Segment, u32)]) {
-        let representative = overlapping[0].1 >> 1;
+    fn unite(&mut self, overlapping: &[u32]) {
+        let representative = overlapping[0] >> 1;
         for pair in overlapping.windows(2) {
-            let [sub_edge, next] = [pair[0].1 >> 1, pair[1].1 >> 1];
+            let [sub_edge, next] = [pair[0] >> 1, pair[1] >> 1];
             self.next[sub_edge as usize] = next;
             self.representatives[next as usize] = representative;
         }
@@ -343,19 +369,19 @@ impl Arrangement {
         let junctions = (0..index(self.junction_count())).all(|junction| {
             let directions: Vec<Segment> =
                 self.span(junction).map(|place| self.direction(edges, self.around(place))).collect();
-            directions.windows(2).all(|pair| by_angle(pair[0], pair[1]) != Ordering::Greater)
+            let order = |g: Segment, h: Segment| Compass::of(g).cmp(&Compass::of(h)).then(by_turn(g, h));
+            directions.windows(2).all(|pair| order(pair[0], pair[1]) != Ordering::Greater)
         });
         crossings && junctions
     }
 }
 
-/// By angle in (-90°, 270°].
+/// The order counter-clockwise of two directions within a quadrant.
 #[inline]
-fn by_angle(g: Segment, h: Segment) -> Ordering {
-    let leftward = |s: Segment| lexicographic(s[0], s[1]) == Ordering::Greater;
-    leftward(g).cmp(&leftward(h)).then_with(|| match turn(g, h) {
+fn by_turn(g: Segment, h: Segment) -> Ordering {
+    match turn(g, h) {
         Side::Left => Ordering::Less,
         Side::On => Ordering::Equal,
         Side::Right => Ordering::Greater,
-    })
+    }
 }

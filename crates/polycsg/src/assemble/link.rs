@@ -8,6 +8,9 @@
 //! ```
 //!
 //! A cycle that visits a node twice (a hole that touches its outer ring, two holes that touch) is cut there.
+//!
+//! A boundary has as many chains that leave a node as arrive. Should an outline be none, what leads to no ring is left out,
+//! and `alternate` says so: then the rings are arranged anew.
 
 use crate::base::id::index;
 use crate::boundary::outline::{BoundaryChain, Outline};
@@ -78,6 +81,13 @@ impl Cut {
         let depth = self.depth[about.end as usize];
         (depth != NONE).then_some(depth as usize)
     }
+
+    /// Forgets a path that led to no ring.
+    fn leave_out(&mut self, outline: &Outline) {
+        for chain in self.path.drain(..) {
+            self.depth[outline.chains()[chain as usize].start as usize] = NONE;
+        }
+    }
 }
 
 impl Cycles {
@@ -127,6 +137,10 @@ impl Cycles {
                 }
                 chain = std::mem::replace(&mut self.next[chain as usize], NONE);
             }
+            if !self.cut.path.is_empty() {
+                self.alternate = false;
+                self.cut.leave_out(outline);
+            }
             cycle += 1;
         }
         self
@@ -145,7 +159,7 @@ impl Cycles {
         self.next.clear();
         self.next.extend(outline.chains().iter().map(|about| self.leaving[about.end as usize]));
         self.crowd.clear();
-        self.alternate = true;
+        self.alternate = !self.next.contains(&NONE);
         if !self.crowded.is_empty() {
             self.gather_half_edges(outline);
         }
@@ -218,16 +232,24 @@ impl Cycles {
         if !alternate {
             let (leaving, arriving): (Vec<IncidentHalfEdge>, Vec<IncidentHalfEdge>) =
                 around.iter().partition(|half_edge| half_edge.leaves);
-            arriving.iter().zip(leaving).for_each(|(a, l)| self.next[a.chain as usize] = l.chain);
+            let leaving = leaving.iter().map(|half_edge| half_edge.chain).chain(std::iter::repeat(NONE));
+            arriving
+                .iter()
+                .zip(leaving)
+                .for_each(|(half_edge, next)| self.next[half_edge.chain as usize] = next);
         }
         alternate
     }
 
-    /// The point of a chain next to its start or to its end.
+    /// The point of a chain next to its start or to its end; any other where nothing leaves that.
     fn end(&self, outline: &Outline, chain: u32, at_start: bool) -> DVec2 {
         match (at_start, outline.points(chain)) {
             (true, &[_, next, ..]) => next,
-            (true, _) => outline.points(self.next[chain as usize])[0],
+            (true, points) => match self.next[chain as usize] {
+                NONE if points[0] == DVec2::MAX => DVec2::MIN,
+                NONE => DVec2::MAX,
+                next => outline.points(next)[0],
+            },
             (false, points) => points[points.len() - 1],
         }
     }

@@ -2,3 +2,6 @@
 
 pub(crate) mod link;
 pub(crate) mod nest;
+pub(crate) mod positive;
+#[cfg(test)]
+mod tests;

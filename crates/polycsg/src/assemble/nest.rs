@@ -120,7 +120,7 @@ pub(crate) fn nest(
     nesting.start(cycles)?;
     let mut nest = Nest { outline, cycles, nesting };
     nest.ask();
-    chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
+    chains.cut_to_runs(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
     strips.build(chains.boxes());
     let Nesting { below, asked, .. } = &mut *nest.nesting;
     below.shoot(chains, strips, slabs, rings.points(), asked, meter)?;

@@ -5,10 +5,20 @@
 
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
+use std::{cmp::Ordering, ops::Range};
 
 /// Fewer edges are quicker on one thread.
 #[cfg(feature = "rayon")]
-const FEW: usize = if cfg!(any(test, fuzzing)) { 64 } else { 20_000 };
+const FEW: usize = if cfg!(any(test, fuzzing)) { 64 } else { 50_000 };
+
+/// A job has so many parts, or is cut into so many that each have some of its parts.
+const MOST: usize = 64;
+
+/// Parts of so many, the same for any number of threads.
+pub(crate) fn ranges(count: usize) -> impl Iterator<Item = Range<usize>> {
+    let length = count.div_ceil(MOST).max(1);
+    (0..count).step_by(length).map(move |start| start..count.min(start + length))
+}
 
 /// Whether to use more than one thread.
 #[derive(Clone, Copy, Debug)]
@@ -33,16 +43,20 @@ impl Threads {
     }
 
     /// Does something with each part, in any order.
-    pub(crate) fn for_each<P: Send>(
+    pub(crate) fn for_each<P: Send>(self, parts: impl Iterator<Item = P>, work: impl Fn(P) + Sync + Send) {
+        self.map(parts, work);
+    }
+
+    /// The same for work that may fail.
+    ///
+    /// # Errors
+    /// That of the first part with one.
+    pub(crate) fn try_for_each<P: Send, E: Send>(
         self,
-        parts: impl Iterator<Item = P> + Send,
-        work: impl Fn(P) + Sync + Send,
-    ) {
-        #[cfg(feature = "rayon")]
-        if self.many {
-            return parts.par_bridge().for_each(work);
-        }
-        parts.for_each(work);
+        mut parts: impl Iterator<Item = P>,
+        work: impl Fn(P) -> Result<(), E> + Sync + Send,
+    ) -> Result<(), E> {
+        if self.many { self.map(parts, work).into_iter().collect() } else { parts.try_for_each(work) }
     }
 
     /// What each part yields, in their order.
@@ -53,8 +67,38 @@ impl Threads {
     ) -> Vec<R> {
         #[cfg(feature = "rayon")]
         if self.many {
-            return parts.collect::<Vec<P>>().into_par_iter().map(work).collect();
+            // Jobs this small leave little to wait for where a thread is late.
+            let parts: Vec<P> = parts.collect();
+            let longest = parts.len().div_ceil(MOST).max(1);
+            return parts.into_par_iter().with_max_len(longest).map(work).collect();
         }
         parts.map(work).collect()
+    }
+
+    /// Lists what each part of a range yields, in their order.
+    pub(crate) fn list<R: Send>(
+        self,
+        count: usize,
+        all: &mut Vec<R>,
+        work: impl Fn(Range<usize>, &mut Vec<R>) + Sync + Send,
+    ) {
+        if !self.many {
+            return work(0..count, all);
+        }
+        let part = |range: Range<usize>| {
+            let mut part = Vec::new();
+            work(range, &mut part);
+            part
+        };
+        self.map(ranges(count), part).into_iter().for_each(|part| all.extend(part));
+    }
+
+    /// Sorts by an order in which only what is the same is equal.
+    pub(crate) fn sort<T: Send>(self, items: &mut [T], order: impl Fn(&T, &T) -> Ordering + Sync) {
+        #[cfg(feature = "rayon")]
+        if self.many {
+            return items.par_sort_unstable_by(order);
+        }
+        items.sort_unstable_by(order);
     }
 }

@@ -6,7 +6,6 @@ use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
-use std::cmp::Ordering;
 
 /// A directed chain of points between two nodes.
 #[derive(Clone, Copy, Debug)]
@@ -78,19 +77,21 @@ impl Outline {
             }
             self.unsorted[segment as usize][0] = index(self.numbered.len() - 1);
         }
-        // Each point where a walk arrives is also left: the ends are found among the starts, most of them beside their own.
+        // Each point where a walk arrives is also left: the ends are found among the starts, most of them beside their own. Any
+        // that are not have one more number, so that nothing leaves them.
+        let nowhere = self.numbered.len();
         for (i, [_, end]) in segments.enumerate() {
             let beside = [i + 1, i.wrapping_sub(1)].into_iter().filter_map(|j| self.unsorted.get(j));
             let beside = beside.map(|edge| edge[0]).find(|&number| self.numbered[number as usize] == end);
-            let search =
-                || index(self.numbered.partition_point(|&p| lexicographic(p, end) == Ordering::Less));
+            let compare = |p: &DVec2| lexicographic(*p, end);
+            let search = || index(self.numbered.binary_search_by(compare).unwrap_or(nowhere));
             self.unsorted[i][1] = beside.unwrap_or_else(search);
         }
         self.unsorted.retain(|edge| edge[0] != edge[1]);
         if may_coincide {
             self.cancel_opposite();
         }
-        self.node_count = self.numbered.len();
+        self.node_count = nowhere + 1;
         self.points.clear();
         self.points.extend(self.unsorted.iter().map(|edge| self.numbered[edge[0] as usize]));
         self.chains.clear();
@@ -109,6 +110,30 @@ impl Outline {
             kept.extend(&group[cancelled..group.len() - cancelled]);
         }
         self.unsorted = kept;
+    }
+
+    /// Keeps some of the chains of an outline that was built of edges.
+    pub(crate) fn retain(&mut self, mut is_wanted: impl FnMut(u32) -> bool) {
+        let mut wanted = (0..index(self.chains.len())).map(&mut is_wanted);
+        self.chains.retain(|_| wanted.next() == Some(true));
+        self.points.clear();
+        for chain in &mut self.chains {
+            chain.first = index(self.points.len());
+            self.points.push(self.numbered[chain.start as usize]);
+        }
+    }
+
+    /// The node where a chain starts, or that where it ends.
+    #[inline]
+    pub(crate) fn node(&self, chain: u32, leaves: bool) -> u32 {
+        let BoundaryChain { start, end, .. } = self.chains[chain as usize];
+        if leaves { start } else { end }
+    }
+
+    /// The point of a node of an outline that was built of edges.
+    #[inline]
+    pub(crate) fn node_point(&self, node: u32) -> DVec2 {
+        self.numbered[node as usize]
     }
 
     pub(crate) fn node_count(&self) -> usize {

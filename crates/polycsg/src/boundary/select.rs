@@ -97,9 +97,10 @@ impl Selection {
     /// crossing is dropped; input vertices are kept.
     pub(crate) fn select(&mut self, arranged: LabelledArrangement<'_>) -> &Selection {
         self.pieces.clear();
-        for ring in 0..index(arranged.edges.rings().len()) {
-            arranged.select_along(ring, &mut self.pieces);
-        }
+        let threads = Threads::for_edges(arranged.edges.len());
+        threads.list(arranged.edges.rings().len(), &mut self.pieces, |rings, pieces| {
+            rings.for_each(|ring| arranged.select_along(index(ring), pieces));
+        });
         self.round(arranged.edges, arranged.contacts);
         self
     }
@@ -148,9 +149,11 @@ impl Selection {
     fn round(&mut self, edges: &Edges, contacts: &Contacts) {
         self.rounded.clear();
         self.rounded.resize(contacts.node_count(), UNUSED);
-        for &node in self.pieces.iter().flat_map(|piece| &piece.nodes).flatten() {
-            if let Place::Crossing(..) = contacts.place(node) {
-                self.rounded[node as usize] = WANTED;
+        for nodes in self.pieces.iter().filter_map(|piece| piece.nodes) {
+            for node in nodes.map(|node| node as usize) {
+                if let Place::Crossing(..) = Place::of(contacts.nodes()[node]) {
+                    self.rounded[node] = WANTED;
+                }
             }
         }
         let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));

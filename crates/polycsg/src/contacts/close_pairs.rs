@@ -6,10 +6,14 @@
 //! than boxes do; what else comes near an edge is looked for there.
 
 use super::contact::{Contact, PartnerKind};
+use crate::base::threads::{Threads, ranges};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
 use crate::spatial::{chains::LONGEST, slabs::SlabDecomposition};
-use glam::DVec2;
+use glam::{DVec2, Vec2Swizzles};
+
+/// So many pairs for each edge are noted.
+const PAIRS: usize = 64;
 
 /// See the module's page.
 #[derive(Debug, Default)]
@@ -17,6 +21,8 @@ pub(crate) struct ClosePairs {
     /// Whether all edges count as close.
     all: bool,
     pairs: Vec<[u32; 2]>,
+    /// More pairs take longer than all edges.
+    most: usize,
     margins: Margins,
     /// The places close together on an edge.
     pub(crate) close: Vec<ClosePlaces>,
@@ -47,9 +53,10 @@ pub(super) struct CloseGroups {
 }
 
 impl ClosePairs {
-    /// Starts over for coordinates up to a size; where pairs are not wanted, all edges count as close.
-    pub(crate) fn start(&mut self, size: f64, wanted: bool) {
+    /// Starts over for so many edges with coordinates up to a size; where pairs are not wanted, all edges count as close.
+    pub(crate) fn start(&mut self, edges: usize, size: f64, wanted: bool) {
         self.all = !wanted;
+        self.most = PAIRS * edges.max(PAIRS);
         self.pairs.clear();
         self.close.clear();
         self.margins = Margins::for_size(size);
@@ -69,9 +76,7 @@ impl ClosePairs {
     }
 
     pub(crate) fn add(&mut self, e: u32, f: u32) {
-        if !self.all {
-            self.pairs.push([e, f]);
-        }
+        self.add_group(&[f, e]);
     }
 
     /// Notes what comes near an edge where the [`SlabDecomposition`] takes the place of boxes, and lets it report the rest. Where
@@ -132,11 +137,40 @@ impl ClosePairs {
             && !self.margins.are_steep([[shared, p], [shared, q]], doubled_area(shared, p, q))
     }
 
+    /// Looks at the contacts of all edges.
+    pub(super) fn find_along_all(&mut self, edges: &Edges, contacts: &[Contact]) {
+        let along = |close_pairs: &mut ClosePairs, contacts: &[Contact]| {
+            contacts
+                .chunk_by(|a, b| a.edge == b.edge)
+                .for_each(|contacts| close_pairs.find_along(edges, contacts));
+        };
+        let threads = Threads::for_edges(edges.len());
+        if !threads.are_many() {
+            return along(self, contacts);
+        }
+        // A part goes on to the end of its last edge.
+        let next_edge = |at: usize| {
+            let last = contacts[..at].last().map(|contact| contact.edge);
+            at + contacts[at..].iter().take_while(|contact| Some(contact.edge) == last).count()
+        };
+        let parts = threads.map(ranges(contacts.len()), |part| {
+            let mut own = ClosePairs { pairs: Vec::new(), close: Vec::new(), ..*self };
+            along(&mut own, &contacts[next_edge(part.start)..next_edge(part.end)]);
+            own
+        });
+        for part in parts {
+            self.pairs.extend(part.pairs);
+            self.close.extend(part.close);
+            self.all |= part.all || self.pairs.len().max(self.close.len()) > self.most;
+        }
+    }
+
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.
-    pub(crate) fn find_along(&mut self, edges: &Edges, contacts: &[Contact]) {
+    fn find_along(&mut self, edges: &Edges, contacts: &[Contact]) {
         let is_crossing = |contact: &Contact| {
             matches!(contact.partner.kind(), PartnerKind::FromLeft(_) | PartnerKind::FromRight(_))
         };
+        self.all |= self.close.len() > self.most;
         if self.all || !contacts.iter().any(is_crossing) {
             return;
         }
@@ -162,7 +196,7 @@ impl ClosePairs {
     /// Notes all pairs of edges that meet close together; where they are many, all edges count as close.
     pub(crate) fn add_group(&mut self, group: &[u32]) {
         const MOST: usize = 64;
-        self.all |= group.len() > MOST;
+        self.all |= group.len() > MOST || self.pairs.len() > self.most;
         for (i, &e) in group.iter().enumerate().take_while(|_| !self.all) {
             self.pairs.extend(group[..i].iter().filter(|&&f| f != e).map(|&f| [e, f]));
         }
@@ -177,32 +211,54 @@ impl ClosePairs {
             if self.are_flat_at(a, b, start) {
                 self.add(edge, before);
             }
-            if (start.x - a.x).abs() <= self.margins.close {
-                self.find_beyond(edges, edge, before, |other| ring.edge_before(other));
-            }
+            self.find_beyond(edges, edge, before, start - a, |other| ring.edge_before(other));
         }
         if let Some(after) = ring.edge_after(edge) {
             let end = edges.point(after + 1);
             if self.are_flat_at(b, a, end) {
                 self.add(edge, after);
             }
-            if (end.x - b.x).abs() <= self.margins.close {
-                self.find_beyond(edges, edge, after, |other| ring.edge_after(other));
-            }
+            self.find_beyond(edges, edge, after, end - b, |other| ring.edge_after(other));
         }
     }
 
-    /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, and were not compared with it,
-    /// and are not apart from it.
-    fn find_beyond(&mut self, edges: &Edges, edge: u32, neighbour: u32, step: impl Fn(u32) -> Option<u32>) {
-        let s = edges.segment(edge);
+    /// Notes those of the edges beyond a neighbour that may be in one chain with an edge, to the side or upward, and were not
+    /// compared with it, and are not apart from it, where the neighbour's extent keeps them less than a margin away.
+    #[inline]
+    fn find_beyond(
+        &mut self,
+        edges: &Edges,
+        edge: u32,
+        neighbour: u32,
+        extent: DVec2,
+        step: impl Fn(u32) -> Option<u32>,
+    ) {
+        if extent.x.abs() <= self.margins.close {
+            self.find_along_chain(edges, edge, neighbour, |p| p, &step);
+        }
+        if extent.y.abs() <= self.margins.close {
+            self.find_along_chain(edges, edge, neighbour, DVec2::yx, &step);
+        }
+    }
+
+    /// The same for chains to the side, or for others that are so as seen.
+    fn find_along_chain(
+        &mut self,
+        edges: &Edges,
+        edge: u32,
+        neighbour: u32,
+        seen: impl Fn(DVec2) -> DVec2,
+        step: impl Fn(u32) -> Option<u32>,
+    ) {
+        let segment = |edge: u32| edges.segment(edge).map(&seen);
+        let s = segment(edge);
         let leads_on = |t: Segment| lexicographic(t[0], t[1]) == lexicographic(s[0], s[1]);
-        if !leads_on(edges.segment(neighbour)) {
+        if !leads_on(segment(neighbour)) {
             return; // another chain, whose boxes were looked at
         }
         let others = std::iter::successors(step(neighbour), |&other| step(other));
         for other in others.take(LONGEST as usize) {
-            let t = edges.segment(other);
+            let t = segment(other);
             let gap = (t[0].x.min(t[1].x) - s[0].x.max(s[1].x)).max(s[0].x.min(s[1].x) - t[0].x.max(t[1].x));
             if gap > self.margins.close || !leads_on(t) {
                 break;

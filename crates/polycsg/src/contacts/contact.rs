@@ -1,8 +1,6 @@
 //! What meets an edge, and where on it.
 
-use crate::edges::Edges;
-use crate::predicates::{Parameter, crossing_order, lexicographic, point_crossing_order};
-use std::cmp::Ordering;
+use crate::predicates::Parameter;
 
 /// What meets an edge in a contact: a kind in the top bits, and the id of an edge or vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +62,7 @@ impl Partner {
 /// A node on an edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
-    // A parameter taken apart, as the whole has padding.
+    // A parameter taken apart, as the whole has padding. The error is negative where the contact lies in the place of the one before.
     value: f64,
     error: f32,
     pub(crate) edge: u32,
@@ -82,37 +80,16 @@ impl Contact {
     /// Where along the edge it is.
     #[inline]
     pub(crate) fn at(&self) -> Parameter {
-        Parameter { value: self.value, error: self.error }
+        Parameter { value: self.value, error: self.error.abs() }
     }
-}
 
-/// The order of two contacts by edge and along it: by the parameters where their bounds allow, else exactly.
-#[inline]
-pub(super) fn order(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
-    if a.edge != b.edge {
-        return a.edge.cmp(&b.edge);
+    /// Whether it lies in the place of the contact before it, as far as this is known.
+    #[inline]
+    pub(super) fn is_with_previous(&self) -> bool {
+        self.error.is_sign_negative()
     }
-    a.at().certain_order(b.at()).unwrap_or_else(|| order_exactly(edges, a, b))
-}
 
-#[cold]
-fn order_exactly(edges: &Edges, a: &Contact, b: &Contact) -> Ordering {
-    let e = edges.segment(a.edge);
-    match (a.partner.kind(), b.partner.kind()) {
-        (PartnerKind::Vertex(v), PartnerKind::Vertex(w)) => {
-            let order = lexicographic(edges.point(v), edges.point(w));
-            if lexicographic(e[0], e[1]) == Ordering::Less { order } else { order.reverse() }
-        }
-        (PartnerKind::Vertex(v), PartnerKind::FromLeft(g) | PartnerKind::FromRight(g)) => {
-            point_crossing_order(e, edges.point(v), edges.segment(g))
-        }
-        (PartnerKind::FromLeft(g) | PartnerKind::FromRight(g), PartnerKind::Vertex(v)) => {
-            point_crossing_order(e, edges.point(v), edges.segment(g)).reverse()
-        }
-        (
-            PartnerKind::FromLeft(f) | PartnerKind::FromRight(f),
-            PartnerKind::FromLeft(g) | PartnerKind::FromRight(g),
-        ) => crossing_order(e, edges.segment(f), edges.segment(g)),
-        _ => b.partner.is_end().cmp(&a.partner.is_end()),
+    pub(super) fn set_with_previous(&mut self) {
+        self.error = -self.error.abs();
     }
 }

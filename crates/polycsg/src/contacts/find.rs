@@ -2,7 +2,7 @@
 
 use super::pair::{Crossing, Meeting, meeting};
 use super::{Contacts, candidates::Candidates, close_pairs::ClosePairs};
-use crate::base::{meter::Meter, threads::Threads};
+use crate::base::{meter::Meter, threads::Threads, threads::ranges};
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::predicates::Margins;
@@ -32,13 +32,6 @@ impl Compared {
             Meeting::Close { .. } => self.meetings.push(Err(pair)),
         }
     }
-}
-
-/// Parts of a range of strips, the same for any number of threads.
-fn parts(strips: usize) -> impl Iterator<Item = Range<usize>> {
-    const MOST: usize = 64;
-    let length = strips.div_ceil(MOST).max(1);
-    (0..strips).step_by(length).map(move |start| start..strips.min(start + length))
 }
 
 impl Contacts {
@@ -94,7 +87,7 @@ impl Contacts {
         };
         let (mut pairs, mut allowed) = (0, Ok(()));
         let in_time =
-            Threads::for_edges(edges.len()).map(parts(strips.len()), compared).into_iter().all(|met| {
+            Threads::for_edges(edges.len()).map(ranges(strips.len()), compared).into_iter().all(|met| {
                 pairs += met.pairs;
                 allowed = allowed.and(met.allowed);
                 met.meetings.into_iter().for_each(|meeting| match meeting {

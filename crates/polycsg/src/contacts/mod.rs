@@ -6,6 +6,7 @@
 //! an explicit one also on the edge that starts there. Two crossings at one point always share an edge pairwise, so
 //! that equality along each edge is all that is needed to unify them.
 
+mod along;
 pub(crate) mod budget;
 pub(crate) mod candidates;
 pub(crate) mod close_pairs;
@@ -22,8 +23,7 @@ use crate::spatial::slabs::SlabDecomposition;
 use budget::WorkBudget;
 use candidates::{BroadPhase, Candidates};
 use close_pairs::{CloseGroups, ClosePairs};
-use contact::{Contact, order};
-use std::cmp::Ordering;
+use contact::Contact;
 
 /// No edge, no node.
 const NONE: u32 = u32::MAX;
@@ -32,7 +32,7 @@ const NONE: u32 = u32::MAX;
 const FEW: usize = 24;
 
 /// More contacts than that, and buckets of so many bits of edges, are for the caches' sake.
-const MANY: usize = 1 << 16;
+const MANY: usize = if cfg!(any(test, fuzzing)) { 64 } else { 1 << 16 };
 const PART: u32 = 8;
 
 /// What a caller asks for.
@@ -51,7 +51,7 @@ pub(crate) struct Request<'a> {
 pub(crate) struct Contacts {
     /// In the end sorted by edge and along it.
     found: Vec<Contact>,
-    /// Where each bucket starts, and its first place that is free.
+    /// Where each bucket of them starts, and its first place that is free.
     starts: Vec<u32>,
     free: Vec<u32>,
     /// Per node the two edges that cross there, or a vertex and `NONE`.
@@ -83,20 +83,20 @@ impl Contacts {
         let most = meter.contacts();
         let size = chains.size();
         self.start(edges);
-        close_pairs.start(size, wanted);
+        close_pairs.start(edges.len(), size, wanted);
         let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, meter)?;
         if !is_done && self.found.len() <= most {
             self.start(edges);
-            close_pairs.start(size, wanted);
+            close_pairs.start(edges.len(), size, wanted);
             self.find_by_slabs(edges, chains, slabs, close_pairs, meter)?;
         }
         if self.found.len() > most {
             return Err(Error::TooManyContacts { limit: most });
         }
         meter.spend(self.found.len())?;
-        self.bucket(edges.len());
         self.sort(edges);
-        self.unify(edges, close_pairs);
+        self.unify();
+        close_pairs.find_along_all(edges, &self.found);
         self.find_at_close_places(edges, close_pairs);
         self.prefer_vertices();
         Ok(())
@@ -156,62 +156,43 @@ impl Contacts {
         self.rings.find(ring)
     }
 
-    /// Moves the contacts to their edges' places, or near them: a counting sort by some leading bits of the edge, in place.
+    /// Sorts the contacts by edge and along it: a counting sort by some leading bits of the edge, then each bucket.
     ///
-    /// A few are one bucket; many are moved to the right part of memory first.
-    fn bucket(&mut self, edge_count: usize) {
-        self.starts.clear();
-        if self.found.len() <= FEW {
-            return self.starts.extend([0, index(self.found.len())]);
-        }
-        let shift = (edge_count / (self.found.len() + 1)).max(1).ilog2();
-        if self.found.len() > MANY {
-            self.bucket_by(edge_count, shift + PART);
-        }
-        self.bucket_by(edge_count, shift);
-    }
-
-    fn bucket_by(&mut self, edge_count: usize, shift: u32) {
-        let bucket_of = |contact: &Contact| (contact.edge >> shift) as usize;
-        self.starts.clear();
-        self.starts.resize((edge_count >> shift) + 2, 0);
-        for contact in &self.found {
-            self.starts[bucket_of(contact) + 1] += 1;
-        }
-        for bucket in 1..self.starts.len() {
-            self.starts[bucket] += self.starts[bucket - 1];
-        }
-        self.free.clone_from(&self.starts);
-        for bucket in 0..self.starts.len() - 1 {
-            while self.free[bucket] < self.starts[bucket + 1] {
-                let at = self.free[bucket] as usize;
-                let other = bucket_of(&self.found[at]);
-                self.found.swap(at, self.free[other] as usize);
-                self.free[other] += 1;
-            }
-        }
-    }
-
-    /// Sorts the contacts of each bucket by edge and along it.
+    /// A few are one bucket; many are moved to the right part of memory first, and the parts are sorted on their own.
     fn sort(&mut self, edges: &Edges) {
-        let mut rest = &mut self.found[..];
-        let buckets = self.starts.windows(2).map(move |ends| {
-            let (bucket, others) = std::mem::take(&mut rest).split_at_mut((ends[1] - ends[0]) as usize);
-            rest = others;
-            bucket
+        let Contacts { found, starts, free, .. } = self;
+        if found.len() <= FEW {
+            return along::sort(edges, found);
+        }
+        let shift = (edges.len() / (found.len() + 1)).max(1).ilog2();
+        let are_many = found.len() > MANY;
+        let width = if are_many { shift + PART } else { shift };
+        for buffer in [&mut *starts, free] {
+            buffer.clear();
+            buffer.resize((edges.len() >> width) + 2, 0);
+        }
+        bucket(found, width, 0, starts, free);
+        let parts = buckets(found, starts);
+        Threads::for_edges(edges.len()).for_each(parts, |part| {
+            if !are_many {
+                return along::sort(edges, part);
+            }
+            let (mut starts, mut free) = ([0; (1 << PART) + 1], [0; (1 << PART) + 1]);
+            bucket(part, shift, part[0].edge >> width << PART, &mut starts, &mut free);
+            buckets(part, &starts).for_each(|bucket| along::sort(edges, bucket));
         });
-        let sort = |bucket: &mut [Contact]| bucket.sort_unstable_by(|a, b| order(edges, a, b));
-        Threads::for_edges(edges.len()).for_each(buckets.filter(|bucket| bucket.len() > 1), sort);
     }
 
     /// Unifies what lies in one place of an edge.
-    fn unify(&mut self, edges: &Edges, close_pairs: &mut ClosePairs) {
+    fn unify(&mut self) {
+        if !self.found.iter().any(Contact::is_with_previous) {
+            return;
+        }
+        self.degenerate = true;
         let mut kept = 0;
         for i in 0..self.found.len() {
             let contact = self.found[i];
-            let same = kept > 0 && order(edges, &self.found[kept - 1], &contact) == Ordering::Equal;
-            if same {
-                self.degenerate = true;
+            if contact.is_with_previous() {
                 self.classes.join(self.found[kept - 1].node, contact.node);
             } else {
                 self.found[kept] = contact;
@@ -219,9 +200,6 @@ impl Contacts {
             }
         }
         self.found.truncate(kept);
-        for on_edge in self.found.chunk_by(|a, b| a.edge == b.edge) {
-            close_pairs.find_along(edges, on_edge);
-        }
     }
 
     /// Lets a vertex, where there is one, tell the place of a node.
@@ -236,6 +214,40 @@ impl Contacts {
             }
         }
     }
+}
+
+/// Moves contacts to their buckets, by the bits of the edge above some, in place. The buckets' starts are zero before, and one
+/// more than there are buckets.
+fn bucket(contacts: &mut [Contact], shift: u32, first: u32, starts: &mut [u32], free: &mut [u32]) {
+    let bucket_of = |contact: &Contact| ((contact.edge >> shift) - first) as usize;
+    for contact in &*contacts {
+        starts[bucket_of(contact) + 1] += 1;
+    }
+    for bucket in 1..starts.len() {
+        starts[bucket] += starts[bucket - 1];
+    }
+    free.copy_from_slice(starts);
+    for bucket in 0..starts.len() - 1 {
+        while free[bucket] < starts[bucket + 1] {
+            let at = free[bucket] as usize;
+            let other = bucket_of(&contacts[at]);
+            contacts.swap(at, free[other] as usize);
+            free[other] += 1;
+        }
+    }
+}
+
+/// The buckets with more than one contact.
+fn buckets<'a>(
+    mut contacts: &'a mut [Contact],
+    starts: &'a [u32],
+) -> impl Iterator<Item = &'a mut [Contact]> {
+    let buckets = starts.windows(2).map(move |ends| {
+        let (bucket, others) = std::mem::take(&mut contacts).split_at_mut((ends[1] - ends[0]) as usize);
+        contacts = others;
+        bucket
+    });
+    buckets.filter(|bucket| bucket.len() > 1)
 }
 
 /// Where a node is.

@@ -48,8 +48,18 @@ impl Crossing {
 #[inline]
 pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
     let (s, t) = (edges.segment(e), edges.segment(f));
-    if f == e + 1 && margins.are_steep([s, t], doubled_area(s[0], s[1], t[1])) {
-        return Meeting::Apart; // neighbours that meet in their common end alone
+    // Most neighbours along a ring meet in their common end alone, as their corner tells.
+    let corner = if f == e + 1 {
+        Some([s[0], s[1], t[1]])
+    } else {
+        (t[1] == s[0] && edges.head(f) == e).then_some([t[0], t[1], s[1]])
+    };
+    let meet_there_alone = |[a, b, c]: [DVec2; 3]| {
+        let shared = SharedEnd { common: b, end_of_s: a, end_of_t: c };
+        shared.is_straight() || margins.are_steep([s, t], doubled_area(a, b, c))
+    };
+    if corner.is_some_and(meet_there_alone) {
+        return Meeting::Apart;
     }
     let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
     if margins.are_apart(s, ends_of_f) {

@@ -1,7 +1,7 @@
 //! Reads the operands' rings. Rings that are near in the plane are stored one after the other.
 
 use super::{END, EdgeRing, Edges, Origin};
-use crate::base::id::index;
+use crate::base::{id::index, threads::Threads};
 use crate::expression::{bounds::ResultBounds, csg::Csg, csg::Token, winding::WindingNumbers};
 use crate::predicates::Window;
 use crate::region::rings::Rings;
@@ -23,15 +23,17 @@ pub(crate) struct RingKey {
     ring: u32,
 }
 
-/// The rings of all operands, or of those alone that are not prepared.
-fn ring_keys<'a>(csg: &'a Csg<'_>, all: bool) -> impl Iterator<Item = RingKey> + 'a {
-    let leaves = (0..).zip(csg.postfix()).filter(|(_, leaf): &(u32, &Token<'_>)| leaf.rings().is_some());
-    let wanted = leaves.zip(0..).filter(move |((_, leaf), _)| all || !matches!(leaf, Token::Prepared(_)));
-    let read = wanted.filter_map(|((token, leaf), operand)| Some((token, leaf.rings()?, operand)));
-    read.flat_map(|(token, rings, operand)| {
-        let place = move |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
-        (0..).zip(rings.iter()).map(place)
-    })
+/// Lists the rings of all operands, or of those alone that are not prepared.
+fn list_rings(csg: &Csg<'_>, all: bool, keys: &mut Vec<RingKey>) {
+    let mut operand = 0;
+    for (token, leaf) in (0..).zip(csg.postfix()) {
+        let Some(rings) = leaf.rings() else { continue };
+        if all || !matches!(leaf, Token::Prepared(_)) {
+            let key = |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
+            keys.extend((0..).zip(rings.iter()).map(key));
+        }
+        operand += 1;
+    }
 }
 
 /// Whether each ring lies about as near to the one before it as it would when sorted by columns.
@@ -48,16 +50,17 @@ fn are_near(rings: &[RingKey]) -> bool {
 
 /// Sorts by columns of about as many rings as there are columns, up and down in turn.
 fn sort_by_place(rings: &mut [RingKey]) {
-    rings.sort_unstable_by(|a, b| {
+    let threads = Threads::for_edges(rings.len());
+    threads.sort(rings, |a, b| {
         a.point.x.total_cmp(&b.point.x).then((a.operand, a.ring).cmp(&(b.operand, b.ring)))
     });
     let column = rings.len().isqrt().max(1);
-    for (i, rings) in rings.chunks_mut(column).enumerate() {
+    threads.for_each(rings.chunks_mut(column).enumerate(), |(i, rings)| {
         rings.sort_unstable_by(|a, b| {
             let upward = a.point.y.total_cmp(&b.point.y).then((a.operand, a.ring).cmp(&(b.operand, b.ring)));
             if i % 2 == 0 { upward } else { upward.reverse() }
         });
-    }
+    });
 }
 
 impl Edges {
@@ -73,7 +76,7 @@ impl Edges {
         self.clear();
         all.clear();
         let window = bounds.window();
-        all.extend(ring_keys(csg, window.is_none()));
+        list_rings(csg, window.is_none(), all);
         if all.len() > FEW_RINGS && !are_near(all) {
             sort_by_place(all);
         }
@@ -157,7 +160,9 @@ impl Edges {
     /// Stores the origin of each slot.
     pub(super) fn store_origins(&mut self) {
         if self.origins.is_empty() {
-            self.origins = (0..index(self.points.len())).map(|slot| self.origin(slot)).collect();
+            let mut origins = std::mem::take(&mut self.origins);
+            origins.extend((0..index(self.points.len())).map(|slot| self.origin(slot)));
+            self.origins = origins;
         }
     }
 

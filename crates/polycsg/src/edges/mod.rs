@@ -261,8 +261,10 @@ impl Edges {
 
     #[cold]
     fn cross_also(&self, ring: EdgeRing, back: bool, winding: &mut WindingNumbers) {
-        for Change { counter, winds } in self.changes(ring).skip(1) {
+        let mut place = ring.also;
+        while let Some(&Also { change: Change { counter, winds }, next }) = self.also.get(place as usize) {
             winding.cross(counter, if back { -winds } else { winds });
+            place = next;
         }
     }
 }

@@ -20,8 +20,8 @@ use scratch::{ArrangementBuffers, ContactBuffers, EdgeBuffers, ExpressionBuffers
 
 /// The expression as a region.
 ///
-/// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which do not
-/// meet any more, are then read once more by their winding numbers. That run creates no vertex, so it rounds nothing.
+/// Rounding may carry a tiny ring over an edge that it never touches. The nesting shows it; the rings, which meet in their vertices
+/// only, are then read by their winding numbers. That creates no vertex, so it rounds nothing.
 ///
 /// # Errors
 /// Those of the limits that the meter has.
@@ -37,19 +37,19 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) ->
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
+    let index = Index { strips: &mut spatial.strips, slabs: &mut spatial.slabs, budget: *budget, meter };
+    let outline = &mut boundary.outline;
+    boundary.repair.outline(rounded, arranged.close_pairs, index, outline)?;
     let SpatialBuffers { chains, strips, slabs } = spatial;
-    let index = Index { strips, slabs, budget: *budget, meter };
-    let outline = boundary.repair.outline(rounded, arranged.close_pairs, index, &mut boundary.outline)?;
-    meter.spend(outline.chains().len())?;
-    let cycles = assembly.cycles.link(outline);
-    match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting, meter) {
-        Ok(region) => Ok(region),
-        Err(Unnested::Refused(error)) => Err(error),
-        Err(Unnested::Misnested) => {
-            let (rings, repaired) = (cycles.rings().clone(), boundary.repair.vertices);
-            let region = region(&Csg::positive(rings), scratch, meter);
-            scratch.boundary.repair.vertices += repaired;
-            region
+    loop {
+        meter.spend(outline.chains().len())?;
+        let cycles = assembly.cycles.link(outline);
+        match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting, meter) {
+            Ok(region) => return Ok(region),
+            Err(Unnested::Refused(error)) => return Err(error),
+            Err(Unnested::Misnested) => {
+                assembly.positive.reduce(outline, cycles.rings(), (chains, strips, slabs), meter)?;
+            }
         }
     }
 }

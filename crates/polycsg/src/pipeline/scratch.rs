@@ -1,7 +1,7 @@
 //! The buffers of all stages, one struct for each folder.
 
 use crate::arrangement::{Arrangement, labels::Labels};
-use crate::assemble::{link::Cycles, nest::Nesting};
+use crate::assemble::{link::Cycles, nest::Nesting, positive::PositiveEdges};
 use crate::boundary::{outline::Outline, repair::Repair, select::Selection};
 use crate::contacts::{Contacts, budget::WorkBudget, close_pairs::ClosePairs};
 use crate::edges::{Edges, coincident::CoincidentEdges, collect::RingKey};
@@ -80,6 +80,7 @@ pub(crate) struct BoundaryBuffers {
 pub(crate) struct AssemblyBuffers {
     pub(crate) cycles: Cycles,
     pub(crate) nesting: Nesting,
+    pub(crate) positive: PositiveEdges,
 }
 
 impl Scratch {

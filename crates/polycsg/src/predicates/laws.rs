@@ -22,7 +22,7 @@ pub(crate) fn check(mut word: impl FnMut() -> u64) -> Result<(), String> {
 }
 
 /// Each predicate's law.
-pub(super) const LAWS: [(&str, Law); 9] = [
+pub(super) const LAWS: [(&str, Law); 10] = [
     ("side", side_is_exact),
     ("turn", turn_is_exact),
     ("crossing_order", crossings_are_in_order),
@@ -30,6 +30,7 @@ pub(super) const LAWS: [(&str, Law); 9] = [
     ("point_crossing_order", points_and_crossings_are_in_order),
     ("height_order", heights_are_in_order),
     ("crossing_x_order", abscissae_are_in_order),
+    ("crossings_x_order", abscissae_of_crossings_are_in_order),
     ("crossing_point", crossings_are_nearest),
     ("margins", what_is_clear_is_so),
 ];
@@ -114,11 +115,27 @@ pub(super) fn filtered([a, b]: Segment, [c, d]: Segment) -> Parameter {
     Parameter::of_crossing(doubled_area(c, d, a), doubled_area(c, d, b))
 }
 
+/// What the bounds of two parameters prove.
+pub(super) fn certain_order(p: Parameter, q: Parameter) -> Option<Ordering> {
+    order_of_bounds([p.low(), p.high()], [q.low(), q.high()])
+}
+
+fn order_of_bounds<B: PartialOrd>(p: [B; 2], q: [B; 2]) -> Option<Ordering> {
+    let (less, greater) = (p[1] < q[0], p[0] > q[1]);
+    (less || greater).then_some(if less { Ordering::Less } else { Ordering::Greater })
+}
+
 fn certain_parameters_are_in_order(all: &Configuration) -> Option<bool> {
     let &[a, b, c, d, g, h] = all;
     let exact = order_of_crossings(all)?;
-    let certain = filtered([a, b], [c, d]).certain_order(filtered([a, b], [g, h]));
-    Some(certain.is_none_or(|order| order == exact))
+    let certain = certain_order(filtered([a, b], [c, d]), filtered([a, b], [g, h]));
+    let [l, r] = [[c, d], [g, h]].map(|f| FineParameter::of_crossing([a, b], f));
+    Some(
+        [certain, order_of_bounds([l.low, l.high], [r.low, r.high])]
+            .iter()
+            .flatten()
+            .all(|&order| order == exact),
+    )
 }
 
 /// A point of an edge and a crossing on it: by the predicate, and by parameters where those are certain.
@@ -132,8 +149,11 @@ fn points_and_crossings_are_in_order(&[a, b, c, d, g, _]: &Configuration) -> Opt
     let axis = usize::from(run[0].is_zero());
     let scale = run[axis].signum();
     let exact = compare(&[&at[axis] * &scale, &run[axis] * &scale], &parameter([p, q], [r, s]));
-    let certain = Parameter::of_point([a, b], g).certain_order(filtered([a, b], [c, d]));
-    Some(point_crossing_order([a, b], g, [c, d]) == exact && certain.is_none_or(|order| order == exact))
+    let certain = certain_order(Parameter::of_point([a, b], g), filtered([a, b], [c, d]));
+    let (l, r) = (FineParameter::of_point([a, b], g), FineParameter::of_crossing([a, b], [c, d]));
+    let finely = order_of_bounds([l.low, l.high], [r.low, r.high]);
+    let mut told = [Some(point_crossing_order([a, b], g, [c, d])), certain, finely].into_iter().flatten();
+    Some(told.all(|order| order == exact))
 }
 
 fn heights_are_in_order(&[a, b, c, d, ..]: &Configuration) -> Option<bool> {
@@ -166,6 +186,13 @@ fn abscissae_are_in_order(&[a, b, c, d, g, _]: &Configuration) -> Option<bool> {
     let [p, q, r, s, at] = &points([a, b, c, d, DVec2::new(g.x, 0.0)]);
     let [x, _] = do_cross([p, q], [r, s]).then(|| crossing([p, q], [r, s]))?;
     Some(crossing_x_order([a, b], [c, d], g.x) == x[0].cmp(&(&at[0] * &x[1])))
+}
+
+fn abscissae_of_crossings_are_in_order(&[a, b, c, d, g, h]: &Configuration) -> Option<bool> {
+    let [p, q, r, s, t, u] = &points([a, b, c, d, g, h]);
+    let do_meet = do_cross([p, q], [r, s]) && do_cross([p, q], [t, u]);
+    let [[x, _], [other, _]] = do_meet.then(|| [[r, s], [t, u]].map(|f| crossing([p, q], f)))?;
+    Some(crossings_x_order([[a, b], [c, d]], [[g, h], [b, a]]) == compare(&x, &other))
 }
 
 /// Both coordinates are nearest, the even one of two as near, and neither order nor direction of the edges matters.

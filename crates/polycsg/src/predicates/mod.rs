@@ -7,9 +7,11 @@
 //! | --- | --- | --- |
 //! | [`side`] | on which side of a directed line does a point lie | 2 |
 //! | [`turn`] | does one direction turn left or right of another | 2 |
+//! | [`Compass`] | along which axis or into which quadrant does a direction point | 1 |
 //! | [`crossing_order`] | which of two crossings comes first along an edge | 4 |
 //! | [`height_order`] | which of two edges is lower at an abscissa | 3 |
 //! | [`crossing_x_order`] | does a crossing lie left of an abscissa | 3 |
+//! | [`crossings_x_order`] | which of two crossings lies further left | 6 |
 //! | [`Margins`] | do two edges cross, or not meet, whatever rounding does | 2 |
 //! | [`Window`], [`Band`] | does a box lie on one side of an edge, or of some points | 2 |
 //! | [`crossing_point`] | the crossing of two edges, correctly rounded | 3 |
@@ -19,6 +21,7 @@ mod band;
 mod clear;
 #[cfg(any(test, fuzzing))]
 mod configurations;
+mod distance;
 mod fixed;
 #[cfg(any(test, fuzzing))]
 pub(crate) mod laws;
@@ -37,9 +40,10 @@ pub(crate) use band::{Band, Window};
 pub(crate) use clear::{Clear, Margins};
 pub(crate) use exactfloat::Ratio;
 pub(crate) use order::{
-    crossing_order, crossing_x_order, height_order, is_inside, lexicographic, point_crossing_order, rightward,
+    crossing_order, crossing_x_order, crossings_x_order, height_order, is_inside, lexicographic,
+    point_crossing_order, rightward,
 };
-pub(crate) use orient::{Area, doubled_area, side, side_of, turn};
-pub(crate) use parameter::Parameter;
+pub(crate) use orient::{Area, Compass, doubled_area, side, side_of, turn};
+pub(crate) use parameter::{FineParameter, Parameter};
 pub(crate) use round::{crossing_point, crossing_ratio};
 pub(crate) use segment::{Segment, Side};

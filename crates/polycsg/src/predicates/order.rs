@@ -1,8 +1,9 @@
 //! Orders: along an edge, along an abscissa, of abscissae.
 
+use super::distance::{RELATIVE, distance, is_moderate};
 use super::fixed;
 use super::orient::{UNIT, side, turn};
-use super::round::{crossing_point, crossing_ratio};
+use super::round::{crossing_by_residuals, crossing_ratio};
 use super::segment::{Segment, Side};
 use exactfloat::{DoubleDouble, Integer, Ratio, Wide, integers};
 use glam::DVec2;
@@ -34,24 +35,8 @@ pub(crate) fn crossing_order(e: Segment, f: Segment, g: Segment) -> Ordering {
         .unwrap_or_else(|| crossing_order_by_integers(e, f, g))
 }
 
-/// Where no product of four differences under- or overflows, nor a low part of one: coordinates are 0 or in 2^-100 … 2^100.
-fn is_moderate(p: DVec2) -> bool {
-    const LOW: f64 = f64::from_bits((1023 - 100) << 52);
-    const HIGH: f64 = f64::from_bits((1023 + 100) << 52);
-    p.to_array().iter().all(|&x| x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
-}
-
-/// Differences are exact, and each further operation is right to 2^-100 of itself; the bounds add these up with room to spare.
+/// The bounds add up those of the distances with room to spare.
 fn crossing_order_by_double_doubles(e: Segment, f: Segment, g: Segment) -> Option<Ordering> {
-    const RELATIVE: f64 = f64::from_bits((1023 - 97) << 52);
-    let difference =
-        |a: DVec2, b: DVec2| (DoubleDouble::difference(a.x, b.x), DoubleDouble::difference(a.y, b.y));
-    let distance = |[p, q]: Segment, point: DVec2| {
-        let ((ux, uy), (vx, vy)) = (difference(p, point), difference(q, point));
-        let (l, r) = (ux * vy, uy * vx);
-        let area = l - r;
-        (if area.hi < 0.0 { -area } else { area }, RELATIVE * (l.hi.abs() + r.hi.abs()))
-    };
     let [[nf, mf], [ng, mg]] = [f, g].map(|line| e.map(|end| distance(line, end)));
     let product = |(a, da): (DoubleDouble, f64), (b, db): (DoubleDouble, f64)| {
         (a * b, 2.0 * (a.hi * db + b.hi * da + da * db + RELATIVE * a.hi * b.hi))
@@ -61,19 +46,25 @@ fn crossing_order_by_double_doubles(e: Segment, f: Segment, g: Segment) -> Optio
     (order.abs() > dl + dr).then(|| order.total_cmp(&0.0))
 }
 
-/// From the origin: with u the vector of an edge from p to q, and c = p × q, the doubled area of (f, a) is c + u × a, so that
+/// The cross product of two vectors.
+fn cross([a, b]: [Wide; 2], [c, d]: [Wide; 2]) -> Wide {
+    a * d - b * c
+}
+
+/// The vector u of an edge from p to q, and c = p × q: seen from the origin no product cancels that another one holds again, for
+/// any sizes of coordinates.
+fn from_origin(edge: Segment) -> ([Wide; 2], Wide) {
+    let [p, q] = edge.map(|p| p.to_array().map(Wide::from));
+    ([q[0] - p[0], q[1] - p[1]], cross(p, q))
+}
+
+/// The doubled area of (f, a) is c_f + u_f × a, so that
 ///
 /// n_f m_g - n_g m_f = c_f (u_g × u_e) - c_g (u_f × u_e) - (u_g × u_f) c_e
 ///
-/// for any sizes of coordinates without products that only cancel. |n_f| |m_g| - |n_g| |m_f| has the same sign if the start of e
-/// lies on different sides of f and g, else the opposite one.
+/// |n_f| |m_g| - |n_g| |m_f| has the same sign if the start of e lies on different sides of f and g, else the opposite one.
 fn crossing_order_by_bounds(e: Segment, f: Segment, g: Segment) -> Option<Ordering> {
-    let cross = |[a, b]: [Wide; 2], [c, d]: [Wide; 2]| a * d - b * c;
-    let parts = |edge: Segment| {
-        let [p, q] = edge.map(|p| p.to_array().map(Wide::from));
-        ([q[0] - p[0], q[1] - p[1]], cross(p, q))
-    };
-    let ((ue, ce), (uf, cf), (ug, cg)) = (parts(e), parts(f), parts(g));
+    let [(ue, ce), (uf, cf), (ug, cg)] = [e, f, g].map(from_origin);
     let order = (cf * cross(ug, ue) - cg * cross(uf, ue)).compare(cross(ug, uf) * ce)?;
     let is_same_side = side(f[0], f[1], e[0]) == side(g[0], g[1], e[0]);
     Some(if is_same_side { order.reverse() } else { order })
@@ -120,14 +111,44 @@ pub(crate) fn height_order(e: Segment, f: Segment, x: f64) -> Ordering {
 
 /// Whether the crossing of `e` and `f` lies left of, on or right of the abscissa `x`.
 pub(crate) fn crossing_x_order(e: Segment, f: Segment, x: f64) -> Ordering {
+    let exactly = || crossing_ratio(e, f)[0].compare(&Ratio::from_f64(x));
     // Rounding to nearest is monotone and keeps x, so only a tie needs the exact crossing.
-    match crossing_point(e, f).x.partial_cmp(&x) {
-        Some(Ordering::Equal) | None => {
-            let exactly = || crossing_ratio(e, f)[0].compare(&Ratio::from_f64(x));
-            fixed::crossing_x_order(e, f, x).unwrap_or_else(exactly)
-        }
+    match crossing_by_residuals(e, f).and_then(|p| p.x.partial_cmp(&x)) {
+        Some(Ordering::Equal) | None => fixed::crossing_x_order(e, f, x)
+            .or_else(|| crossing_x_order_by_bounds(e, f, x))
+            .unwrap_or_else(exactly),
         Some(order) => order,
     }
+}
+
+fn crossing_x_order_by_bounds(e: Segment, f: Segment, x: f64) -> Option<Ordering> {
+    let [shift, area] = abscissa([e, f]);
+    sided(shift.compare(area * Wide::from(x))?, [area])
+}
+
+/// The order of the abscissae of two crossings.
+pub(crate) fn crossings_x_order(at: [Segment; 2], other: [Segment; 2]) -> Ordering {
+    let by_bounds = || {
+        let ([s, a], [t, b]) = (abscissa(at), abscissa(other));
+        sided((s * b).compare(t * a)?, [a, b])
+    };
+    by_bounds()
+        .unwrap_or_else(|| crossing_ratio(at[0], at[1])[0].compare(&crossing_ratio(other[0], other[1])[0]))
+}
+
+/// The crossing p of the two lines has u_e × p = -c_e and u_f × p = -c_f, so that p (u_e × u_f) = u_e c_f - u_f c_e: the abscissa
+/// as a quotient.
+fn abscissa([e, f]: [Segment; 2]) -> [Wide; 2] {
+    let [(ue, ce), (uf, cf)] = [e, f].map(from_origin);
+    [ue[0] * cf - uf[0] * ce, cross(ue, uf)]
+}
+
+/// The order of two quotients by that of their products with denominators, as far as the signs of these are known.
+fn sided<const N: usize>(order: Ordering, denominators: [Wide; N]) -> Option<Ordering> {
+    denominators.into_iter().try_fold(order, |order, denominator| {
+        let is_negative = denominator.compare(Wide::from(0.0))? == Ordering::Less;
+        Some(if is_negative { order.reverse() } else { order })
+    })
 }
 
 /// The edge directed from its lexicographically smaller end.

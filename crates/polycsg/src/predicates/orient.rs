@@ -74,6 +74,35 @@ pub(crate) fn turn(e: Segment, g: Segment) -> Side {
     }
 }
 
+/// Where a direction points, counter-clockwise from just above straight down: along an axis or into a quadrant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Compass {
+    SouthEast,
+    East,
+    NorthEast,
+    North,
+    NorthWest,
+    West,
+    SouthWest,
+    South,
+}
+
+impl Compass {
+    #[inline]
+    pub(crate) fn of([start, end]: Segment) -> Compass {
+        use Compass::{East, North, NorthEast, NorthWest, South, SouthEast, SouthWest, West};
+        const WAYS: [[Compass; 3]; 3] =
+            [[SouthWest, West, NorthWest], [South, North, North], [SouthEast, East, NorthEast]];
+        let place = |a: f64, b: f64| usize::from(a <= b) + usize::from(a < b);
+        WAYS[place(start.x, end.x)][place(start.y, end.y)]
+    }
+
+    /// Whether all such directions are one.
+    pub(crate) fn is_axis(self) -> bool {
+        matches!(self, Compass::East | Compass::North | Compass::West | Compass::South)
+    }
+}
+
 /// The sign of `l - r` from the signs of the four factors `l = p q`, `r = s t`, where those suffice.
 fn sign_of_difference(p: Ordering, q: Ordering, s: Ordering, t: Ordering) -> Option<Side> {
     let (l, r) = (p as i8 * q as i8, s as i8 * t as i8);

@@ -165,3 +165,17 @@ fn where_robust_alone_is_wrong() {
     assert_eq!(side(p(0.0, 0.0), p(3e160, 3e160), p(1e160, 2e160)), Side::Left);
     assert_eq!(side(p(0.0, 0.0), p(3e160, 3e160), p(1e160, 1e160)), Side::On);
 }
+
+#[test]
+fn directions_go_round_from_just_above_straight_down() {
+    let steps = || (-2..=2).map(f64::from);
+    let directions =
+        steps().flat_map(|x| steps().map(move |y| DVec2::new(x, y))).filter(|p| *p != DVec2::ZERO);
+    let angle = |p: DVec2| p.to_angle() + if p.y < 0.0 && p.x <= 0.0 { std::f64::consts::TAU } else { 0.0 };
+    let compass = |p: DVec2| Compass::of([DVec2::ONE, DVec2::ONE + p]);
+    let mut directions: Vec<DVec2> = directions.collect();
+    directions.sort_by(|p, q| angle(*p).total_cmp(&angle(*q)));
+    assert!(directions.is_sorted_by_key(|p| compass(*p)));
+    assert!(directions.iter().all(|p| compass(*p).is_axis() == (p.x == 0.0 || p.y == 0.0)));
+    assert_eq!([directions[0], directions[23]].map(compass), [Compass::SouthEast, Compass::South]);
+}

@@ -1,7 +1,7 @@
 //! Every predicate over the whole range of exponents, against big integers.
 
 use super::configurations::{Configuration, configuration};
-use super::laws::{LAWS, filtered};
+use super::laws::{LAWS, certain_order, filtered};
 use super::*;
 use glam::DVec2;
 
@@ -55,7 +55,7 @@ fn unfiltered(questions: u32, mut points: impl FnMut() -> Configuration) -> [u32
                 && side(f[0], f[1], a) == side(f[0], f[1], b).reversed()
         };
         if does_cross([c, d]) && does_cross([g, h]) {
-            let order = filtered([a, b], [c, d]).certain_order(filtered([a, b], [g, h]));
+            let order = certain_order(filtered([a, b], [c, d]), filtered([a, b], [g, h]));
             left[1] += u32::from(order.is_none());
             left[2] += u32::from(round::crossing_by_residuals([a, b], [c, d]).is_none());
             asked += 1;

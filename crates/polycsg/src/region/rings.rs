@@ -41,7 +41,10 @@ impl Rings {
             _ => self.points.reserve(points.len() + 1),
         }
         self.points.extend(points.map(|point| point + DVec2::ZERO));
-        if let Some(vertex) = self.points[self.end..].iter().position(|point| !point.is_finite()) {
+        let read = &self.points[self.end..];
+        // Nothing but NaN and the infinities has a product with 0 that is not 0.
+        if read.iter().fold(DVec2::ZERO, |sum, &point| sum + point * 0.0) != DVec2::ZERO {
+            let vertex = read.iter().take_while(|point| point.is_finite()).count();
             return Err(Error::NonFinite { ring, vertex });
         }
         self.close();

@@ -1,11 +1,13 @@
-//! Monotone chains: consecutive edges of a ring that lead from left to right or from right to left, with their boxes.
+//! Monotone chains: consecutive edges of a ring that all lead to the right, to the left, upward or downward, with their boxes.
 //!
 //! ```text
-//!        ______            Lexicographically monotone: x never turns back (upright edges lead upward or downward,
-//!   ____/  |   \___        all of a chain the same way). So the edges of one chain meet in their common ends only,
-//!   chain 1|   chain 2     at every abscissa a chain has one edge, and of two chains only what lies in both boxes meets.
+//!        ______            Lexicographically monotone: to the right, x never turns back (upright edges lead upward or
+//!   ____/  |   \___        downward, all of a chain the same way). So the edges of one chain meet in their common ends
+//!   chain 1|   chain 2     only, and of two chains only what lies in both boxes meets.
 //! ```
 
+use super::strips::boxes_meet;
+use crate::base::threads::{Threads, ranges};
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range};
@@ -13,10 +15,15 @@ use std::{cmp::Ordering, ops::Range};
 /// More edges make a chain's box too large to prune anything.
 pub(crate) const LONGEST: u32 = 16;
 
+/// Of so few points each edge is a chain.
+const FEW: usize = 16;
+
+/// So many edges are a run.
+const RUN: u32 = 8;
+
 /// A chain ends where its box would have more than so many times the area of its edges' boxes: at the corner of a
-/// rectangle. Among few points anything is quick.
+/// rectangle.
 const WIDEST: f64 = 32.0;
-const FEW: usize = 64;
 
 /// A run of edges and its box.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +31,8 @@ pub(crate) struct MonotoneChain {
     /// The slots of its points, in the order of the ring.
     first: u32,
     last: u32,
-    rightward: bool,
+    /// Whether it leads to the right or the left, and upward or downward, where it is monotone so.
+    ways: [Option<bool>; 2],
     pub(crate) low: DVec2,
     pub(crate) high: DVec2,
 }
@@ -36,29 +44,15 @@ impl MonotoneChain {
         self.last - self.first
     }
 
-    /// The i-th edge from the left.
-    #[inline]
-    pub(crate) fn edge(&self, i: u32) -> u32 {
-        if self.rightward { self.first + i } else { self.last - 1 - i }
-    }
-
-    /// The slot of the i-th point from the left.
-    #[inline]
-    pub(crate) fn slot(&self, i: u32) -> u32 {
-        if self.rightward { self.first + i } else { self.last - i }
-    }
-
-    #[inline]
-    fn point(&self, points: &[DVec2], i: u32) -> DVec2 {
-        points[self.slot(i) as usize]
-    }
-
-    /// The edge, as an index and directed to the right, whose leftmost end lies at or left of `x` and whose rightmost end lies
+    /// The edges, each as an index and directed to the right, whose left ends lie at or left of `x` and whose right ends lie
     /// right of it.
-    pub(crate) fn edge_at(&self, points: &[DVec2], x: f64) -> Option<(u32, Segment)> {
-        let right = (0..=self.len()).find(|&i| self.point(points, i).x > x)?;
-        let i = right.checked_sub(1)?;
-        Some((self.edge(i), [self.point(points, i), self.point(points, right)]))
+    #[inline]
+    pub(crate) fn edges_at(&self, points: &[DVec2], x: f64) -> impl Iterator<Item = (u32, Segment)> {
+        let ends = points[self.first as usize..=self.last as usize].windows(2);
+        (self.first..).zip(ends).filter_map(move |(edge, ends)| {
+            let (left, right) = if ends[0].x < ends[1].x { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+            (left.x <= x && x < right.x).then_some((edge, [left, right]))
+        })
     }
 
     /// Calls `visit` for each edge of this chain and each of another whose boxes meet; those of the chains do.
@@ -67,21 +61,40 @@ impl MonotoneChain {
         if self.len() == 1 && other.len() == 1 {
             return visit(self.first, other.first);
         }
+        for (chain, next) in [(self, other), (other, self)] {
+            if chain.goes_on_in(next, points) {
+                return visit(chain.last - 1, next.first);
+            }
+        }
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         let (mut these, those) =
             (self.edges_within(points, low, high), other.edges_within(points, low, high));
         while these != 0 {
             let e = self.first + these.trailing_zeros();
             these &= these - 1;
-            let (low, high) = bounds(points[e as usize], points[e as usize + 1]);
+            let around = bounds(points[e as usize], points[e as usize + 1]);
             let mut left = those;
             while left != 0 {
                 let f = other.first + left.trailing_zeros();
                 left &= left - 1;
-                if meets(points[f as usize], points[f as usize + 1], low, high) {
+                if boxes_meet(bounds(points[f as usize], points[f as usize + 1]), around) {
                     visit(e, f);
                 }
             }
+        }
+    }
+
+    /// Whether another chain leads on from the end of this one, the edges there too: then only these two edges meet.
+    #[inline]
+    fn goes_on_in(&self, next: &MonotoneChain, points: &[DVec2]) -> bool {
+        let leads_on = |edge: u32| {
+            let step = points[edge as usize + 1] - points[edge as usize];
+            [step.x != 0.0, step.y != 0.0]
+        };
+        self.last == next.first && {
+            let (before, behind) = (leads_on(self.last - 1), leads_on(next.first));
+            let goes_on = |way: usize| self.ways[way].is_some() && self.ways[way] == next.ways[way];
+            [0, 1].iter().any(|&way| goes_on(way) && before[way] && behind[way])
         }
     }
 
@@ -92,22 +105,15 @@ impl MonotoneChain {
             return 1;
         }
         let ends = points[self.first as usize..=self.last as usize].windows(2);
-        (0..).zip(ends).fold(0, |edges, (i, ends)| edges | u32::from(meets(ends[0], ends[1], low, high)) << i)
+        let meets = |ends: &[DVec2]| u32::from(boxes_meet(bounds(ends[0], ends[1]), [low, high]));
+        ends.rev().fold(0, |edges, ends| edges << 1 | meets(ends))
     }
 }
 
 /// The box around two points.
 #[inline]
-fn bounds(a: DVec2, b: DVec2) -> (DVec2, DVec2) {
-    (a.min(b), a.max(b))
-}
-
-/// Whether the box around two points meets another one.
-#[inline]
-fn meets(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> bool {
-    let (left, right) = if a.x < b.x { (a.x, b.x) } else { (b.x, a.x) };
-    let (bottom, top) = if a.y < b.y { (a.y, b.y) } else { (b.y, a.y) };
-    (left <= high.x) & (right >= low.x) & (bottom <= high.y) & (top >= low.y)
+fn bounds(a: DVec2, b: DVec2) -> [DVec2; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// The chains of rings, ring by ring.
@@ -121,7 +127,7 @@ pub(crate) struct MonotoneChains {
 impl MonotoneChains {
     /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
     pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
-        self.cut(points, rings, LONGEST);
+        self.cut(points, rings, if points.len() <= FEW { 1 } else { LONGEST });
     }
 
     /// Makes each edge a chain.
@@ -129,11 +135,37 @@ impl MonotoneChains {
         self.cut(points, rings, 1);
     }
 
+    /// Cuts rings into runs that need not be monotone: enough for vertical rays.
+    pub(crate) fn cut_to_runs(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+        self.chains.clear();
+        for slots in rings {
+            let end = slots.end - 1;
+            for first in (slots.start..end).step_by(RUN as usize) {
+                let last = end.min(first + RUN);
+                let around = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
+                let run = &points[first as usize..=last as usize];
+                let (low, high) = run.iter().fold((DVec2::MAX, DVec2::MIN), around);
+                self.chains.push(MonotoneChain { first, last, ways: [None; 2], low, high });
+            }
+        }
+    }
+
     fn cut(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>, longest: u32) {
         self.chains.clear();
         self.leftmost.clear();
-        for slots in rings {
-            self.add_ring(points, slots, longest);
+        let threads = Threads::for_edges(points.len());
+        if !threads.are_many() {
+            return rings.for_each(|slots| self.add_ring(points, slots, longest));
+        }
+        let rings: Vec<Range<u32>> = rings.collect();
+        let parts = threads.map(ranges(rings.len()), |part| {
+            let mut own = MonotoneChains::default();
+            rings[part].iter().for_each(|slots| own.add_ring(points, slots.clone(), longest));
+            own
+        });
+        for part in parts {
+            self.chains.extend(part.chains);
+            self.leftmost.extend(part.leftmost);
         }
     }
 
@@ -143,7 +175,7 @@ impl MonotoneChains {
     }
 
     /// The lower left and upper right corner of each chain's box.
-    pub(crate) fn boxes(&self) -> impl Iterator<Item = [DVec2; 2]> + Clone + '_ {
+    pub(crate) fn boxes(&self) -> impl ExactSizeIterator<Item = [DVec2; 2]> + Clone + '_ {
         self.chains.iter().map(|chain| [chain.low, chain.high])
     }
 
@@ -164,17 +196,15 @@ impl MonotoneChains {
 
     /// The largest absolute coordinate.
     pub(crate) fn size(&self) -> f64 {
-        let largest = |size: f64, p: DVec2| p.abs().max_element().max(size);
-        self.chains.iter().flat_map(|chain| [chain.low, chain.high]).fold(0.0, largest)
+        let larger = |size: DVec2, chain: &MonotoneChain| size.max(chain.low.abs()).max(chain.high.abs());
+        self.chains.iter().fold(DVec2::ZERO, larger).max_element()
     }
 
     fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
-        let last = slots.end - 1;
-        let mut leftmost = slots.start;
-        let mut start = slots.start;
+        let (mut start, last) = (slots.start, slots.end - 1);
+        let mut leftmost = start;
         while start < last {
-            let chain = longest_chain(points, start, last.min(start + longest));
-            let left = chain.slot(0);
+            let (chain, left) = longest_chain(points, start, last.min(start + longest));
             if lexicographic(points[left as usize], points[leftmost as usize]) == Ordering::Less {
                 leftmost = left;
             }
@@ -186,30 +216,41 @@ impl MonotoneChains {
     }
 }
 
-/// The longest chain from a slot on that does not go beyond another slot.
+/// Whether an edge leads to the right rather than the left, and upward rather than downward.
 #[inline]
-fn longest_chain(points: &[DVec2], first: u32, end: u32) -> MonotoneChain {
-    let widest = if points.len() > FEW { WIDEST } else { f64::INFINITY };
+fn ways(step: DVec2) -> [bool; 2] {
+    let DVec2 { x, y } = step;
+    [(x > 0.0) | ((x == 0.0) & (y > 0.0)), (y > 0.0) | ((y == 0.0) & (x > 0.0))]
+}
+
+/// The longest chain from a slot on that does not go beyond another slot, and its lexicographically smallest slot.
+#[inline]
+fn longest_chain(points: &[DVec2], first: u32, end: u32) -> (MonotoneChain, u32) {
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
-    let rightward = lexicographic(a, b) == Ordering::Less;
-    let (mut bottom, mut top) = (a.y.min(b.y), a.y.max(b.y));
-    let area = |a: DVec2, b: DVec2| ((b.x - a.x) * (b.y - a.y)).abs();
-    let mut areas = area(a, b);
+    // The sign of a difference of doubles is that of the exact one.
+    let [rightward, upward] = ways(b - a);
+    let mut turned = [false; 2];
+    let [mut low, mut high] = bounds(a, b);
+    let area = |sides: DVec2| (sides.x * sides.y).abs();
+    let mut areas = area(b - a);
     let mut last = first + 1;
-    while last < end {
-        let c = points[last as usize + 1];
-        if (lexicographic(b, c) == Ordering::Less) != rightward {
+    for &c in &points[first as usize + 2..=end as usize] {
+        let way = ways(c - b);
+        let turns = [turned[0] | (way[0] != rightward), turned[1] | (way[1] != upward)];
+        let around = [low.min(c), high.max(c)];
+        areas += area(c - b);
+        if turns == [true; 2] || area(around[1] - around[0]) > WIDEST * areas {
             break;
         }
-        areas += area(b, c);
-        let around = area(DVec2::new(a.x, bottom.min(c.y)), DVec2::new(c.x, top.max(c.y)));
-        if around > widest * areas {
-            break;
-        }
-        (bottom, top) = (bottom.min(c.y), top.max(c.y));
-        b = c;
+        ([low, high], b, turned) = (around, c, turns);
         last += 1;
     }
-    let (left, right) = if rightward { (a.x, b.x) } else { (b.x, a.x) };
-    MonotoneChain { first, last, rightward, low: DVec2::new(left, bottom), high: DVec2::new(right, top) }
+    let by_place = |v: &u32, w: &u32| lexicographic(points[*v as usize], points[*w as usize]);
+    let left = match (turned[0], rightward) {
+        (true, _) => (first..=last).min_by(by_place).unwrap_or(first),
+        (false, true) => first,
+        (false, false) => last,
+    };
+    let ways = [(!turned[0]).then_some(rightward), (!turned[1]).then_some(upward)];
+    (MonotoneChain { first, last, ways, low, high }, left)
 }

@@ -1,14 +1,18 @@
 //! Vertical ray shooting: the edge right below a point.
 
 use super::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
-use crate::base::meter::Meter;
+use crate::base::{meter::Meter, threads::Threads};
 use crate::error::Error;
 use crate::predicates::{Segment, Side, height_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// So many boxes are looked at for each edge; then the slab decomposition takes over.
 const BOXES_PER_EDGE: usize = 32;
+
+/// So many vertices are asked for at a time.
+const VERTICES: usize = 1024;
 
 /// For each of some vertices the edge right below it. No edge may run through the vertices.
 #[derive(Debug, Default)]
@@ -34,18 +38,30 @@ impl VerticalRays {
         vertices: &[u32],
         meter: &Meter<'_>,
     ) -> Result<(), Error> {
-        let mut left = BOXES_PER_EDGE * points.len();
+        let (most, looked_at) = (BOXES_PER_EDGE * points.len(), AtomicUsize::new(0));
         self.edges.clear();
-        for &vertex in vertices {
-            meter.spend(1)?;
-            self.edges.push(nearest_below(chains, strips, points, points[vertex as usize], &mut left));
-            if left == 0 {
-                let edges = chains.edges().map(|edge| (edge, [edge, edge + 1]));
-                slabs.build(points.iter().copied(), edges);
-                return slabs.below(vertices, &mut self.edges, meter);
+        self.edges.resize(vertices.len(), None);
+        let parts = self.edges.chunks_mut(VERTICES).zip(vertices.chunks(VERTICES));
+        Threads::for_edges(points.len()).try_for_each(parts, |(edges, vertices)| {
+            for (edge, &vertex) in edges.iter_mut().zip(vertices) {
+                meter.spend(1)?;
+                // What other threads look at meanwhile is counted later: only the sum decides.
+                let before = most.saturating_sub(looked_at.load(Relaxed));
+                if before == 0 {
+                    break;
+                }
+                let mut left = before;
+                *edge = nearest_below(chains, strips, points, points[vertex as usize], &mut left);
+                looked_at.fetch_add(before - left, Relaxed);
             }
+            Ok(())
+        })?;
+        if looked_at.into_inner() < most {
+            return Ok(());
         }
-        Ok(())
+        let edges = chains.edges().map(|edge| (edge, [edge, edge + 1]));
+        slabs.build(points.iter().copied(), edges);
+        slabs.below(vertices, &mut self.edges, meter)
     }
 
     /// The edge below the i-th vertex.
@@ -66,8 +82,8 @@ fn nearest_below(
     strips.below(p.x, p.y, left, |chain| {
         let chain = chains.chain(chain);
         if chain.low.x <= p.x && p.x < chain.high.x && chain.low.y <= p.y {
-            let found = chain.edge_at(points, p.x).filter(|&(_, [a, b])| side(a, b, p) == Side::Left);
-            best = higher(best, found, p.x);
+            let below = chain.edges_at(points, p.x).filter(|&(_, [a, b])| side(a, b, p) == Side::Left);
+            best = below.fold(best, |best, edge| higher(best, Some(edge), p.x));
         }
         best.map(|(_, [a, b])| a.y.min(b.y))
     });

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Coordinates are mapped to 31-bit integers by one weakly monotone function, so that boxes which meet as reals meet
-//! as integers: the index may report too much and never too little. A few boxes stay unsorted.
+//! as integers: the index may report too much and never too little. A few boxes stay as they are, and are all compared.
 
 use crate::base::{id::index, threads::Threads};
 use glam::DVec2;
@@ -19,13 +19,20 @@ use std::ops::Range;
 const BOXES_PER_STRIP: usize = 192;
 
 /// So many boxes are quicker compared than sorted.
-const FEW: usize = 16;
+const FEW: usize = 32;
 
 /// Entries are passed over so many at a time where none reaches high enough.
 const ROW: usize = 16;
 
 /// So many boxes are compared at a time, without branches, so that the compiler can use vectors.
 const LANES: usize = 8;
+
+/// Whether two boxes meet. Differences of doubles have the signs of the exact ones, and vectors take them two at a time.
+#[inline]
+pub(super) fn boxes_meet([low, high]: [DVec2; 2], [other_low, other_high]: [DVec2; 2]) -> bool {
+    let common = (high - other_low).min(other_high - low);
+    common.min_element() >= 0.0
+}
 
 /// A box in the index's integers.
 #[derive(Clone, Copy, Debug)]
@@ -75,12 +82,19 @@ pub(crate) struct Strips {
     /// The largest `y1` of so many entries in a row.
     tops: Vec<i32>,
     boxes: Vec<Extent>,
+    /// A few boxes, in place of all the rest.
+    few: Vec<[DVec2; 2]>,
     keys: Vec<u64>,
 }
 
 impl Strips {
     /// Indexes boxes, given by their lower left and upper right corners, under their numbers.
-    pub(crate) fn build(&mut self, boxes: impl Iterator<Item = [DVec2; 2]> + Clone) {
+    pub(crate) fn build(&mut self, boxes: impl ExactSizeIterator<Item = [DVec2; 2]> + Clone) {
+        self.few.clear();
+        if boxes.len() <= FEW {
+            self.boxes.clear();
+            return self.few.extend(boxes);
+        }
         let (mut low, mut high) = (DVec2::MAX, DVec2::MIN);
         for [a, b] in boxes.clone() {
             low = low.min(a);
@@ -92,12 +106,10 @@ impl Strips {
             let (x0, y0, x1, y1) = (self.x.map(a.x), self.y.map(a.y), self.x.map(b.x), self.y.map(b.y));
             self.boxes.push(Extent { x0, x1, y0, y1 });
         }
-        if self.boxes.len() > FEW {
-            let count = self.strip_count();
-            self.count_entries(count);
-            self.fill();
-            self.sort();
-        }
+        let count = self.strip_count();
+        self.count_entries(count);
+        self.fill();
+        self.sort();
     }
 
     /// As many strips as keep about 192 boxes in each, and a box in 1.25 strips on the average at most.
@@ -183,7 +195,7 @@ impl Strips {
 
     /// The number of strips.
     pub(crate) fn len(&self) -> usize {
-        if self.boxes.len() <= FEW { 1 } else { self.starts.len() - 1 }
+        if self.boxes.is_empty() { 1 } else { self.starts.len() - 1 }
     }
 
     /// Calls `visit` once for each pair of boxes that meet in some of the strips, in an order that depends on the boxes
@@ -196,9 +208,8 @@ impl Strips {
         mut blocks: usize,
         mut visit: impl FnMut(u32, u32) -> bool,
     ) -> bool {
-        if self.boxes.len() <= FEW {
-            self.few_pairs(visit);
-            return true;
+        if self.boxes.is_empty() {
+            return self.few_pairs(visit);
         }
         for strip in strips {
             let entries = self.entries(strip);
@@ -250,15 +261,10 @@ impl Strips {
         count == 1 || Strips::strip(self.x0[i].max(self.x0[j]), count) == strip
     }
 
-    fn few_pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) {
-        for (i, a) in self.boxes.iter().enumerate() {
-            for (j, b) in self.boxes.iter().enumerate().skip(i + 1) {
-                let meets = (a.x0 <= b.x1) & (b.x0 <= a.x1) & (a.y0 <= b.y1) & (b.y0 <= a.y1);
-                if meets {
-                    visit(index(i), index(j));
-                }
-            }
-        }
+    fn few_pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
+        (0..)
+            .zip(&self.few)
+            .all(|(j, &b)| (0..j).zip(&self.few).all(|(i, &a)| !boxes_meet(a, b) || visit(i, j)))
     }
 
     /// Calls `visit` for the entries behind `i` whose boxes meet that of `i`; returns how many blocks it looked at.
@@ -287,11 +293,8 @@ impl Strips {
     /// box left reaches the height that the last call returned (`None`: nothing found yet), or until `left` boxes were
     /// looked at; counts these down.
     pub(crate) fn below(&self, x: f64, y: f64, left: &mut usize, mut visit: impl FnMut(u32) -> Option<f64>) {
-        if self.boxes.len() <= FEW {
-            for i in 0..index(self.boxes.len()) {
-                visit(i);
-            }
-            return;
+        if self.boxes.is_empty() {
+            return (0..index(self.few.len())).for_each(|i| _ = visit(i));
         }
         let count = self.starts.len() - 1;
         let (xm, ym) = (self.x.map(x), self.y.map(y));

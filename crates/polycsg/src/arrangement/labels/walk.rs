@@ -36,6 +36,7 @@ impl Labels {
     /// ```
     ///
     /// The step pushed last is done first and restores the state, so that the `Ahead` below it goes on from the same place.
+    /// Where there is nothing to do first, the walk goes on without the stack.
     fn walk_ahead(&mut self, mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
         loop {
             let next = map.arrangement.following(map.edges, sub_edge);
@@ -53,20 +54,17 @@ impl Labels {
                 return self.enter(other, map, winding);
             }
             map.edges.cross(map.arrangement.edge(other), !from_left, winding);
-            // If nothing is pushed above this depth, there is nothing to do first: go on without the stack.
-            let mut depth = self.steps.len();
-            if next != first {
-                self.steps.push(Step::Ahead { sub_edge: next, first });
-                self.label(next, map, winding);
-                depth += 1;
-            }
-            if !self.is_walked(other) {
-                self.enter(map.arrangement.previous(map.edges, other), map, winding);
-            }
-            if next == first || self.steps.len() > depth {
+            let closes = next == first;
+            let has_nested = !closes && self.label(next, map, winding);
+            let enters = !self.is_walked(other);
+            if closes || has_nested || enters {
+                self.steps.extend((!closes).then_some(Step::Ahead { sub_edge: next, first }));
+                self.take_nested(next, has_nested);
+                if enters {
+                    self.enter(map.arrangement.previous(map.edges, other), map, winding);
+                }
                 return;
             }
-            self.steps.pop();
             sub_edge = next;
         }
     }
@@ -88,16 +86,16 @@ impl Labels {
             }
             map.edges.cross(map.arrangement.edge(other), from_left, winding);
             sub_edge = map.arrangement.previous(map.edges, sub_edge);
-            let depth = self.steps.len();
-            self.steps.push(Step::Behind { sub_edge, first });
-            self.label(sub_edge, map, winding);
-            if !self.is_walked(other) {
-                self.enter(other, map, winding);
-            }
-            if self.steps.len() > depth + 1 {
+            let has_nested = self.label(sub_edge, map, winding);
+            let enters = !self.is_walked(other);
+            if has_nested || enters {
+                self.steps.push(Step::Behind { sub_edge, first });
+                self.take_nested(sub_edge, has_nested);
+                if enters {
+                    self.enter(other, map, winding);
+                }
                 return;
             }
-            self.steps.pop();
         }
     }
 
@@ -111,7 +109,8 @@ impl Labels {
     fn enter(&mut self, sub_edge: u32, map: Map<'_>, winding: &mut WindingNumbers) {
         self.walked[self.chain[sub_edge as usize] as usize] = true;
         self.steps.push(Step::Ahead { sub_edge, first: sub_edge });
-        self.label(sub_edge, map, winding);
+        let has_nested = self.label(sub_edge, map, winding);
+        self.take_nested(sub_edge, has_nested);
     }
 
     /// Starts to go around a junction, unless that was done, from the right of a half-edge that leads away along the
@@ -158,11 +157,11 @@ impl Labels {
         }
     }
 
-    /// Labels a sub-edge from the place on its left, and takes up what is nested beside it.
+    /// Labels a sub-edge from the place on its left; returns whether anything is nested beside it.
     #[inline]
-    fn label(&mut self, sub_edge: u32, map: Map<'_>, winding: &mut WindingNumbers) {
+    fn label(&mut self, sub_edge: u32, map: Map<'_>, winding: &mut WindingNumbers) -> bool {
         if map.arrangement.representative(sub_edge) != sub_edge {
-            return;
+            return false;
         }
         let left = winding.holds();
         let right = holds_behind(sub_edge, map, winding);
@@ -170,13 +169,14 @@ impl Labels {
         let label = &mut self.labels[sub_edge as usize];
         debug_assert!(!label.is(Label::KNOWN) || label.0 | Label::HAS_NESTED == known | Label::HAS_NESTED);
         label.0 |= known;
-        if label.is(Label::HAS_NESTED) {
-            self.take_nested(sub_edge);
-        }
+        label.is(Label::HAS_NESTED)
     }
 
-    #[cold]
-    fn take_nested(&mut self, sub_edge: u32) {
+    /// Takes up what is nested beside a sub-edge, if anything is.
+    fn take_nested(&mut self, sub_edge: u32, has_nested: bool) {
+        if !has_nested {
+            return;
+        }
         let first = self.nested.partition_point(|nested| nested.sub_edge < sub_edge);
         let nested = self.nested[first..].iter().take_while(|nested| nested.sub_edge == sub_edge);
         let component = |nested: &NestedComponent| Step::Component { vertex: nested.vertex };
@@ -206,7 +206,8 @@ impl Labels {
             self.steps.push(Step::CrossBack { sub_edge });
         }
         if sub_edge as usize >= map.arrangement.len() {
-            self.label(sub_edge, map, winding);
+            let has_nested = self.label(sub_edge, map, winding);
+            self.take_nested(sub_edge, has_nested);
         } else {
             self.enter(sub_edge, map, winding);
         }

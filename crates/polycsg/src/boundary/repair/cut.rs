@@ -24,17 +24,23 @@ impl Repair {
         outline: &mut Outline,
     ) -> Result<(), Error> {
         let (mut may_coincide, mut overlap) = (false, false);
-        loop {
+        for round in 1.. {
             index.meter.spend(self.fragments.len() + self.conflicts.len())?;
             may_coincide |= self.classes.len() < self.alike.len();
-            let affected = self.list_cuts(rounded, &mut overlap);
+            let affected = self.list_cuts(rounded, round, &mut overlap);
             if self.cuts.is_empty() {
                 break;
             }
             rounded.cut_up(&self.cuts, &mut self.fragments);
             let mut near = Near::to(affected.into_iter());
-            self.find_alike(|fragment| near.meets(fragment.segment));
-            self.find_conflicts(index)?;
+            self.find_alike(|fragment| near.is_slow() || near.meets(fragment.segment));
+            if near.is_slow() {
+                // A class must be whole: some of its members have other abscissae in common than all have.
+                self.find_alike(|_| true);
+            }
+            if !self.find_conflicts_again(round, index)? {
+                self.find_conflicts(index)?;
+            }
         }
         debug_assert!(overlap || self.is_repaired(index)?);
         self.vertices = self.fragments.len() - self.parts.len();
@@ -54,22 +60,21 @@ impl Repair {
     /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
     pub(super) fn find_alike(&mut self, mut wanted: impl FnMut(&Fragment) -> bool) {
         let Repair { fragments, alike, classes, .. } = self;
+        let mut is_wanted = |f: &Fragment| f.segment[0] != f.segment[1] && wanted(f);
         alike.clear();
-        alike.extend((0..id::index(fragments.len())).filter(|&i| {
-            let fragment = &fragments[i as usize];
-            fragment.segment[0] != fragment.segment[1] && wanted(fragment)
-        }));
-        let compare = |i: u32, j: u32| {
-            let (s, t) = (rightward(fragments[i as usize].segment), rightward(fragments[j as usize].segment));
-            lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]))
-        };
-        alike.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
+        alike.extend(
+            fragments.iter().zip(0..).filter(|(f, _)| is_wanted(f)).map(|(f, i)| (rightward(f.segment), i)),
+        );
+        let compare =
+            |s: Segment, t: Segment| lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]));
+        alike.sort_unstable_by(|&(s, i), &(t, j)| compare(s, t).then(i.cmp(&j)));
         classes.clear();
         let mut start = 0;
-        for class in alike.chunk_by(|&i, &j| compare(i, j) == Ordering::Equal) {
+        for class in alike.chunk_by(|(s, _), (t, _)| s == t) {
             let end = start + class.len();
-            let moved = class.iter().any(|&i| fragments[i as usize].moved);
-            classes.push(Class { members: start..end, moved });
+            let members = || class.iter().map(|&(_, i)| &fragments[i as usize]);
+            let (moved, round) = (members().any(|f| f.moved), members().map(|f| f.round).max().unwrap_or(0));
+            classes.push(Class { members: start..end, moved, round });
             start = end;
         }
     }
@@ -81,13 +86,13 @@ impl Repair {
         Ok(self.conflicts.is_empty())
     }
 
-    fn members(&self, class: u32) -> &[u32] {
-        &self.alike[self.classes[class as usize].members.clone()]
+    fn members(&self, class: u32) -> impl Iterator<Item = u32> + '_ {
+        self.alike[self.classes[class as usize].members.clone()].iter().map(|&(_, fragment)| fragment)
     }
 
-    /// The first of a class.
-    fn one_of(&self, class: u32) -> &Fragment {
-        &self.fragments[self.members(class)[0] as usize]
+    /// The ends of a class.
+    fn segment(&self, class: u32) -> Segment {
+        self.alike[self.classes[class as usize].members.start].0
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
@@ -95,7 +100,7 @@ impl Repair {
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
-            let segments = (0..self.classes.len()).map(|class| self.one_of(id::index(class)).segment);
+            let segments = (0..self.classes.len()).map(|class| self.segment(id::index(class)));
             let is_done = index.pairs_by_boxes(segments.clone(), |i, j| {
                 conflicts.extend(self.conflict(i, j));
                 true
@@ -109,15 +114,41 @@ impl Repair {
         Ok(())
     }
 
+    /// The same where all conflicts are those of classes with fragments that were in conflict in a round; returns false, having
+    /// found some, where these are too many for boxes.
+    fn find_conflicts_again(&mut self, round: u32, index: &Index<'_>) -> Result<bool, Error> {
+        let is_again = |class: u32| self.classes[class as usize].round == round;
+        let all = 0..id::index(self.classes.len());
+        let again: Vec<u32> = all.clone().filter(|&class| is_again(class)).collect();
+        let mut near = Near::to(again.iter().map(|&class| self.segment(class)));
+        let mut conflicts = std::mem::take(&mut self.conflicts);
+        conflicts.clear();
+        for class in all {
+            near.meeting(self.segment(class), |place| {
+                let other = again[place as usize];
+                if other < class || !is_again(class) {
+                    conflicts.extend(self.conflict(other.min(class), other.max(class)));
+                }
+                true
+            });
+            index.meter.spend(1)?;
+            if near.is_slow() {
+                break;
+            }
+        }
+        self.conflicts = conflicts;
+        Ok(!near.is_slow())
+    }
+
     /// The pair of classes, if they are in conflict.
     pub(super) fn conflict(&self, i: u32, j: u32) -> Option<[u32; 2]> {
         let moved = [i, j].iter().any(|&class| self.classes[class as usize].moved);
-        (moved && in_conflict([i, j].map(|class| self.one_of(class).segment))).then_some([i, j])
+        (moved && in_conflict([i, j].map(|class| self.segment(class)))).then_some([i, j])
     }
 
     /// Lists cuts of the conflicting fragments at the common ends of those that they conflict with, and notes whether there
     /// are any that cannot be cut so; returns the segments of the others, in whose boxes their new fragments will lie.
-    fn list_cuts(&mut self, rounded: Rounded<'_>, overlap: &mut bool) -> Vec<Segment> {
+    fn list_cuts(&mut self, rounded: Rounded<'_>, round: u32, overlap: &mut bool) -> Vec<Segment> {
         let mut affected = Vec::new();
         let mut common = vec![None; self.classes.len()];
         let mut cuts = std::mem::take(&mut self.cuts);
@@ -132,26 +163,33 @@ impl Repair {
             if cuts.len() == before {
                 *overlap = true;
             } else {
-                affected.extend([i, j].map(|class| self.one_of(class).segment));
+                affected.extend([i, j]);
             }
+        }
+        affected.sort_unstable();
+        affected.dedup();
+        for i in
+            affected.iter().flat_map(|&class| self.alike[self.classes[class as usize].members.clone()].iter())
+        {
+            self.fragments[i.1 as usize].round = round;
         }
         cuts.sort_unstable();
         cuts.dedup();
         self.cuts = cuts;
-        affected
+        affected.into_iter().map(|class| self.segment(class)).collect()
     }
 
     /// The ends of the abscissae that all of a class have in common: the left end furthest right and the right end furthest
     /// left.
     fn common_ends(&self, rounded: Rounded<'_>, class: u32) -> Option<[u32; 2]> {
-        let ends = |&fragment: &u32| rounded.rightward(self.fragments[fragment as usize].ends);
+        let ends = |fragment: u32| rounded.rightward(self.fragments[fragment as usize].ends);
         let common =
             |[a, b]: [u32; 2], [c, d]: [u32; 2]| [rounded.rightward([a, c])[1], rounded.rightward([b, d])[0]];
-        self.members(class).iter().map(ends).reduce(common)
+        self.members(class).map(ends).reduce(common)
     }
 
     fn add_cuts(&self, rounded: Rounded<'_>, class: u32, vertices: [u32; 2], cuts: &mut Vec<CutAt>) {
-        for &fragment in self.members(class) {
+        for fragment in self.members(class) {
             let ends = self.fragments[fragment as usize].ends;
             let inside = vertices.into_iter().filter(|&vertex| rounded.is_strictly_between(ends, vertex));
             cuts.extend(inside.map(|vertex| (fragment, vertex)));

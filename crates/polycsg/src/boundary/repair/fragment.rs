@@ -22,16 +22,19 @@ pub(super) struct Fragment {
     pub(super) ends: [u32; 2],
     /// Whether an end is a rounded point.
     pub(super) moved: bool,
+    /// The last round of cuts in which it was in conflict, from 1 on.
+    pub(super) round: u32,
 }
 
 /// A cut of a fragment, by its place, at a vertex's abscissa.
 pub(super) type CutAt = (u32, u32);
 
-/// Fragments with the same ends, as a span of `alike`, and whether any has a rounded end.
+/// Fragments with the same ends, as a span of `alike`, whether any has a rounded end, and the last round of any.
 #[derive(Clone, Debug)]
 pub(super) struct Class {
     pub(super) members: Range<usize>,
     pub(super) moved: bool,
+    pub(super) round: u32,
 }
 
 /// Whether two segments meet elsewhere than in common ends.

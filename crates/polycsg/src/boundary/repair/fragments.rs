@@ -5,7 +5,7 @@ use crate::base::id::index;
 use crate::boundary::select::{End, Piece, Selection};
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
-use crate::predicates::{Ratio, crossing_ratio};
+use crate::predicates::{Ratio, crossing_ratio, crossing_x_order, crossings_x_order};
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -15,13 +15,6 @@ pub(crate) struct Rounded<'a> {
     pub(crate) edges: &'a Edges,
     pub(crate) contacts: &'a Contacts,
     pub(crate) selection: &'a Selection,
-}
-
-/// An exact abscissa: that of a vertex.
-#[derive(Clone, Debug)]
-struct Abscissa {
-    vertex: u32,
-    rounded: f64,
 }
 
 impl Rounded<'_> {
@@ -87,37 +80,26 @@ impl Rounded<'_> {
         fragments.extend(parts.iter().map(|&Part { start, end, edge }| {
             let ends = [start, end];
             let moved = ends.iter().any(|&vertex| self.crossing(vertex).is_some());
-            Fragment { segment: ends.map(|vertex| self.point(vertex)), edge, ends, moved }
+            Fragment { segment: ends.map(|vertex| self.point(vertex)), edge, ends, moved, round: 0 }
         }));
     }
 
-    /// Cuts some of the fragments, and leaves the others.
-    pub(super) fn cut_up(&self, mut cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
-        let before = std::mem::take(fragments);
-        fragments.reserve(before.len() + cuts.len());
-        for (id, fragment) in (0..).zip(before) {
-            let own = cuts.iter().take_while(|cut| cut.0 == id).count();
-            if own == 0 {
-                fragments.push(fragment);
-            } else {
-                self.cut(fragment, &cuts[..own], fragments);
+    /// Cuts some of the fragments: the first piece takes the place of the whole, the others are added.
+    pub(super) fn cut_up(&self, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+        for own in cuts.chunk_by(|a, b| a.0 == b.0) {
+            let place = own[0].0 as usize;
+            let mut rest = Fragment { moved: true, ..fragments[place] };
+            for vertex in self.ordered(rest.ends, own).into_iter().rev() {
+                let point = self.cut_point(rest.edge, vertex);
+                fragments.push(Fragment {
+                    segment: [point, rest.segment[1]],
+                    ends: [vertex, rest.ends[1]],
+                    ..rest
+                });
+                (rest.segment[1], rest.ends[1]) = (point, vertex);
             }
-            cuts = &cuts[own..];
+            fragments[place] = rest;
         }
-    }
-
-    fn cut(&self, fragment: Fragment, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
-        let mut rest = Fragment { moved: true, ..fragment };
-        for vertex in self.ordered(fragment.ends, cuts) {
-            let point = self.cut_point(fragment.edge, vertex);
-            fragments.push(Fragment {
-                segment: [rest.segment[0], point],
-                ends: [rest.ends[0], vertex],
-                ..rest
-            });
-            (rest.segment[0], rest.ends[0]) = (point, vertex);
-        }
-        fragments.push(rest);
     }
 
     /// The vertices of cuts between two vertices, from the first of these to the second, equal abscissae once.
@@ -131,16 +113,13 @@ impl Rounded<'_> {
         vertices
     }
 
-    fn abscissa(&self, vertex: u32) -> Abscissa {
-        Abscissa { vertex, rounded: self.point(vertex).x }
-    }
-
     /// The exact x of a vertex.
     fn exact_abscissa(&self, vertex: u32) -> Ratio {
         match self.crossing(vertex) {
             None => Ratio::from_f64(self.edges.point(vertex).x),
-            Some([e, f]) => {
-                let [x, _] = crossing_ratio(self.edges.segment(e), self.edges.segment(f));
+            Some(pair) => {
+                let [e, f] = pair.map(|edge| self.edges.segment(edge));
+                let [x, _] = crossing_ratio(e, f);
                 x
             }
         }
@@ -148,19 +127,24 @@ impl Rounded<'_> {
 
     /// Rounding is monotone: only equal rounded abscissae need the exact ones.
     fn compare_abscissae(&self, a: u32, b: u32) -> Ordering {
-        let (a, b) = (self.abscissa(a), self.abscissa(b));
-        match a.rounded.partial_cmp(&b.rounded) {
-            Some(Ordering::Equal) | None if a.vertex != b.vertex => {
-                self.exact_abscissa(a.vertex).compare(&self.exact_abscissa(b.vertex))
-            }
-            order => order.unwrap_or(Ordering::Equal),
+        let order = self.point(a).x.total_cmp(&self.point(b).x);
+        if order == Ordering::Equal && a != b { self.compare_exactly(a, b) } else { order }
+    }
+
+    fn compare_exactly(&self, a: u32, b: u32) -> Ordering {
+        let segments = |pair: [u32; 2]| pair.map(|edge| self.edges.segment(edge));
+        match [a, b].map(|vertex| self.crossing(vertex).map(segments)) {
+            [Some(at), Some(other)] => crossings_x_order(at, other),
+            [Some([e, f]), None] => crossing_x_order(e, f, self.point(b).x),
+            [None, Some([e, f])] => crossing_x_order(e, f, self.point(a).x).reverse(),
+            [None, None] => Ordering::Equal,
         }
     }
 
     /// The point of an edge at a vertex's abscissa, rounded.
     fn cut_point(&self, edge: u32, vertex: u32) -> DVec2 {
         let y = self.exact_abscissa(vertex).ordinate_on(self.edges.segment(edge).map(|p| p.to_array()));
-        DVec2::new(self.abscissa(vertex).rounded, y.to_f64())
+        DVec2::new(self.point(vertex).x, y.to_f64())
     }
 
     /// Two vertices, that with the smaller abscissa first.

@@ -38,6 +38,7 @@ mod sound;
 use crate::boundary::outline::Outline;
 use crate::contacts::close_pairs::ClosePairs;
 use crate::error::Error;
+use crate::predicates::Segment;
 use fragment::{Class, CutAt, Fragment, Part};
 use fragments::Rounded;
 pub(crate) use index::Index;
@@ -47,8 +48,8 @@ pub(crate) use index::Index;
 pub(crate) struct Repair {
     parts: Vec<Part>,
     fragments: Vec<Fragment>,
-    /// The fragments that are not empty, by their ends, and the spans of those with the same ends.
-    alike: Vec<u32>,
+    /// The fragments that are not empty with their ends from left to right, sorted by these, and the spans of those with the same.
+    alike: Vec<(Segment, u32)>,
     classes: Vec<Class>,
     /// Pairs of classes.
     conflicts: Vec<[u32; 2]>,
@@ -73,18 +74,18 @@ impl Repair {
     ///
     /// # Errors
     /// Those of the limits of the index.
-    pub(crate) fn outline<'o>(
+    pub(crate) fn outline(
         &mut self,
         rounded: Rounded<'_>,
         close_pairs: &ClosePairs,
         mut index: Index<'_>,
-        outline: &'o mut Outline,
-    ) -> Result<&'o Outline, Error> {
+        outline: &mut Outline,
+    ) -> Result<(), Error> {
         if self.is_sound(rounded, close_pairs, &mut index)? {
             outline.take(rounded.edges, rounded.contacts, rounded.selection);
+            Ok(())
         } else {
-            self.cut(rounded, &mut index, outline)?;
+            self.cut(rounded, &mut index, outline)
         }
-        Ok(outline)
     }
 }

@@ -91,7 +91,7 @@ impl Repair {
         self.class_of.clear();
         self.class_of.resize(self.fragments.len(), NONE);
         for (class, about) in (0..).zip(&self.classes) {
-            self.alike[about.members.clone()].iter().for_each(|&i| self.class_of[i as usize] = class);
+            self.alike[about.members.clone()].iter().for_each(|&(_, i)| self.class_of[i as usize] = class);
         }
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();

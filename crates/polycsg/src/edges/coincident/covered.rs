@@ -42,19 +42,11 @@ struct Sheet {
 
 impl Sheet {
     fn of(edges: &Edges, ring: EdgeRing) -> Sheet {
-        let points = &edges.points()[ring.start as usize..ring.end as usize];
-        let bounds = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
-        let (low, high) = points.iter().fold((DVec2::MAX, DVec2::MIN), bounds);
+        let [low, high] = bounds(edges, ring);
         let by_place = |&v: &u32, &w: &u32| lexicographic(edges.point(v), edges.point(w));
         let leftmost = (ring.start..ring.end).min_by(by_place).unwrap_or(ring.start);
         let [a, b, c] = corner(edges, ring, leftmost);
         Sheet { ring, low, high, inside: side(a, b, c) }
-    }
-
-    /// A quarter of the area of the box, so that it overflows less soon.
-    fn area(&self) -> f64 {
-        let half = self.high * 0.5 - self.low * 0.5;
-        half.x * half.y
     }
 
     /// Whether a convex ring covers another one.
@@ -92,6 +84,18 @@ impl Sheet {
     }
 }
 
+/// The box of a ring.
+fn bounds(edges: &Edges, ring: EdgeRing) -> [DVec2; 2] {
+    let points = &edges.points()[ring.start as usize..ring.end as usize];
+    points.iter().fold([DVec2::MAX, DVec2::MIN], |[low, high], &p| [low.min(p), high.max(p)])
+}
+
+/// A quarter of the area of a box, so that it overflows less soon.
+fn quarter(low: DVec2, high: DVec2) -> f64 {
+    let half = high * 0.5 - low * 0.5;
+    half.x * half.y
+}
+
 /// A vertex between its neighbours.
 fn corner(edges: &Edges, ring: EdgeRing, vertex: u32) -> [DVec2; 3] {
     [ring.previous(vertex), vertex, ring.next(vertex)].map(|vertex| edges.point(vertex))
@@ -116,26 +120,30 @@ impl CoveredRings {
         if edges.rings().len() < FEW {
             return false;
         }
-        let united = |ring: &&EdgeRing| ring.counter.is_some_and(|counter| winding.is_union(counter));
-        self.sheets.clear();
-        self.sheets.extend(edges.rings().iter().filter(united).map(|&ring| Sheet::of(edges, ring)));
-        let bounds = |(low, high): (DVec2, DVec2), sheet: &Sheet| (low.min(sheet.low), high.max(sheet.high));
-        let (low, high) = self.sheets.iter().fold((DVec2::MAX, DVec2::MIN), bounds);
-        let half = high * 0.5 - low * 0.5;
-        let is_deep = self.sheets.iter().map(Sheet::area).sum::<f64>() > DEEP * half.x * half.y;
-        is_deep && {
-            self.keep_once_wound(edges);
-            true
+        let is_united = |ring: &&EdgeRing| ring.counter.is_some_and(|counter| winding.is_union(counter));
+        let united = edges.rings().iter().filter(is_united);
+        let (mut low, mut high, mut area) = (DVec2::MAX, DVec2::MIN, 0.0);
+        for [ring_low, ring_high] in united.clone().map(|&ring| bounds(edges, ring)) {
+            low = low.min(ring_low);
+            high = high.max(ring_high);
+            area += quarter(ring_low, ring_high);
         }
+        let is_deep = area > DEEP * quarter(low, high);
+        if is_deep {
+            self.sheets.clear();
+            self.sheets.extend(united.map(|&ring| Sheet::of(edges, ring)));
+            self.keep_once_wound(edges);
+        }
+        is_deep
     }
 
     /// Finds the rings that others cover: these represent them, and take over the vertices that touch them. A vertex of
     /// a covered ring on the union's border is on that of the covering one. O(n log n).
     pub(super) fn find(&mut self, edges: &Edges, fates: &mut [Fate], touched: &mut Vec<(u32, DVec2)>) {
-        let cells = Cells::over(edges.points(), edges.len().div_ceil(edges.rings().len()));
+        let cells = Cells::over(edges.points(), edges.rings().len());
         self.largest.clear();
         self.largest.resize(cells.len(), [NONE; LARGEST]);
-        self.sheets.sort_by(|a, b| b.area().total_cmp(&a.area()));
+        self.sheets.sort_by(|a, b| quarter(b.low, b.high).total_cmp(&quarter(a.low, a.high)));
         let mut room = CELLS_PER_EDGE * edges.len();
         for (i, sheet) in (0..).zip(&self.sheets) {
             let near = self.largest[cells.at(sheet.low * 0.5 + sheet.high * 0.5) as usize];

@@ -22,7 +22,7 @@ mod table;
 mod touched;
 
 use crate::base::meter::Meter;
-use crate::edges::{Change, EdgeRing, Edges};
+use crate::edges::{Change, END, EdgeRing, Edges};
 use crate::error::Error;
 use crate::expression::winding::WindingNumbers;
 use covered::CoveredRings;
@@ -50,6 +50,16 @@ impl Fate {
     fn is_kept(self) -> bool {
         matches!(self, Fate::GoesOn | Fate::Starts)
     }
+}
+
+/// What the edges change that one stands for, besides its own ring's changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Company {
+    Nobody,
+    /// Most have one neighbour.
+    One(Change),
+    /// The sum of all is listed.
+    More,
 }
 
 /// The buffers of the stage.
@@ -117,47 +127,61 @@ impl CoincidentEdges {
         for &ring in edges.rings() {
             let mut before = None;
             for edge in ring.start..ring.end {
-                before = self.decide_on(edges, edge, before);
+                before = self.decide_on(edges, ring, edge, before);
             }
             // Where a closed ring is all alike so far, its first edge may go on from its last one.
-            let first = ring.start as usize;
-            if let (false, Some(last), Fate::Starts) = (ring.is_open, before, self.fates[first]) {
-                add_up(edges, &self.table, last, &mut self.before);
-                self.decide_on(edges, ring.start, before);
+            if !ring.is_open && before.is_some() && self.fates[ring.start as usize] == Fate::Starts {
+                self.decide_on(edges, ring, ring.start, before);
             }
         }
     }
 
-    /// Decides on an edge that stands for others or itself, behind another one whose changes were added up; returns the edge if
-    /// it is kept.
-    fn decide_on(&mut self, edges: &Edges, edge: u32, before: Option<u32>) -> Option<u32> {
-        let CoincidentEdges { table, fates, changes, before: changes_before, .. } = self;
-        let fate = &mut fates[edge as usize];
-        if *fate == Fate::Represented {
+    /// Decides on an edge that stands for others or itself, behind another one of its ring; returns what it stands for if it is
+    /// kept.
+    fn decide_on(
+        &mut self,
+        edges: &Edges,
+        ring: EdgeRing,
+        edge: u32,
+        before: Option<Company>,
+    ) -> Option<Company> {
+        if self.fates[edge as usize] == Fate::Represented {
             return None;
         }
-        let alone = |edge: u32| table.is_alone(edge);
-        let goes_on = if alone(edge) {
-            before.is_some_and(alone)
-        } else {
-            add_up(edges, table, edge, changes);
-            let is_same = before.is_some_and(|before| !alone(before)) && changes == changes_before;
-            std::mem::swap(changes, changes_before);
-            is_same
+        let company = self.company(edges, ring, edge);
+        let goes_on = company == before && (company != Some(Company::More) || self.changes == self.before);
+        if company == Some(Company::More) {
+            std::mem::swap(&mut self.changes, &mut self.before);
+        }
+        self.fates[edge as usize] = match (company, goes_on) {
+            (None, _) => Fate::Gone,
+            (_, true) => Fate::GoesOn,
+            (_, false) => Fate::Starts,
         };
-        *fate = if goes_on { Fate::GoesOn } else { Fate::Starts };
-        if !alone(edge) && changes_before.is_empty() {
-            *fate = Fate::Gone;
-            return None;
+        company
+    }
+
+    /// What an edge stands for besides itself, unless the changes of all add up to nothing.
+    #[inline]
+    fn company(&mut self, edges: &Edges, ring: EdgeRing, edge: u32) -> Option<Company> {
+        let Some(other) = self.table.next(edge) else { return Some(Company::Nobody) };
+        let others_ring = edges.ring(other);
+        let is_simple = self.table.is_alone(other) && ring.also == END && others_ring.also == END;
+        if let (true, Some(counter)) = (is_simple, others_ring.counter) {
+            let along = edges.point(edge) == edges.point(other);
+            let winds = if along { others_ring.winds } else { -others_ring.winds };
+            let is_nothing = ring.counter == Some(counter) && ring.winds + winds == 0;
+            return (!is_nothing).then_some(Company::One(Change { counter, winds }));
         }
-        Some(edge)
+        add_up(edges, &self.table, edge, &mut self.changes);
+        (!self.changes.is_empty()).then_some(Company::More)
     }
 
     /// Finds what the edges touch that are gone. Where that takes too long, they are kept after all, each by itself.
     fn find_touched(&mut self, edges: &Edges) {
         self.touched.clear();
         let any = self.fates.contains(&Fate::Gone);
-        if any && !self.touched.find(edges, &self.fates, self.table.cells()) {
+        if any && !self.touched.find(edges, &self.fates) {
             self.touched.clear();
             self.fates.iter_mut().filter(|fate| **fate == Fate::Gone).for_each(|fate| *fate = Fate::Starts);
         }

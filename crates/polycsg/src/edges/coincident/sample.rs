@@ -1,7 +1,7 @@
 //! Whether many edges coincide, by the ends of all edges where they are few, and of those at some points where they are many.
 //! The points are chosen by their digits, so that the order of the input, its scale and quarter turns do not matter.
 
-use crate::base::hash::mixed;
+use crate::base::{hash::mixed, id::index, threads::Threads};
 use crate::edges::Edges;
 use glam::DVec2;
 
@@ -23,7 +23,7 @@ const SHARE: usize = 16;
 pub(super) struct EdgeSample {
     /// A set of keys by some of their bits.
     seen: Vec<u64>,
-    keys: Vec<u64>,
+    keys: Vec<(u64, u32)>,
 }
 
 impl EdgeSample {
@@ -59,14 +59,17 @@ impl EdgeSample {
     fn at_some_points(&mut self, edges: &Edges) -> bool {
         let shift = 64 - (edges.len() / POINTS).min(RAREST).ilog2();
         self.keys.clear();
-        for ring in edges.rings() {
-            for vertex in (ring.start..ring.end).filter(|&v| digits(edges.point(v)) >> shift == 0) {
-                self.keys.extend(edges.at(vertex).map(|edge| key(edges, edge)));
+        Threads::for_edges(edges.len()).list(edges.len(), &mut self.keys, |slots, keys| {
+            let points = edges.points()[slots.clone()].iter();
+            for (slot, _) in (index(slots.start)..).zip(points).filter(|&(_, &p)| digits(p) >> shift == 0) {
+                let leaving = edges.is_vertex(slot).then(|| edges.at(slot));
+                keys.extend(leaving.into_iter().flatten().map(|edge| (key(edges, edge), edge)));
             }
-        }
-        let count = self.keys.len();
+        });
         self.keys.sort_unstable();
         self.keys.dedup();
+        let count = self.keys.len();
+        self.keys.dedup_by_key(|&mut (key, _)| key);
         SHARE * (count - self.keys.len()) > count
     }
 }

@@ -1,12 +1,8 @@
-//! A hash table of edges by their ends, with a part for each cell of the plane, so that neighbours in the plane are neighbours
-//! in memory.
+//! A hash table of edges by their ends.
 
-use super::{Fate, cells::Cells};
+use super::Fate;
 use crate::base::hash::mixed;
 use crate::edges::Edges;
-
-/// So many edges are in a cell on the average.
-const EDGES_PER_CELL: usize = 64;
 
 /// No edge.
 const NONE: u32 = u32::MAX;
@@ -14,32 +10,26 @@ const NONE: u32 = u32::MAX;
 /// See the module's page.
 #[derive(Debug, Default)]
 pub(super) struct Table {
-    cells: Cells,
-    /// Per edge its cell; per cell where its part of the table starts.
-    cell: Vec<u32>,
-    starts: Vec<u32>,
-    /// In each part with open addressing, half of the places empty: the first of the edges with the same ends.
+    /// With open addressing, half of the places empty: the first of the edges with the same ends.
     firsts: Vec<u32>,
     /// Per edge another one with the same ends, as a list from the first on.
     next: Vec<u32>,
 }
 
 impl Table {
-    /// The cells of all points that were looked at last.
-    pub(super) fn cells(&self) -> Cells {
-        self.cells
-    }
-
     /// Whether no other edge has the ends of one.
     pub(super) fn is_alone(&self, edge: u32) -> bool {
-        self.next[edge as usize] == NONE
+        self.next(edge).is_none()
+    }
+
+    /// Another edge with the ends of one that is the first of its kind.
+    pub(super) fn next(&self, edge: u32) -> Option<u32> {
+        Some(self.next[edge as usize]).filter(|&next| next != NONE)
     }
 
     /// The first edge of a kind, and all others with its ends.
     pub(super) fn alike(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
-        std::iter::successors(Some(first), |&edge| {
-            Some(self.next[edge as usize]).filter(|&next| next != NONE)
-        })
+        std::iter::successors(Some(first), |&edge| self.next(edge))
     }
 
     /// Leaves all edges alone.
@@ -54,7 +44,8 @@ impl Table {
     /// Groups the edges that bound something by their ends; the first of each group represents the others.
     pub(super) fn group(&mut self, edges: &Edges, fates: &mut Vec<Fate>) {
         self.clear(edges, fates);
-        self.lay_out(edges);
+        self.firsts.clear();
+        self.firsts.resize(2 * edges.len(), NONE);
         for ring in edges.rings() {
             let mut key = mixed(edges.point(ring.start));
             for edge in ring.start..ring.end {
@@ -67,35 +58,12 @@ impl Table {
         }
     }
 
-    /// Gives each cell two places for each of its edges.
-    fn lay_out(&mut self, edges: &Edges) {
-        self.cells = Cells::over(edges.points(), EDGES_PER_CELL);
-        self.cell.clear();
-        self.cell.resize(edges.len(), 0);
-        self.starts.clear();
-        self.starts.resize(self.cells.len() + 1, 0);
-        for ring in edges.rings() {
-            for edge in ring.start..ring.end {
-                let cell = self.cells.of(edges.segment(edge));
-                self.cell[edge as usize] = cell;
-                self.starts[cell as usize + 1] += 2;
-            }
-        }
-        for cell in 1..self.starts.len() {
-            self.starts[cell] += self.starts[cell - 1];
-        }
-        self.firsts.clear();
-        self.firsts.resize(2 * edges.len(), NONE);
-    }
-
     /// Whether an edge is the first with its ends; else it joins the list of the first.
     fn is_first(&mut self, edges: &Edges, edge: u32, key: u64) -> bool {
-        let cell = self.cell[edge as usize] as usize;
-        let [start, end] = [self.starts[cell], self.starts[cell + 1]].map(|place| place as usize);
         let fraction = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
-        let mut place = start + ((fraction * (end - start) as u64) >> 32) as usize;
+        let mut place = ((fraction * self.firsts.len() as u64) >> 32) as usize;
         while self.firsts[place] != NONE && !have_same_ends(edges, self.firsts[place], edge) {
-            place = if place + 1 == end { start } else { place + 1 };
+            place = if place + 1 == self.firsts.len() { 0 } else { place + 1 };
         }
         let first = self.firsts[place];
         if first == NONE {

@@ -6,8 +6,8 @@ use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
 use std::{cmp::Ordering, ops::Range};
 
-/// So many edges are in a cell on the average: maps have far more at some places.
-const EDGES_PER_CELL: usize = 2;
+/// There are so many cells for each edge that is left, but no more than half as many as edges.
+const CELLS_PER_LEFT: usize = 16;
 
 /// Edges that are left may touch so many cells each, on the average, and some more.
 const CELLS_PER_EDGE: usize = 4;
@@ -17,8 +17,8 @@ const MORE: usize = 1000;
 /// others, they would be too many.
 const PAIRS_PER_EDGE: usize = 64;
 
-/// So many consecutive vertices are passed over at once where no edge is left nearby.
-const TOGETHER: u32 = 16;
+/// So many consecutive slots are passed over at once where no edge is left nearby.
+const TOGETHER: usize = 32;
 
 /// See the module's page.
 #[derive(Debug, Default)]
@@ -35,10 +35,10 @@ pub(super) struct Touched {
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long, or all too close together, for that.
-    pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate], cells: Cells) -> bool {
-        let cells = cells.with(fates.len() / EDGES_PER_CELL);
+    pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate]) -> bool {
         self.left.clear();
         self.left.extend((0..).zip(fates).filter(|(_, fate)| fate.is_kept()).map(|(edge, _)| edge));
+        let cells = Cells::over(edges.points(), (CELLS_PER_LEFT * self.left.len()).min(fates.len() / 2));
         self.list(edges, cells) && {
             self.count(cells.columns());
             self.look(edges, cells, fates)
@@ -118,19 +118,15 @@ impl Touched {
     fn look(&mut self, edges: &Edges, cells: Cells, fates: &[Fate]) -> bool {
         self.inside.clear();
         let mut room = MORE + PAIRS_PER_EDGE * fates.len();
-        for ring in edges.rings() {
-            for start in (ring.start..ring.end).step_by(TOGETHER as usize) {
-                let vertices = start..ring.end.min(start + TOGETHER);
-                if !self.are_near(cells, &edges.points()[vertices.start as usize..vertices.end as usize]) {
-                    continue;
-                }
-                for vertex in vertices {
-                    if !edges.at(vertex).iter().any(|&edge| fates[edge as usize].is_kept()) {
-                        let p = edges.point(vertex);
-                        let looked_at = self.look_at(edges, cells.at(p) as usize, p);
-                        let Some(left) = room.checked_sub(looked_at) else { return false };
-                        room = left;
-                    }
+        for (start, points) in (0..).step_by(TOGETHER).zip(edges.points().chunks(TOGETHER)) {
+            if !self.are_near(cells, points) {
+                continue;
+            }
+            for (slot, &p) in (start..).zip(points).filter(|(slot, _)| edges.is_vertex(*slot)) {
+                if !edges.at(slot).iter().any(|&edge| fates[edge as usize].is_kept()) {
+                    let looked_at = self.look_at(edges, cells.at(p) as usize, p);
+                    let Some(left) = room.checked_sub(looked_at) else { return false };
+                    room = left;
                 }
             }
         }
@@ -207,7 +203,7 @@ mod tests {
             .zip(&mut fates)
             .filter(|(edge, _)| !table.is_alone(*edge))
             .for_each(|(_, fate)| *fate = Fate::Gone);
-        touched.find(&edges, &fates, table.cells()).then_some(touched.inside)
+        touched.find(&edges, &fates).then_some(touched.inside)
     }
 
     #[test]

@@ -74,7 +74,7 @@ impl SlabDecomposition {
     /// Calls `visit` for steep edges and points, ends of others, that are not clear of them; false when there are too many.
     pub(crate) fn ends_beside_steep_edges(&self, margins: Margins, mut visit: impl FnMut(u32, u32)) -> bool {
         let mut left = ENDS_PER_EDGE * self.segments.len();
-        for &segment in &self.segments {
+        for &segment in &*self.segments {
             let [a, b] = self.ends_of(segment);
             if (b.y - a.y).abs() / STEEP <= b.x - a.x {
                 continue;

@@ -13,8 +13,7 @@ impl SlabDecomposition {
     pub(super) fn look_into_column(&mut self, slab: Slab, base: usize, starts: Range<usize>) {
         let mut column = std::mem::take(&mut self.column);
         column.clear();
-        column
-            .extend(self.passing[base..].iter().map(|passing| passing.segment).chain(self.starting(starts)));
+        column.extend(self.passing[base..].iter().map(|passing| passing.segment).chain(self.edges(starts)));
         let is_vertical = |segment: &RankedSegment| self.is_column(segment.ranks);
         let count = column.iter().filter(|segment| is_vertical(segment)).count();
         if count > 0 {
@@ -75,6 +74,6 @@ impl SlabDecomposition {
         let level = keys[first..].iter().take_while(|key| to_end(key, ends[1]).is_le());
         let level = level.map(|key| &column[key.1 as usize]);
         let level = level.filter(|other| other.ranks.iter().all(|rank| !segment.ranks.contains(rank)));
-        found.add(upright.chain(level).map(|other| [segment.id, other.id]), false);
+        found.add(upright.chain(level).map(|other| ([segment.id, other.id], true)), false);
     }
 }

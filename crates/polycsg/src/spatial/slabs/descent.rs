@@ -1,22 +1,26 @@
-//! The way from the widest slabs to the narrowest.
+//! The way from the widest slabs to the narrowest, and from left to right.
 //!
-//! The edges that come into a slab stand in their order at its left side. The parts of the slab are looked into from left to
-//! right, and from part to part the order is mended: where edges cross, and where they start or end. So nothing is sorted
-//! anew, and what starts in a part is a run of all edges, sorted by their left ends.
+//! ```text
+//!  |    |    |    |   The edges that come into a slab stand in their order at its left side. They pass through its parts
+//!  |----+----+----|   one after the other, and their order is restored at each side, where they cross and where they end.
+//!  |   _|____|____|   What starts in a part comes out of that in its order, too, and is merged with what passes. Only
+//!  |--+-+-/  | \__|   what starts in the narrowest slabs is sorted. Edges that start in a part are a run of all edges,
+//!  |    |    |    |   sorted by their left ends.
+//! ```
 
 use super::SlabDecomposition;
 use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
-use crate::base::{id::index, meter::Meter};
+use crate::base::{id::index, meter::Meter, threads::Threads};
 use std::{cmp::Ordering, ops::Range};
 
 /// So many sequences of stairs are taken from a slab's spanning segments, before the rest is handed on.
 const ROUNDS: usize = 3;
 
-/// So many steps for each edge an order is mended by, before it is sorted.
+/// By so many steps for each edge an order is restored; then it is sorted.
 const STEPS: usize = 16;
 
 /// So many edges are compared with one another, each with each.
-const FEW_EDGES: usize = 24;
+const FEW_EDGES: usize = 32;
 
 /// What slabs are looked into for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,78 +39,107 @@ pub(super) struct Search<'a> {
 }
 
 /// By their heights at the left side.
-fn by_height(a: &ClippedSegment, b: &ClippedSegment) -> Ordering {
-    a.heights[0].total_cmp(&b.heights[0]).then(a.segment.id.cmp(&b.segment.id))
+pub(super) fn by_height(a: &ClippedSegment, b: &ClippedSegment) -> Ordering {
+    a.heights[0].total_cmp(&b.heights[0])
+}
+
+#[inline]
+fn is_lower(a: &ClippedSegment, b: &ClippedSegment) -> bool {
+    a.heights[0] < b.heights[0]
 }
 
 impl SlabDecomposition {
     /// Looks into the slab of all ends.
     pub(super) fn look_into_all(&mut self, search: Search<'_>) {
         self.passing.clear();
+        self.starting.clear();
         let Some(last) = self.ends.len().checked_sub(1) else { return };
-        let slab = [0, index(last)];
         let starts = self.starting_before(0..self.segments.len(), 1);
-        self.pass(slab[0], 0, starts.clone());
-        self.descend(slab, 0, starts.end..self.segments.len(), search);
+        self.start(0, starts.clone());
+        self.merge(0);
+        self.descend([0, index(last)], 0, starts.end..self.segments.len(), search);
     }
 
     /// Some of all edges, under their places for ids.
-    pub(super) fn starting(&self, places: Range<usize>) -> impl Iterator<Item = RankedSegment> + Clone + '_ {
+    pub(super) fn edges(&self, places: Range<usize>) -> impl Iterator<Item = RankedSegment> + Clone + '_ {
         let ids = index(places.start)..;
         self.segments[places].iter().zip(ids).map(|(segment, id)| RankedSegment { id, ..*segment })
     }
 
     /// Of edges, those that start before a rank.
-    fn starting_before(&self, edges: Range<usize>, rank: u32) -> Range<usize> {
+    pub(super) fn starting_before(&self, edges: Range<usize>, rank: u32) -> Range<usize> {
         let count = self.segments[edges.clone()].partition_point(|segment| segment.ranks[0] < rank);
         edges.start..edges.start + count
     }
 
-    /// Looks into a slab that the edges passing from `base` on come into, and that others start in; forgets the former.
+    /// Looks into a slab that the edges passing from `base` on come into, and that others start in; leaves those passing that
+    /// go beyond it, in their order there.
     fn descend(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
         if self.passing.len() - base + starts.len() <= FEW_EDGES {
-            self.look_at_few(slab, base, starts, search.quest);
-            return self.passing.truncate(base);
+            self.look_at_few(slab, base, starts.clone(), search.quest);
+            return self.pass_all(slab[1], base, starts);
+        }
+        let threads = Threads::for_edges(self.passing.len() - base + starts.len());
+        if threads.are_many() {
+            return self.fork(slab, base, starts, search, threads);
         }
         let mut rest = starts;
         for part in parts(slab) {
             let inside = self.starting_before(rest.clone(), part[1]);
-            self.look_into(part, base, inside.clone(), search);
-            if part[1] == slab[1] || self.found.is_over() {
+            let at_end = self.starting_before(inside.end..rest.end, part[1] + 1);
+            rest.start = at_end.end;
+            self.look_into(part, base, inside, search);
+            if self.found.is_over() {
                 break;
             }
-            let all = self.starting_before(rest.clone(), part[1] + 1);
-            rest.start = all.end;
-            self.pass(part[1], base, all);
+            self.start(part[1], at_end);
+            self.merge(base);
         }
-        self.passing.truncate(base);
     }
 
-    /// Finds what is asked for between the stairs of a slab and all else in it; then, of what is left, in its parts.
-    fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
+    /// Finds what is asked for between the stairs of a slab and all else in it; then, of what is left, in its parts. Leaves
+    /// passing what goes beyond it, and in `starting` what started in it and does so.
+    pub(super) fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
         let Search { quest, meter } = search;
         self.found.allow(meter.spend(self.passing.len() - base + starts.len()));
-        if quest == Quest::Below && self.queries_in(slab).is_empty() {
-            return;
+        let is_column = quest == Quest::Pairs && self.is_column(slab);
+        if is_column {
+            self.look_into_column(slab, base, starts.clone());
         }
-        if quest == Quest::Pairs && self.is_column(slab) {
-            return self.look_into_column(slab, base, starts);
+        let child = self.passing.len();
+        if is_column || (quest == Quest::Below && self.queries_in(slab).is_empty()) {
+            self.pass_all(slab[1], child, starts);
+        } else {
+            self.sort_out(slab, base, starts.clone());
+            self.look_at_spanning(slab, search);
+            if slab[1] - slab[0] > 1 && !self.found.is_over() {
+                self.hand_on(slab);
+                self.descend(slab, child, starts, search);
+            }
         }
-        self.sort_out(slab, base, starts.clone());
+        self.starting.clear();
+        let started = self.passing[child..].iter().filter(|passing| passing.segment.ranks[0] > slab[0]);
+        self.starting.extend(started);
+        self.passing.truncate(child);
+        self.pass(slab[1], base);
+    }
+
+    /// Finds what is asked for between the stairs of a slab and all else in it: at first all that spans it may be stairs.
+    fn look_at_spanning(&mut self, slab: Slab, Search { quest, meter }: Search<'_>) {
         let is_last = slab[1] - slab[0] == 1;
         let mut round = 0;
-        while !self.spanning.is_empty() && (round < ROUNDS || is_last) && !self.found.is_over() {
+        while !self.stairs.is_empty() && !self.found.is_over() {
             round += 1;
+            self.found.allow(meter.spend(self.stairs.len()));
             self.choose_stairs(slab);
             match quest {
                 Quest::Pairs => self.compare_stairs(slab),
                 Quest::Below => self.queries_in(slab).for_each(|query| self.look_at_stairs(query, slab)),
             }
-        }
-        if !is_last && !self.found.is_over() {
-            let child = self.passing.len();
-            self.hand_on(slab, base);
-            self.descend(slab, child, starts, search);
+            self.stairs.clear();
+            if round < ROUNDS || is_last {
+                self.stairs.append(&mut self.spanning);
+            }
         }
     }
 
@@ -116,39 +149,36 @@ impl SlabDecomposition {
 
     /// Takes apart the edges that span a slab, in their order, and those that end or start in it.
     fn sort_out(&mut self, slab: Slab, base: usize, starts: Range<usize>) {
-        let (mut spanning, mut partial) =
-            (std::mem::take(&mut self.spanning), std::mem::take(&mut self.partial));
-        spanning.clear();
+        let (mut stairs, mut partial) = (std::mem::take(&mut self.stairs), std::mem::take(&mut self.partial));
+        self.spanning.clear();
+        stairs.clear();
         partial.clear();
         for passing in &self.passing[base..] {
             let right = passing.segment.ranks[1].min(slab[1]);
             let clipped =
                 ClippedSegment { heights: [passing.heights[0], self.height(passing, right)], ..*passing };
-            if right == slab[1] { spanning.push(clipped) } else { partial.push(clipped) }
+            if right == slab[1] { stairs.push(clipped) } else { partial.push(clipped) }
         }
-        partial.extend(self.starting(starts).map(|segment| self.clip(segment, slab)));
-        (self.spanning, self.partial) = (spanning, partial);
+        partial.extend(self.edges(starts).map(|segment| self.clip(segment, slab)));
+        (self.stairs, self.partial) = (stairs, partial);
         self.sort_ties(slab);
     }
 
     /// Lets the edges that are left of a slab's spanning segments, and those that end in it, pass into its parts.
-    fn hand_on(&mut self, slab: Slab, base: usize) {
+    fn hand_on(&mut self, slab: Slab) {
         self.spanning.sort_unstable_by(by_height);
         let mut left = self.spanning.iter().peekable();
-        for i in base..self.passing.len() {
-            let passing = self.passing[i];
-            if passing.segment.ranks[1] < slab[1] {
-                while let Some(span) = left.next_if(|span| by_height(span, &passing).is_lt()) {
-                    self.passing.push(*span);
-                }
-                self.passing.push(passing);
+        for ending in self.partial.iter().take_while(|ending| ending.segment.ranks[0] <= slab[0]) {
+            while let Some(span) = left.next_if(|span| is_lower(span, ending)) {
+                self.passing.push(*span);
             }
+            self.passing.push(*ending);
         }
         self.passing.extend(left);
     }
 
-    /// Moves the passing edges on to a rank, with others that start before it or there.
-    fn pass(&mut self, rank: u32, base: usize, starts: Range<usize>) {
+    /// Moves the passing edges on to a rank that some of them do not reach.
+    fn pass(&mut self, rank: u32, base: usize) {
         let p = self.ends[rank as usize];
         let mut kept = base;
         let mut steps = STEPS * (self.passing.len() - base);
@@ -157,7 +187,7 @@ impl SlabDecomposition {
             if passing.segment.ranks[1] > rank {
                 passing.heights[0] = self.height_inside(&passing, p);
                 let mut at = kept;
-                while at > base && steps > 0 && by_height(&passing, &self.passing[at - 1]).is_lt() {
+                while at > base && steps > 0 && is_lower(&passing, &self.passing[at - 1]) {
                     self.passing[at] = self.passing[at - 1];
                     at -= 1;
                     steps -= 1;
@@ -170,33 +200,41 @@ impl SlabDecomposition {
         if steps == 0 {
             self.passing[base..].sort_unstable_by(by_height);
         }
-        self.start_at(rank, base, starts);
     }
 
-    /// Merges edges that start before a rank or there into those that pass it.
-    fn start_at(&mut self, rank: u32, base: usize, starts: Range<usize>) {
-        let mut partial = std::mem::take(&mut self.partial);
-        partial.clear();
-        let reaches = |segment: &RankedSegment| segment.ranks[1] > rank;
-        partial.extend(self.starting(starts).filter(reaches).map(|segment| {
-            let clipped = self.clip(segment, [0, rank]);
-            ClippedSegment { heights: [clipped.heights[1]; 2], ..clipped }
-        }));
-        partial.sort_unstable_by(by_height);
-        let mut from = self.passing.len();
-        self.passing.extend_from_slice(&partial);
-        let mut to = self.passing.len();
-        while let Some(last) = partial.last() {
+    /// The same with edges that start before the rank.
+    fn pass_all(&mut self, rank: u32, base: usize, starts: Range<usize>) {
+        let mut passing = std::mem::take(&mut self.passing);
+        passing.extend(self.edges(starts).map(|segment| self.clip(segment, [segment.ranks[0]; 2])));
+        self.passing = passing;
+        self.pass(rank, base);
+    }
+
+    /// Adds edges that start at a rank to those that started before.
+    fn start(&mut self, rank: u32, starts: Range<usize>) {
+        let mut starting = std::mem::take(&mut self.starting);
+        let height = self.ends[rank as usize].y;
+        let place = starting.partition_point(|other| other.heights[0] < height);
+        starting.splice(place..place, self.edges(starts).map(|segment| self.clip(segment, [rank; 2])));
+        self.starting = starting;
+    }
+
+    /// Merges what started into what is passing.
+    fn merge(&mut self, base: usize) {
+        let SlabDecomposition { passing, starting, .. } = self;
+        let mut from = passing.len();
+        passing.extend_from_slice(starting);
+        let mut to = passing.len();
+        while let Some(last) = starting.last() {
             to -= 1;
-            if from > base && by_height(last, &self.passing[from - 1]).is_lt() {
+            if from > base && is_lower(last, &passing[from - 1]) {
                 from -= 1;
-                self.passing[to] = self.passing[from];
+                passing[to] = passing[from];
             } else {
-                self.passing[to] = *last;
-                partial.pop();
+                passing[to] = *last;
+                starting.pop();
             }
         }
-        self.partial = partial;
     }
 
     /// Looks at each of a few edges in a slab.
@@ -207,7 +245,7 @@ impl SlabDecomposition {
             let right = self.height(passing, passing.segment.ranks[1].min(slab[1]));
             ClippedSegment { heights: [passing.heights[0], right], ..*passing }
         }));
-        few.extend(self.starting(starts).map(|segment| self.clip(segment, slab)));
+        few.extend(self.edges(starts).map(|segment| self.clip(segment, slab)));
         match quest {
             Quest::Pairs => self.compare_all(slab, &few),
             Quest::Below => {
@@ -226,7 +264,7 @@ impl SlabDecomposition {
             for f in &few[..i] {
                 let is_beside = f.heights[0].max(f.heights[1]) < low || high < f.heights[0].min(f.heights[1]);
                 if !is_beside && self.may_meet(e, f, slab) {
-                    self.found.add(std::iter::once([e.segment.id, f.segment.id]), false);
+                    self.found.add(std::iter::once(([e.segment.id, f.segment.id], true)), false);
                 }
             }
         }

@@ -7,8 +7,9 @@ use crate::error::Error;
 pub(super) struct Found {
     pairs: Vec<[u32; 2]>,
     most: usize,
-    /// How many more may only come near one another, those found twice counted twice.
+    /// How many only come near one another, those found twice counted twice, and how many may.
     near: usize,
+    most_near: usize,
     is_over: bool,
     /// That the limits of the call are met.
     refused: Option<Error>,
@@ -19,9 +20,26 @@ impl Found {
     pub(super) fn start(&mut self, most: usize, near: usize) {
         self.pairs.clear();
         self.most = most;
-        self.near = near;
+        self.near = 0;
+        self.most_near = near;
         self.is_over = false;
         self.refused = None;
+    }
+
+    /// Starts over for a part of a search.
+    pub(super) fn start_part(&mut self, whole: &Found) {
+        self.start(whole.most, whole.most_near);
+    }
+
+    /// Adds what was found in a part.
+    pub(super) fn add_part(&mut self, part: Found) {
+        self.refused = self.refused.or(part.refused);
+        self.pairs.extend(part.pairs);
+        self.near += part.near;
+        self.is_over |= part.is_over || self.near > self.most_near;
+        if self.pairs.len() / 2 > self.most {
+            self.count();
+        }
     }
 
     /// Ends the search where work is more than allowed.
@@ -35,18 +53,19 @@ impl Found {
         self.refused.map_or(Ok(()), Err)
     }
 
-    /// Adds pairs, which may only come near one another; when there are too many, nothing.
+    /// Adds pairs, each with whether it may be new, which may only come near one another; when there are too many, nothing. Those
+    /// that are not new are counted, as looking at them takes as long.
     #[inline]
-    pub(super) fn add(&mut self, pairs: impl Iterator<Item = [u32; 2]>, is_near: bool) {
+    pub(super) fn add(&mut self, pairs: impl Iterator<Item = ([u32; 2], bool)>, is_near: bool) {
         if self.is_over {
             return;
         }
-        let before = self.pairs.len();
-        self.pairs.extend(pairs.map(|[i, j]| [i.min(j), i.max(j)]));
+        let mut count = 0;
+        let new = pairs.inspect(|_| count += 1).filter(|pair| pair.1);
+        self.pairs.extend(new.map(|([i, j], _)| [i.min(j), i.max(j)]));
         if is_near {
-            let count = self.pairs.len() - before;
-            self.is_over = count > self.near;
-            self.near = self.near.saturating_sub(count);
+            self.near += count;
+            self.is_over = self.near > self.most_near;
         }
         if self.pairs.len() / 2 > self.most {
             self.count();

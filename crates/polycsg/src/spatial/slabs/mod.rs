@@ -1,7 +1,7 @@
 //! The slab decomposition: which edges may meet, for inputs where boxes do not prune: long, nearly parallel edges.
 //!
 //! The plane is cut into slabs at the edges' ends, taken from left to right (of one abscissa, from below), and each slab is
-//! cut in three again and again. In the widest slabs that it crosses from side to side, an edge is a *spanning segment*:
+//! cut in a few again and again. In the widest slabs that it crosses from side to side, an edge is a *spanning segment*:
 //!
 //! ```text
 //!    slab            a, b, d, c span and do not meet: they are the slab's stairs, in one order at both sides.
@@ -15,10 +15,11 @@
 //!
 //! The stairs are those of I. J. Balaban, "An optimal algorithm for finding segment intersections", SoCG 1995: spanning
 //! segments that do not cross within their slab, in one order, with which all other segments of the slab are compared by
-//! search, while what is no stair goes on to the parts. The differences: Balaban cuts in two and passes the order of the
-//! segments from slab to slab, so that intersections cost O(1) each; here each slab sorts its spanning segments anew, as
-//! stairs it takes the longest sequence that does not cross rather than a greedy one, slabs are cut in three, and spanning
-//! segments on the line of a stair are set apart:
+//! search, while what is no stair goes on to the parts. As there, edges pass from slab to slab in their order, which is
+//! restored where they cross, start or end. The differences: Balaban cuts in two and finds intersections where the order
+//! changes, so that they cost O(1) each; here the order is that of rounded heights and decides nothing, slabs are cut in
+//! more, up to three sequences of stairs are taken from a slab before the rest goes on, and spanning segments on the line of
+//! a stair are set apart:
 //!
 //! Edges on the line of a stair are *coincident* with it. Whatever meets the stair is compared with them too, and like the
 //! stair they are not handed on. Otherwise edges on one line would be compared in every slab.
@@ -28,13 +29,29 @@
 //! too little. Two edges with a common end are reported only if they may meet elsewhere too, so that a fan of edges costs
 //! no more than other edges.
 //!
-//! The index can also report edges that come near one another without meeting. Then there is no such order: edges whose
-//! heights agree within a wider error are reported, and those that are as near to a stair from side to side count as
-//! coincident with it.
+//! The index can also report edges that come near one another without meeting. Then there is no such order: edges are *near*
+//! at a side where their computed heights differ by no more than a wider error, the slack. Those near a stair at both sides
+//! count as coincident with it. Two stairs are near one another only if they share an end:
+//!
+//! ```text
+//!      _____c    Stairs are not compared with one another. It is not enough that each is clear of the one before or shares an
+//!    b/___/      end with it: here b shares one with a, c the other one with b, and a and c are near. So each is clear
+//!     \___a      of all stairs but the one before.
+//! ```
+//!
+//! Edges that stay near would be found in slab after slab. So a pair is passed over where both come into a slab, from further
+//! left, and are near there. It was found before, or shares an end:
+//!
+//! Both span the last slab with a width before this one, so one of the slabs that hold it was the last that had both; call it
+//! `W`. It ends on the same vertical, where the heights are the same as here, bit for bit. In `W` both were compared: as a few
+//! edges, each with each; or one was a stair and the other not, and the search looks three slacks around the other; or both
+//! were coincident with stairs, which then are within three slacks, as far as coincident segments are compared; and two
+//! stairs are not near. Where the pair was passed over in `W`, it was near at its left side, and the same holds there.
 
 mod beside;
 mod column;
 mod descent;
+mod fork;
 mod found;
 mod heights;
 mod order;
@@ -44,16 +61,16 @@ mod spanning;
 #[cfg(test)]
 mod tests;
 
-use crate::base::{id::index, meter::Meter};
+use crate::base::{id::index, meter::Meter, threads::Threads};
 use crate::error::Error;
 use crate::predicates::{Segment, Side, lexicographic, side};
 use descent::{Quest, Search};
 use found::Found;
 use glam::DVec2;
 use segments::{ClippedSegment, RankedSegment, Slab};
-use std::{cmp::Ordering, ops::Range};
+use std::{cmp::Ordering, ops::Range, sync::Arc};
 
-/// So many edges are compared with one another, each with each.
+/// So many stairs near a place are taken as they are.
 const FEW: usize = 8;
 
 /// So many pairs for each edge may come near one another without meeting.
@@ -69,13 +86,13 @@ const SLACK: f64 = 64.0 * (f64::EPSILON / 2.0);
 #[derive(Debug, Default)]
 pub(crate) struct SlabDecomposition {
     /// The distinct ends in their order.
-    ends: Vec<DVec2>,
+    ends: Arc<Vec<DVec2>>,
     sorted: Vec<(DVec2, u32)>,
     /// Per point its rank.
     ranks: Vec<u32>,
     /// The edges, those with the same ends one after the other; `segments` has the first of each kind.
     all: Vec<RankedSegment>,
-    segments: Vec<RankedSegment>,
+    segments: Arc<Vec<RankedSegment>>,
     /// Two heights that differ by more differ.
     error: f64,
     /// The same, or more where edges are reported that come near one another.
@@ -84,9 +101,12 @@ pub(crate) struct SlabDecomposition {
     reach: f64,
     /// Whether all coordinates lie where slopes neither overflow nor lose bits.
     has_slopes: bool,
-    /// The edges that come into the slab at hand, into its part at hand, and so on, with their places in `segments` for ids.
+    /// The edges that come into the slab at hand, into its part at hand, and so on, with their places in `segments` for ids,
+    /// each slab's in their order at its left side.
     passing: Vec<ClippedSegment>,
-    /// The segments that span the slab at hand, those of them that are its stairs, and the edges that end or start in it.
+    /// What started in the slab just left behind and goes beyond it, in its order there.
+    starting: Vec<ClippedSegment>,
+    /// Of the segments that span the slab at hand its stairs and the rest, and the edges that end or start in it.
     spanning: Vec<ClippedSegment>,
     stairs: Vec<ClippedSegment>,
     partial: Vec<ClippedSegment>,
@@ -112,16 +132,18 @@ impl SlabDecomposition {
         points: impl Iterator<Item = DVec2>,
         edges: impl Iterator<Item = (u32, [u32; 2])>,
     ) {
-        self.rank(points);
+        let threads = self.rank(points);
         let segment = |(id, ends): (u32, [u32; 2])| {
             let [a, b] = ends.map(|point| self.ranks[point as usize]);
             RankedSegment { ranks: [a.min(b), a.max(b)], id }
         };
         self.all.clear();
         self.all.extend(edges.map(segment).filter(|segment| segment.ranks[0] < segment.ranks[1]));
-        self.all.sort_unstable_by_key(|segment| (segment.ranks, segment.id));
-        self.segments.clear();
-        self.segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
+        let key = |ranks: [u32; 2]| u64::from(ranks[0]) << 32 | u64::from(ranks[1]);
+        threads.sort(&mut self.all, |a, b| (key(a.ranks), a.id).cmp(&(key(b.ranks), b.id)));
+        let segments = Arc::make_mut(&mut self.segments);
+        segments.clear();
+        segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
         self.error = highest * SLACK + f64::MIN_POSITIVE;
         self.narrow();
@@ -129,19 +151,22 @@ impl SlabDecomposition {
         self.has_slopes = self.ends.iter().all(|p| is_moderate(p.x) && is_moderate(p.y));
     }
 
-    fn rank(&mut self, points: impl Iterator<Item = DVec2>) {
+    fn rank(&mut self, points: impl Iterator<Item = DVec2>) -> Threads {
         self.sorted.clear();
         self.sorted.extend(points.zip(0..));
-        self.sorted.sort_unstable_by(|a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
-        self.ends.clear();
+        let threads = Threads::for_edges(self.sorted.len());
+        threads.sort(&mut self.sorted, |a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
+        let ends = Arc::make_mut(&mut self.ends);
+        ends.clear();
         self.ranks.clear();
         self.ranks.resize(self.sorted.len(), 0);
         for &(point, number) in &self.sorted {
-            if self.ends.last() != Some(&point) {
-                self.ends.push(point);
+            if ends.last() != Some(&point) {
+                ends.push(point);
             }
-            self.ranks[number as usize] = index(self.ends.len() - 1);
+            self.ranks[number as usize] = index(ends.len() - 1);
         }
+        threads
     }
 
     /// The points by their numbers, those in one place together.
@@ -190,6 +215,7 @@ impl SlabDecomposition {
     pub(crate) fn find(&mut self, most: usize, meter: &Meter<'_>) -> Result<bool, Error> {
         let near = if self.reach > 0.0 { NEAR * self.segments.len() } else { usize::MAX };
         self.found.start(most, near);
+        self.queries.clear();
         self.look_into_all(Search { quest: Quest::Pairs, meter });
         self.found.allowed()?;
         Ok(!self.found.count())

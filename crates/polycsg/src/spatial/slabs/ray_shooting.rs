@@ -7,7 +7,7 @@ use crate::base::meter::Meter;
 use crate::error::Error;
 use crate::predicates::{Side, height_order, side};
 use glam::DVec2;
-use std::{cmp::Ordering, ops::Range};
+use std::{cmp::Ordering, ops::Range, sync::Arc};
 
 impl SlabDecomposition {
     /// For each of some of the points the edge right below it, by its id: of the edges that a ray straight down from just
@@ -28,7 +28,8 @@ impl SlabDecomposition {
         self.nearest.resize(points.len(), NONE);
         let SlabDecomposition { segments, ends, found: pairs, .. } = self;
         pairs.start(0, 0);
-        segments.retain(|segment| ends[segment.ranks[0] as usize].x < ends[segment.ranks[1] as usize].x);
+        Arc::make_mut(segments)
+            .retain(|segment| ends[segment.ranks[0] as usize].x < ends[segment.ranks[1] as usize].x);
         self.look_into_all(Search { quest: Quest::Below, meter });
         self.found.allowed()?;
         found.clear();

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 /// Into so many slabs one is cut.
-const PARTS: u32 = 4;
+const PARTS: u32 = 5;
 
 /// No span.
 pub(super) const NONE: u32 = u32::MAX;

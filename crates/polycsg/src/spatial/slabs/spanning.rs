@@ -4,16 +4,17 @@ use super::order::Order;
 use super::segments::{ClippedSegment, RankedSegment, Slab};
 use super::{FEW, SlabDecomposition};
 use crate::base::id::index;
+use glam::DVec2;
 use std::ops::Range;
 
 impl SlabDecomposition {
     /// Sorts spanning segments whose heights at the left side do not tell them apart: exactly, unless all that comes near is
     /// asked for; those from one point by their other heights.
     pub(super) fn sort_ties(&mut self, slab: Slab) {
-        let SlabDecomposition { spanning, ends, slack, reach, .. } = self;
+        let SlabDecomposition { stairs, ends, slack, reach, .. } = self;
         let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
         let is_tied = |a: &ClippedSegment, b: &ClippedSegment| b.heights[0] - a.heights[0] <= order.slack;
-        for tied in spanning.chunk_by_mut(is_tied).filter(|tied| tied.len() > 1) {
+        for tied in stairs.chunk_by_mut(is_tied).filter(|tied| tied.len() > 1) {
             if order.is_exact {
                 tied.sort_by(|a, b| order.compare(a, b, slab));
             } else {
@@ -25,20 +26,26 @@ impl SlabDecomposition {
         }
     }
 
-    /// Moves spanning segments, none of which meets another, to the stairs: from below each that is above the last one.
+    /// Leaves of the stairs those of which none meets another, from below each that is above the last one; the rest are
+    /// spanning segments still. Where all that comes near is asked for, each is higher than all but that one by more than
+    /// the slack, at both sides.
     pub(super) fn choose_stairs(&mut self, slab: Slab) {
         let SlabDecomposition { spanning, stairs, fans, ends, slack, reach, .. } = self;
         let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
-        stairs.clear();
+        let (mut highest, mut last) = (DVec2::NEG_INFINITY, None);
         fans.clear();
-        spanning.retain(|span| {
-            let fits = stairs.last().is_none_or(|last: &ClippedSegment| {
-                order.is_below(last, span, 0, slab) && order.is_below(last, span, 1, slab)
+        stairs.retain(|span| {
+            let is_clear = order.is_exact || (highest + order.slack).cmplt(DVec2::from(span.heights)).all();
+            let fits = last.as_ref().is_none_or(|last: &ClippedSegment| {
+                is_clear && order.is_below(last, span, 0, slab) && order.is_below(last, span, 1, slab)
             });
             if fits {
-                stairs.push(*span);
+                let before = last.replace(*span);
+                highest = before.map_or(highest, |before| highest.max(before.heights.into()));
+            } else {
+                spanning.push(*span);
             }
-            !fits
+            fits
         });
     }
 
@@ -49,12 +56,16 @@ impl SlabDecomposition {
         if !self.spanning.is_empty() {
             self.sort_out_coincident(slab);
             self.compare_coincident(slab);
+            let mut guess = 0;
             for i in 0..self.spanning.len() {
-                self.compare(self.spanning[i], slab, true);
+                guess = self.compare(self.spanning[i], slab, true, Some(guess));
             }
         }
+        let mut guess = 0;
         for i in 0..self.partial.len() {
-            self.compare(self.partial[i], slab, true);
+            let clipped = self.partial[i];
+            let comes_in = clipped.segment.ranks[0] <= slab[0];
+            guess = self.compare(clipped, slab, true, comes_in.then_some(guess));
         }
     }
 
@@ -105,7 +116,7 @@ impl SlabDecomposition {
     /// stairs near one another.
     fn compare_coincident(&mut self, slab: Slab) {
         for i in 0..self.coincident.len() {
-            self.compare(self.coincident[i].1, slab, false);
+            self.compare(self.coincident[i].1, slab, false, None);
         }
         for (i, &(place, e)) in self.coincident.iter().enumerate() {
             let [left, right] = self.stairs[place].heights;
@@ -116,20 +127,28 @@ impl SlabDecomposition {
             };
             for &(_, f) in self.coincident[i + 1..].iter().take_while(|(other, _)| are_near(*other)) {
                 if self.may_meet(&e, &f, slab) {
-                    self.found.add(std::iter::once([e.segment.id, f.segment.id]), true);
+                    self.found.add(std::iter::once(([e.segment.id, f.segment.id], true)), true);
                 }
             }
         }
     }
 
-    /// Finds the stairs, and if asked for their coincident segments, that an edge may meet in a slab.
-    fn compare(&mut self, clipped: ClippedSegment, slab: Slab, with_coincident: bool) {
-        let left = self.near(&clipped, 0, slab, None);
+    /// Finds the stairs, and if asked for their coincident segments, that an edge may meet in a slab. Takes and returns the
+    /// place among the stairs of an edge that enters the slab a little below, if there is one.
+    fn compare(
+        &mut self,
+        clipped: ClippedSegment,
+        slab: Slab,
+        with_coincident: bool,
+        guess: Option<usize>,
+    ) -> usize {
+        let left = self.near(&clipped, 0, slab, guess);
         // Most edges meet none, and are between the same two all the way.
         let right = self.near(&clipped, 1, slab, Some(left.start));
         if left.start == right.end && right.start == left.end {
-            return;
+            return left.start;
         }
+        let place = left.start;
         self.compare_near(&clipped, left.clone(), 0, slab, with_coincident);
         self.compare_near(&clipped, right.clone(), 1, slab, with_coincident);
         let crossed = if left.end < right.start { left.end..right.start } else { right.end..left.start };
@@ -137,6 +156,7 @@ impl SlabDecomposition {
         if with_coincident {
             self.add_coincident(&clipped, crossed, slab, false);
         }
+        place
     }
 
     /// Takes the stairs near an edge at a side, but for fans that start or end with the edge: these do not meet it there.
@@ -171,8 +191,8 @@ impl SlabDecomposition {
     fn add_stairs(&mut self, clipped: &ClippedSegment, stairs: Range<usize>, slab: Slab, is_near: bool) {
         if stairs.start < stairs.end {
             let mut found = std::mem::take(&mut self.found);
-            let others = self.stairs[stairs].iter().filter(|other| self.meets(clipped, other, slab));
-            found.add(others.map(|other| [clipped.segment.id, other.segment.id]), is_near);
+            let others = self.stairs[stairs].iter();
+            found.add(others.filter_map(|other| self.pair(clipped, other, slab)), is_near);
             self.found = found;
         }
     }
@@ -182,19 +202,19 @@ impl SlabDecomposition {
             let mut found = std::mem::take(&mut self.found);
             let first = self.coincident.partition_point(|&(place, _)| place < stairs.start);
             let others = self.coincident[first..].iter().take_while(|&&(place, _)| place < stairs.end);
-            let others = others.map(|(_, other)| other).filter(|other| self.meets(clipped, other, slab));
-            found.add(others.map(|other| [clipped.segment.id, other.segment.id]), is_near);
+            found.add(others.filter_map(|(_, other)| self.pair(clipped, other, slab)), is_near);
             self.found = found;
         }
     }
 
-    /// Whether the boxes of two edges meet, and they were not found in the slab to the left.
-    fn meets(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> bool {
-        e.segment.meets(f.segment, &self.ends, self.reach) && !self.was_found(e, f, slab)
+    /// Two edges whose boxes meet, and whether they may be new.
+    fn pair(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> Option<([u32; 2], bool)> {
+        let meets = e.segment.meets(f.segment, &self.ends, self.reach);
+        meets.then(|| ([e.segment.id, f.segment.id], !self.was_found(e, f, slab)))
     }
 
-    /// Whether two edges come near one another where both come into a slab. Then they were found in the slab to the left, where
-    /// all that comes near is asked for.
+    /// Whether two edges come near one another where both come into a slab, and all that does is asked for. Then they were
+    /// found further left, or share an end: see the module's page.
     pub(super) fn was_found(&self, e: &ClippedSegment, f: &ClippedSegment, slab: Slab) -> bool {
         let comes_in = |clipped: &ClippedSegment| {
             self.ends[clipped.segment.ranks[0] as usize].x < self.ends[slab[0] as usize].x
@@ -207,26 +227,33 @@ impl SlabDecomposition {
     fn near(&self, clipped: &ClippedSegment, side: usize, slab: Slab, guess: Option<usize>) -> Range<usize> {
         let rank = clipped.segment.ranks[side].clamp(slab[0], slab[1]);
         let height = clipped.heights[side];
-        let p = self.ends[rank as usize];
-        let at = |stair: &ClippedSegment| {
-            if rank == slab[side] { stair.heights[side] } else { self.height_inside(stair, p) }
+        let near = if rank == slab[side] {
+            self.near_height(height, guess, |stair| stair.heights[side])
+        } else {
+            let p = self.ends[rank as usize];
+            self.near_height(height, guess, |stair| self.height_inside(stair, p))
         };
+        if near.len() > FEW && self.reach == 0.0 { self.touched(clipped.segment, rank, near) } else { near }
+    }
+
+    /// The stairs that may go through a height, by their heights there.
+    #[inline]
+    fn near_height(
+        &self,
+        height: f64,
+        guess: Option<usize>,
+        at: impl Fn(&ClippedSegment) -> f64,
+    ) -> Range<usize> {
         // Coincident segments are within one slack of their stair, and may touch within one more.
-        let is_below = |stair: &ClippedSegment| at(stair) + 3.0 * self.slack < height;
-        let may_touch = |stair: &ClippedSegment| at(stair) <= height + 3.0 * self.slack;
+        let [low, high] = [height - 3.0 * self.slack, height + 3.0 * self.slack];
+        let is_below = |stair: &ClippedSegment| at(stair) < low;
+        let may_touch = |stair: &ClippedSegment| at(stair) <= high;
         let fits = |&guess: &usize| {
             self.stairs[..guess].last().is_none_or(is_below) && !self.stairs.get(guess).is_some_and(is_below)
         };
         let first = guess.filter(fits).unwrap_or_else(|| self.stairs.partition_point(is_below));
         match self.stairs.get(first) {
-            Some(stair) if may_touch(stair) => {
-                let near = first..first + self.stairs[first..].partition_point(may_touch);
-                if near.len() > FEW && self.reach == 0.0 {
-                    self.touched(clipped.segment, rank, near)
-                } else {
-                    near
-                }
-            }
+            Some(stair) if may_touch(stair) => first..first + self.stairs[first..].partition_point(may_touch),
             _ => first..first,
         }
     }

@@ -50,6 +50,17 @@ fn distinct(points: Vec<[DVec2; 2]>) -> Vec<Segment> {
     points.into_iter().filter(|[a, b]| a != b).collect()
 }
 
+/// Without those that have both ends in common with an earlier one.
+fn once(segments: &[Segment]) -> Vec<Segment> {
+    let is_same = |s: Segment, t: Segment| s == t || s == [t[1], t[0]];
+    let is_first = |i: usize| !segments[..i].iter().any(|&s| is_same(s, segments[i]));
+    (0..segments.len()).filter(|&i| is_first(i)).map(|i| segments[i]).collect()
+}
+
+fn few_roundings((x, y): (u64, u64)) -> DVec2 {
+    DVec2::new(f64::from_bits(1.5_f64.to_bits() + x), f64::from_bits(2.5_f64.to_bits() + y))
+}
+
 fn lattice(size: i32) -> impl Strategy<Value = DVec2> + Clone {
     (0..size, 0..size).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
 }
@@ -113,7 +124,7 @@ fn is_near(s: Segment, p: DVec2) -> bool {
     a.x + REACH < p.x && p.x < b.x - REACH && (a.y + (b.y - a.y) * t - p.y).abs() <= 0.8 * REACH
 }
 
-/// Widened slabs report whatever comes near one another, unless it has an end in common, or there is too much of it.
+/// Widened slabs report whatever meets or comes near one another, unless it has an end in common, or there is too much of it.
 fn check_near(segments: &[Segment]) {
     let mut slabs = SlabDecomposition::default();
     let count = u32::try_from(segments.len()).unwrap();
@@ -128,7 +139,8 @@ fn check_near(segments: &[Segment]) {
     for (i, &s) in segments.iter().enumerate().filter(|&(_, &s)| !is_steep(s)) {
         for (j, &t) in segments.iter().enumerate().filter(|&(_, &t)| !shares(s, t)) {
             let pair = [i.min(j), i.max(j)].map(|i| u32::try_from(i).unwrap());
-            assert!(!t.iter().any(|&p| is_near(s, p)) || found.contains(&pair), "{s:?} and {t:?}");
+            let is_wanted = meet(s, t) || t.iter().any(|&p| is_near(s, p));
+            assert!(!is_wanted || found.contains(&pair), "{s:?} and {t:?}");
         }
     }
 }
@@ -195,6 +207,15 @@ proptest! {
         [at(from, y), at(to, y + to % 3)]
     }), 0..90)) {
         check_near(&segments.into_iter().filter(|[a, b]| a != b).collect::<Vec<_>>());
+    }
+
+    /// All points within a few roundings, so that all is near: paths from point to point, upright and slanted, that share ends.
+    #[test]
+    fn paths_within_a_few_roundings(paths in prop::collection::vec(prop::collection::vec((0..6_u64, 0..40_u64), 3..9), 4..12)) {
+        let paths = paths.iter().flat_map(|path| path.windows(2).map(|ends| [ends[0], ends[1]].map(few_roundings)));
+        let segments = once(&distinct(paths.collect()));
+        check_near(&segments);
+        check(&segments);
     }
 
     #[test]
