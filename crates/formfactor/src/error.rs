@@ -11,6 +11,18 @@ pub enum Error {
     BadNormal,
     /// The tolerance is not positive, or NaN.
     BadTolerance,
+    /// The rows of a matrix cannot be made to add to 1.
+    NotClosed {
+        /// The row that is furthest from it.
+        row: usize,
+        /// What it lacks.
+        defect: f64,
+    },
+    /// An emittance is missing, or not above 0 and at most 1.
+    BadEmittance {
+        /// Whose it is.
+        surface: usize,
+    },
     /// The polygon has no loops.
     NoLoops,
     /// A loop has fewer than three vertices.
@@ -53,6 +65,13 @@ impl fmt::Display for Error {
                 write!(f, "the normal has no direction; give a finite vector that is not zero")
             }
             Error::BadTolerance => write!(f, "the tolerance is not positive; give a number like 1e-6"),
+            Error::NotClosed { row, defect } => write!(
+                f,
+                "row {row} lacks {defect:e} of 1, so the scene is not closed; add space as a receiver, or close the scene"
+            ),
+            Error::BadEmittance { surface } => {
+                write!(f, "surface {surface}: its emittance is not above 0 and at most 1; correct it")
+            }
             Error::NoLoops => write!(f, "the polygon has no loops; give at least its outer loop"),
             Error::TooFewVertices { loop_index, count } => {
                 write!(f, "loop {loop_index} has {count} vertices; a loop needs at least three")

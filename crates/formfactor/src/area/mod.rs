@@ -72,7 +72,7 @@ impl Enclosure {
         let outlook = Outlook::from(self.surfaces(), first);
         let limits = Limits::default();
         let found = self.pair(&outlook, [first, second], &tolerance, &limits, &mut Eye::default());
-        Ok(found.flatten().map_or_else(AreaFormFactor::default, |found| found[usize::from(first != from)]))
+        Ok(found.flatten().map_or_else(AreaFormFactor::default, |found| factor(&found, self.area(from))))
     }
 
     /// The form factors from polygon `from` to all polygons that it sees. In a closed room they add to 1 within the row's
@@ -102,7 +102,7 @@ impl Enclosure {
         let mut row = Row::new();
         for (to, found) in found.into_iter().enumerate() {
             let Some(found) = found else { return Ok(None) };
-            row.extend(found.map(|found| (to, found[usize::from(to < from)])));
+            row.extend(found.map(|found| (to, factor(&found, self.area(from)))));
         }
         Ok(Some(row))
     }
@@ -130,24 +130,41 @@ impl Enclosure {
             let found = each(block, |eye, from| self.later(*from, &tolerance, &limits, eye));
             for (from, later) in block.iter().zip(found) {
                 let Some(later) = later else { return Ok(None) };
-                for (to, [forth, back]) in later {
-                    left = left.saturating_sub(forth.evaluations);
-                    rows[*from].push((to, forth));
-                    rows[to].push((*from, back));
+                for (to, found) in later {
+                    left = left.saturating_sub(found.evaluations);
+                    rows[*from].push((to, factor(&found, self.area(*from))));
+                    rows[to].push((*from, factor(&found, self.area(to))));
                 }
             }
         }
         Ok(Some(rows))
     }
 
-    /// Both directions between a polygon and each that comes after it and sees it; `None` when stopped.
+    /// What polygon `from` exchanges with each that comes after it and sees it: its id, the integral over both and the estimate of its
+    /// error. `None` when stopped.
+    pub(crate) fn exchanges(
+        &self,
+        from: usize,
+        tolerance: &Tolerance,
+        limits: &Limits,
+    ) -> Result<Option<Vec<(usize, f64, f64)>>, Error> {
+        tolerance.check()?;
+        let found = self.later(from, tolerance, limits, &mut Eye::default());
+        Ok(found.map(|found| found.into_iter().map(|(to, f)| (to, f.value, f.error)).collect()))
+    }
+
+    fn area(&self, id: usize) -> f64 {
+        self.surfaces().surfaces[id].area
+    }
+
+    /// The integrals over a polygon and each that comes after it and sees it; `None` when stopped.
     fn later(
         &self,
         from: usize,
         tolerance: &Tolerance,
         limits: &Limits,
         eye: &mut Eye,
-    ) -> Option<Vec<(usize, [AreaFormFactor; 2])>> {
+    ) -> Option<Vec<(usize, Integral)>> {
         let outlook = Outlook::from(self.surfaces(), from);
         let mut found = Vec::new();
         for to in from + 1..self.polygons().len() {
@@ -156,8 +173,8 @@ impl Enclosure {
         Some(found)
     }
 
-    /// Both directions between two polygons, the first of which has the lower id; nothing where they do not see each other.
-    /// `None` when stopped.
+    /// The integral over two polygons, the first of which has the lower id; nothing where they do not see each other. `None` when
+    /// stopped.
     fn pair(
         &self,
         outlook: &Outlook,
@@ -165,11 +182,11 @@ impl Enclosure {
         tolerance: &Tolerance,
         limits: &Limits,
         eye: &mut Eye,
-    ) -> Option<Option<[AreaFormFactor; 2]>> {
+    ) -> Option<Option<Integral>> {
         if !self.face([first, second]) {
             return Some(None);
         }
-        let areas = [first, second].map(|id| self.surfaces().surfaces[id].area);
+        let areas = [first, second].map(|id| self.area(id));
         let allowed = Allowed {
             absolute: tolerance.absolute * areas[0].min(areas[1]),
             relative: tolerance.relative,
@@ -178,7 +195,7 @@ impl Enclosure {
         };
         let found = outlook.exchange(second, &allowed, eye, limits.stop)?;
         let is_seen = found.value > 0.0 || found.error > 0.0;
-        Some(is_seen.then(|| areas.map(|area| factor(&found, area))))
+        Some(is_seen.then_some(found))
     }
 
     /// Whether two polygons see each other as far as their planes say.
