@@ -109,10 +109,7 @@ fn what_is_open_is_not_closed() {
     let walls = faces([0.0; 3], [1.0; 3], true);
     let open = matrix(&Enclosure::new(walls[1..].to_vec()), 1e-6);
     let refused = open.closed().unwrap_err();
-    assert!(
-        matches!(refused, Error::NotClosed { defect, .. } if (defect - 0.2).abs() < 1e-3),
-        "{refused}"
-    );
+    assert!(matches!(refused, Error::NotClosed { defect, .. } if (defect - 0.2).abs() < 1e-3), "{refused}");
     let with_space = open.with_space();
     assert!(largest(&with_space.defects()) < 1e-15);
     assert!((with_space.factor(0, 5).value - 0.199_825).abs() < 1e-6, "the wall that is missing is space");

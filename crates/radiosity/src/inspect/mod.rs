@@ -20,6 +20,7 @@ mod surface;
 pub use crate::scene::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
+pub use overlap::coplanar_overlaps;
 
 use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
@@ -81,7 +82,7 @@ pub fn inspect(scene: &Scene) -> Inspection {
     let findings = [
         surface::findings(scene),
         orientation::findings(scene),
-        overlap::findings(scene),
+        overlap::coplanar_overlaps(scene),
         junction::findings(scene),
     ];
     let (opening, cost) = openness::openness(scene);

@@ -16,7 +16,10 @@ pub(crate) struct Overlap {
     area: f64,
 }
 
-pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
+/// The pairs of patches that face the same way and cover each other in one plane: what is seen of one is counted again for the
+/// other. O(n log n) for n patches that are spread out.
+#[must_use]
+pub fn coplanar_overlaps(scene: &Scene) -> Vec<Finding> {
     overlaps(scene).iter().map(|overlap| finding(scene, overlap)).collect()
 }
 

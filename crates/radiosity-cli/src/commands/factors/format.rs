@@ -1,28 +1,27 @@
 //! Rows of form factors as text.
-use super::matrix::{Entry, Row};
+use super::matrix::Found;
+use super::row::{Entry, Row};
 use crate::json;
-use radiosity::Scene;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What is printed. Patches are numbered from 1.
+/// What is printed. Receivers are numbered from 1.
 #[derive(Debug)]
 pub(super) struct Table<'t> {
-    pub(super) scene: &'t Scene,
-    pub(super) rows: &'t [Row],
+    pub(super) found: &'t Found,
     /// Of factors from area to area.
     pub(super) tolerance: Option<f64>,
 }
 
 impl Table<'_> {
-    fn name(&self, patch: usize) -> &str {
-        &self.scene.patches[patch].name
+    fn name(&self, receiver: usize) -> &str {
+        &self.found.names[receiver]
     }
 
     /// Columns for people; a row's factors that are 0 are left out where there are several rows.
     pub(super) fn text(&self) -> String {
         let mut text = String::new();
-        for row in self.rows {
+        for row in &self.found.rows {
             // Writing to a string cannot fail.
             if let Some(patch) = row.from {
                 let _ = writeln!(text, "from {} {}", patch + 1, self.name(patch));
@@ -38,12 +37,12 @@ impl Table<'_> {
     }
 
     /// A line for every factor that is not 0.
-    pub(super) fn csv(&self) -> String {
+    pub(super) fn csv(&self) -> Vec<u8> {
         let header = ["from_number", "from", "to_number", "to", "form_factor", "error", "row_sum"];
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut write = |row: &[String]| writer.write_record(row).expect("all rows have the header's length");
         write(&header.map(Into::into));
-        for row in self.rows {
+        for row in &self.found.rows {
             let (sum, _) = row.sum();
             let (number, name) = row.from.map_or((0, "point"), |patch| (patch + 1, self.name(patch)));
             for entry in row.entries.iter().filter(|entry| entry.value != 0.0) {
@@ -58,21 +57,20 @@ impl Table<'_> {
                 ]);
             }
         }
-        String::from_utf8(writer.into_inner().expect("memory takes what is written"))
-            .expect("names and numbers are UTF-8")
+        writer.into_inner().expect("memory takes what is written")
     }
 
     /// Of a point `{"rows": […], "sum"}`; of patches `{"tolerance", "rows": [{"from", "number", "area", "factors", "sum"}]}`.
     pub(super) fn json(&self) -> String {
-        if let [row @ Row { from: None, .. }] = self.rows {
+        if let [row @ Row { from: None, .. }] = &self.found.rows[..] {
             let (sum, error) = row.sum();
             return json::line(&json!({"rows": self.entries(row), "sum": sum, "error_bound": error}));
         }
-        let rows = self.rows.iter().filter_map(|row| Some((row.from?, row)));
+        let rows = self.found.rows.iter().filter_map(|row| Some((row.from?, row)));
         let rows: Vec<Value> = rows
             .map(|(patch, row)| {
                 let (sum, error) = row.sum();
-                let area = self.scene.patches[patch].polygon.area();
+                let area = self.found.areas[patch];
                 json!({
                     "from": self.name(patch), "number": patch + 1, "area": area,
                     "factors": self.entries(row), "sum": sum, self.error(): error,
@@ -95,16 +93,56 @@ impl Table<'_> {
         if self.tolerance.is_some() { "error_estimate" } else { "error_bound" }
     }
 
-    /// View3D's format 0: a header of 30 characters, the areas, the rows, the emittances; obstructions are left out.
+    /// View3D's format 0: a header of 30 characters, the areas to six digits, the rows to six decimals, the emittances to three;
+    /// obstructions and space are left out.
     pub(super) fn view3d(&self) -> String {
-        let patches: Vec<usize> = self.rows.iter().filter_map(|row| row.from).collect();
-        let header = format!("View3D 4.0 0 0 0 {}", patches.len());
-        let line = |numbers: Vec<f64>| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
-        let patch = |patch: &usize| &self.scene.patches[*patch];
-        let mut lines = vec![format!("{header:<30}")];
-        lines.push(line(patches.iter().map(|index| patch(index).polygon.area()).collect()));
-        lines.extend(self.rows.iter().map(|row| line(patches.iter().map(|to| row.to(*to)).collect())));
-        lines.push(line(patches.iter().map(|index| 1.0 - patch(index).reflectance[0]).collect()));
+        let Found { areas, emittances, rows, is_closed, is_gray, .. } = self.found;
+        let [closed, gray] = [*is_closed, *is_gray].map(u8::from);
+        let header = format!("View3D 4.0.0 0 {closed} {gray} {}", rows.len());
+        let line = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<_>>().join(" ");
+        let mut lines = vec![format!("{header:<30}"), line(&mut areas.iter().map(|area| six_digits(*area)))];
+        let row = |row: &Row| line(&mut (0..rows.len()).map(|to| format!("{:.6}", row.to(to))));
+        lines.extend(rows.iter().map(row));
+        lines.push(line(&mut emittances.iter().map(|emittance| format!("{emittance:.3}"))));
         lines.join("\n") + "\n"
+    }
+}
+
+/// As C's `%g`: six digits without trailing zeros, with an exponent below 1e-4 and from 1e6 on.
+fn six_digits(number: f64) -> String {
+    let scientific = format!("{number:.5e}");
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or_default();
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    match usize::try_from(5 - exponent) {
+        Ok(decimals) if exponent >= -4 => trimmed(&format!("{number:.decimals$}")),
+        _ => format!("{}e{exponent:+03}", trimmed(digits)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::six_digits;
+
+    #[test]
+    fn six_digits_are_those_of_c() {
+        let cases = [
+            (6.25, "6.25"),
+            (0.432_897_4, "0.432897"),
+            (1.0, "1"),
+            (0.0, "0"),
+            (123_456.7, "123457"),
+            (999_999.7, "1e+06"),
+            (1_234_567.0, "1.23457e+06"),
+            (0.000_123_456_78, "0.000123457"),
+            (0.000_012_3, "1.23e-05"),
+            (1e-105, "1e-105"),
+        ];
+        for (number, text) in cases {
+            assert_eq!(six_digits(number), text);
+        }
     }
 }

@@ -1,90 +1,166 @@
-//! Rows of form factors.
+//! The matrix from area to area: surfaces of several patches, and the changes asked for.
+use super::place;
+use super::row::{Entry, Row};
 use crate::failure::Failure;
+use crate::parse::positive;
+use clap::Args;
 use radiosity::Scene;
-use radiosity::formfactor::{DifferentialArea, Enclosure, Limits};
-use rayon::prelude::*;
+use radiosity::formfactor::{ExchangeRow, FactorMatrix};
+use radiosity::io::vs3::Request;
 
-/// A form factor to a patch, by its index.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Entry {
-    pub(super) to: usize,
-    pub(super) value: f64,
-    /// A bound for factors from a point; an estimate for those from an area.
-    pub(super) error: f64,
+/// What may be done to the whole matrix; nothing is done unasked.
+#[derive(Args, Debug)]
+pub(super) struct Changes {
+    /// Make rows add to 1 and obey reciprocity, by least squares smoothing; refuses open scenes
+    #[arg(long)]
+    close: bool,
+    /// Add a receiver of this name for what escapes, so that the rows of open scenes add to 1
+    #[arg(long, value_name = "NAME", conflicts_with = "close")]
+    space: Option<String>,
+    /// Leave out pairs whose factors are below this, and keep the rows' sums
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    drop_below: Option<f64>,
+    /// Take these patches for one surface, named as the first; may be given several times
+    #[arg(long, value_name = "PATCH,PATCH")]
+    group: Vec<String>,
 }
 
-/// The form factors from a point or a patch.
-#[derive(Clone, Debug)]
-pub(super) struct Row {
-    /// The patch; none for a point.
-    pub(super) from: Option<usize>,
-    /// By the patch that they lead to; patches that are not seen may be missing.
-    pub(super) entries: Vec<Entry>,
-}
-
-impl Row {
-    /// From a point to every patch.
-    pub(super) fn of_point(enclosure: &Enclosure, from: &DifferentialArea) -> Row {
-        let factors = enclosure.row(from).into_iter().enumerate();
-        let entry = |(to, factor): (usize, radiosity::formfactor::FormFactor)| Entry {
-            to,
-            value: factor.value,
-            error: factor.error_bound,
-        };
-        Row { from: None, entries: factors.map(entry).collect() }
-    }
-
-    /// The sum of the factors, and of their errors.
-    pub(super) fn sum(&self) -> (f64, f64) {
-        let sum = |pick: fn(&Entry) -> f64| self.entries.iter().map(pick).sum();
-        (sum(|entry| entry.value), sum(|entry| entry.error))
-    }
-
-    /// The factor to a patch.
-    pub(super) fn to(&self, patch: usize) -> f64 {
-        let place = self.entries.binary_search_by_key(&patch, |entry| entry.to);
-        place.map_or(0.0, |place| self.entries[place].value)
+impl Changes {
+    pub(super) fn are_asked(&self) -> bool {
+        self.close || self.space.is_some() || self.drop_below.is_some() || !self.group.is_empty()
     }
 }
 
-/// From the middle of each of the named patches, or of all, exactly.
-pub(super) fn from_middles(scene: &Scene, enclosure: &Enclosure, named: &[usize]) -> Vec<Row> {
-    let row = |&patch: &usize| match scene.patches[patch].middle() {
-        Some(middle) => Row { from: Some(patch), ..Row::of_point(enclosure, &middle.owned_by(patch)) },
-        None => Row { from: Some(patch), entries: Vec::new() },
-    };
-    chosen(scene, named).par_iter().map(row).collect()
+/// Rows, and what they lead to.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    /// Of each receiver: surfaces, patches that only block, space.
+    pub(super) names: Vec<String>,
+    /// Of each surface.
+    pub(super) areas: Vec<f64>,
+    pub(super) emittances: Vec<f64>,
+    pub(super) rows: Vec<Row>,
+    /// Whether the rows were closed, and whether they hold reflections.
+    pub(super) is_closed: bool,
+    pub(super) is_gray: bool,
 }
 
-/// From area to area.
-pub(super) fn from_areas(
+impl Found {
+    /// Rows to patches.
+    pub(super) fn of(scene: &Scene, rows: Vec<Row>) -> Found {
+        let patches = || scene.patches.iter();
+        Found {
+            names: patches().map(|patch| patch.name.clone()).collect(),
+            areas: patches().map(|patch| patch.polygon.area()).collect(),
+            emittances: patches().map(|patch| 1.0 - patch.reflectance[0]).collect(),
+            rows,
+            ..Found::default()
+        }
+    }
+}
+
+/// The matrix of the scene's surfaces, with the changes that the file and the command ask for; says on stderr what was done.
+pub(super) fn finish(
     scene: &Scene,
-    enclosure: &Enclosure,
-    named: &[usize],
-    tolerance: f64,
-) -> Result<Vec<Row>, Failure> {
-    let entries = |row: radiosity::formfactor::Row| -> Vec<Entry> {
-        row.into_iter()
-            .map(|(to, factor)| Entry { to, value: factor.value, error: factor.error_estimate })
-            .collect()
-    };
-    let found = if named.is_empty() {
-        enclosure.area_matrix(tolerance, &Limits::default()).map_err(Failure::usage)?.unwrap_or_default()
-    } else {
-        let row = |patch: &usize| enclosure.area_row(*patch, tolerance, &Limits::default());
-        let rows: Result<Vec<_>, _> = named.iter().map(row).collect();
-        rows.map_err(Failure::usage)?.into_iter().flatten().collect()
-    };
-    let all = named.is_empty();
-    let from = if all { (0..scene.patches.len()).collect() } else { named.to_vec() };
-    let rows = from.into_iter().zip(found).filter(|(patch, _)| !all || !scene.patches[*patch].only_blocks);
-    Ok(rows.map(|(patch, row)| Row { from: Some(patch), entries: entries(row) }).collect())
+    pairs: Vec<ExchangeRow>,
+    request: Option<Request>,
+    changes: &Changes,
+) -> Result<Found, Failure> {
+    let asked = request.unwrap_or_default();
+    let surfaces = Surfaces::of(scene, &asked.combined, &changes.group)?;
+    let areas: Vec<f64> = scene.patches.iter().map(|patch| patch.polygon.area()).collect();
+    let mut matrix = FactorMatrix::new(&areas, pairs).grouped(&surfaces.group);
+    report_defects(&matrix, &surfaces);
+    if let Some(threshold) = changes.drop_below {
+        let before = matrix.values().len();
+        matrix = matrix.without_below(threshold);
+        eprintln!("{} of {before} factors left out; their rows' others grew", before - matrix.values().len());
+    }
+    let is_closed = changes.close || asked.closes;
+    if is_closed {
+        let by = if changes.close { "--close" } else { "encl=1 in the file" };
+        let (closed, done) = matrix.closed().map_err(|error| Failure::scene(format!("{by}: {error}")))?;
+        let (defect, change) = (done.defect, done.change);
+        eprintln!(
+            "{by}: closed by least squares; a row lacked up to {defect:.1e}, factors changed by up to {change:.1e}"
+        );
+        matrix = closed;
+    }
+    let mut names = surfaces.names(scene);
+    if let Some(space) = &changes.space {
+        matrix = matrix.with_space();
+        names.push(space.clone());
+    }
+    let emittances: Vec<f64> =
+        surfaces.first.iter().map(|patch| 1.0 - scene.patches[*patch].reflectance[0]).collect();
+    if asked.emittances {
+        matrix = matrix
+            .with_emittances(&emittances)
+            .map_err(|error| Failure::scene(format!("emit=1: {error}")))?;
+        eprintln!("emit=1 in the file: total exchange factors of gray surfaces, with all reflections");
+    }
+    let rows = (0..surfaces.count).map(|from| Row {
+        from: Some(from),
+        entries: matrix.row(from).map(|f| Entry { to: f.to, value: f.value, error: f.error }).collect(),
+    });
+    let (rows, areas) = (rows.collect(), matrix.areas()[..surfaces.count].to_vec());
+    Ok(Found { names, areas, emittances, rows, is_closed, is_gray: asked.emittances })
 }
 
-/// The named patches, or all that do more than block.
-fn chosen(scene: &Scene, named: &[usize]) -> Vec<usize> {
-    if named.is_empty() {
-        return (0..scene.patches.len()).filter(|patch| !scene.patches[*patch].only_blocks).collect();
+/// What patches make surfaces: those first, then what only blocks.
+struct Surfaces {
+    /// Per patch.
+    group: Vec<usize>,
+    /// The first patch of each group.
+    first: Vec<usize>,
+    /// How many of them are surfaces.
+    count: usize,
+}
+
+impl Surfaces {
+    /// `combined` by the number of the file's surface, as of [`Request`]; `named` by commas.
+    fn of(scene: &Scene, combined: &[Option<usize>], named: &[String]) -> Result<Surfaces, Failure> {
+        let patches = &scene.patches;
+        // Per patch the first one of its surface.
+        let mut first: Vec<usize> = (0..patches.len()).collect();
+        let mut of_surface = vec![None; combined.len()];
+        for (index, patch) in patches.iter().enumerate() {
+            if let Some(surface) = combined.get(patch.origin.polygon).copied().flatten() {
+                first[index] = *of_surface[surface].get_or_insert(index);
+            }
+        }
+        for names in named {
+            let all = || patches.iter().map(|patch| patch.name.as_str());
+            let members = names.split(',').map(|name| place(all(), name.trim()).map_err(Failure::usage));
+            let members = members.collect::<Result<Vec<usize>, _>>()?;
+            let roots: Vec<usize> = members.iter().map(|member| first[*member]).collect();
+            first.iter_mut().filter(|root| roots.contains(root)).for_each(|root| *root = roots[0]);
+        }
+        let is_first = |patch: &usize| first[*patch] == *patch;
+        let all = || (0..patches.len()).filter(is_first);
+        let blocks = |patch: &usize| patches[*patch].only_blocks;
+        let order: Vec<usize> = all().filter(|p| !blocks(p)).chain(all().filter(blocks)).collect();
+        let count = order.iter().filter(|patch| !blocks(patch)).count();
+        let mut place = vec![0; patches.len()];
+        order.iter().enumerate().for_each(|(group, patch)| place[*patch] = group);
+        Ok(Surfaces { group: first.iter().map(|root| place[*root]).collect(), first: order, count })
     }
-    named.to_vec()
+
+    fn names(&self, scene: &Scene) -> Vec<String> {
+        self.first.iter().map(|patch| scene.patches[*patch].name.clone()).collect()
+    }
+}
+
+/// One line for people: what rows lack of 1. In a closed room that is an error.
+fn report_defects(matrix: &FactorMatrix, surfaces: &Surfaces) {
+    let defects = &matrix.defects()[..surfaces.count];
+    let errors = (0..surfaces.count).map(|row| matrix.row(row).map(|f| f.error).sum::<f64>());
+    let [least, most] =
+        [defects.iter().copied().fold(f64::INFINITY, f64::min), defects.iter().copied().fold(0.0, f64::max)];
+    let error = errors.fold(0.0, f64::max);
+    eprintln!(
+        "{} surfaces, {} factors; rows lack {least:.1e} to {most:.1e} of 1, their estimated errors add to at most {error:.1e}",
+        surfaces.count,
+        matrix.values().len()
+    );
 }

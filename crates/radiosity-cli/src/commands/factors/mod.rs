@@ -1,6 +1,23 @@
 //! `radiosity factors`
+//!
+//! ```text
+//! format    rows as text
+//! npz       a matrix for numpy and scipy
+//! matrix    the matrix from area to area: what is done to it, and its rows
+//! pairs     what patches exchange: on all threads, row by row, to a journal
+//! journal   rows found so far, in a file
+//! tally     progress and the time left
+//! patience  limits of time, and Ctrl-C
+//! row       rows of form factors
+//! ```
 mod format;
+mod journal;
 mod matrix;
+mod npz;
+mod pairs;
+mod patience;
+mod row;
+mod tally;
 
 use crate::failure::Failure;
 use crate::input;
@@ -8,10 +25,13 @@ use crate::outputs::print;
 use crate::parse::positive;
 use clap::{Args, ValueEnum};
 use format::Table;
-use matrix::Row;
+use matrix::Found;
+use patience::Patience;
 use radiosity::formfactor::{DifferentialArea, Enclosure};
 use radiosity::glam::DVec3;
-use radiosity::{Scene, io};
+use radiosity::io::Source;
+use radiosity::{Scene, inspect, io};
+use row::Row;
 use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity factors`
@@ -31,6 +51,12 @@ pub(crate) struct Factors {
     /// From area to area, each row to this absolute tolerance [default: exactly from the middle of each patch]
     #[arg(long, value_name = "TOLERANCE", value_parser = positive, conflicts_with = "from")]
     area: Option<f64>,
+    /// What is done to the whole matrix
+    #[command(flatten)]
+    changes: matrix::Changes,
+    /// Stop after so many seconds; with -o the same command goes on from there
+    #[arg(long, value_name = "SECONDS", value_parser = positive, requires = "area")]
+    time: Option<f64>,
     /// The output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -53,57 +79,100 @@ enum Format {
     Json,
     /// The output format 0 of View3D: areas, the matrix, emittances; needs --area and the whole matrix
     View3d,
+    /// Compressed sparse rows for scipy.sparse.load_npz, with errors and names; needs --area, the whole matrix and -o
+    Npz,
 }
 
 /// Prints form factors: from a point, or from patches, to every patch.
 pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
-    let whole = arguments.row.is_empty() && arguments.from.is_none();
-    if arguments.format == Format::View3d && !(whole && arguments.area.is_some()) {
-        let message = "View3D's format holds a whole matrix from area to area; give --area TOLERANCE and no --row or --from";
-        return Err(Failure::usage(message));
+    let format = if arguments.json { Format::Json } else { arguments.format };
+    check(arguments, format)?;
+    let (scene, source) = input::read(&arguments.scene)?;
+    let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
+    if arguments.area.is_some() {
+        inspect::coplanar_overlaps(&scene).iter().for_each(|finding| {
+            eprintln!("warning: {}: {finding}", finding.patches.join(" and "));
+        });
     }
-    let (scene, _) = input::read(&arguments.scene)?;
-    let rows = rows(arguments, &scene)?;
-    let table = Table { scene: &scene, rows: &rows, tolerance: arguments.area };
-    let text = match (arguments.json, arguments.format) {
-        (true, _) | (_, Format::Json) => table.json(),
-        (_, Format::Text) => table.text(),
-        (_, Format::Csv) => table.csv(),
-        (_, Format::View3d) => table.view3d(),
+    let found = match arguments.area {
+        Some(tolerance) if is_whole(arguments) => {
+            let request = match &source {
+                Source::Vs3(file) => Some(file.request()?),
+                _ => None,
+            };
+            let patience = Patience::new(arguments.time)?;
+            let pairs = pairs::find(&enclosure, tolerance, arguments.output.as_deref(), &patience)?;
+            let Some(pairs) = pairs else { return Ok(patience.code()) };
+            matrix::finish(&scene, pairs, request, &arguments.changes)?
+        }
+        _ => Found::of(&scene, rows(arguments, &scene, &enclosure)?),
+    };
+    let table = Table { found: &found, tolerance: arguments.area };
+    let bytes = match format {
+        Format::Text => table.text().into_bytes(),
+        Format::Csv => table.csv(),
+        Format::Json => table.json().into_bytes(),
+        Format::View3d => table.view3d().into_bytes(),
+        Format::Npz => npz::bytes(&found).map_err(Failure::internal)?,
     };
     match &arguments.output {
-        Some(path) => io::save(path, text.as_bytes())?,
-        None => print(&text)?,
+        Some(path) => io::save(path, &bytes)?,
+        None => print(&String::from_utf8_lossy(&bytes))?,
     }
+    pairs::forget(arguments.output.as_deref());
     Ok(ExitCode::SUCCESS)
 }
 
-/// The rows asked for.
-fn rows(arguments: &Factors, scene: &Scene) -> Result<Vec<Row>, Failure> {
-    let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
+fn is_whole(arguments: &Factors) -> bool {
+    arguments.row.is_empty() && arguments.from.is_none()
+}
+
+/// Refuses what only a whole matrix from area to area has.
+fn check(arguments: &Factors, format: Format) -> Result<(), Failure> {
+    let is_matrix = is_whole(arguments) && arguments.area.is_some();
+    let needs = "a whole matrix from area to area; give --area TOLERANCE and no --row or --from";
+    if format == Format::View3d && !is_matrix {
+        return Err(Failure::usage(format!("View3D's format holds {needs}")));
+    }
+    if format == Format::Npz && !(is_matrix && arguments.output.is_some()) {
+        return Err(Failure::usage(format!("npz holds {needs}, and is no text; give -o FILE.npz")));
+    }
+    if arguments.changes.are_asked() && !is_matrix {
+        return Err(Failure::usage(format!("--close, --space, --drop-below and --group change {needs}")));
+    }
+    Ok(())
+}
+
+/// The rows asked for, where they are not a whole matrix from area to area.
+fn rows(arguments: &Factors, scene: &Scene, enclosure: &Enclosure) -> Result<Vec<Row>, Failure> {
     if let Some([x, y, z, nx, ny, nz]) = arguments.from {
         let place = (DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
         let mut from = DifferentialArea::new(place.0, place.1).map_err(Failure::usage)?;
         if let Some(name) = &arguments.on {
             from = from.owned_by(find(scene, name)?);
         }
-        return Ok(vec![Row::of_point(&enclosure, &from)]);
+        return Ok(vec![Row::of_point(enclosure, &from)]);
     }
     let named = arguments.row.iter().map(|name| find(scene, name));
     let named = named.collect::<Result<Vec<_>, _>>()?;
     match arguments.area {
-        None => Ok(matrix::from_middles(scene, &enclosure, &named)),
-        Some(tolerance) => matrix::from_areas(scene, &enclosure, &named, tolerance),
+        None => Ok(row::from_middles(scene, enclosure, &named)),
+        Some(tolerance) => row::from_areas(enclosure, &named, tolerance),
     }
 }
 
 /// The index of the patch of that name.
 fn find(scene: &Scene, name: &str) -> Result<usize, Failure> {
-    scene.patches.iter().position(|patch| patch.name == name).ok_or_else(|| {
-        let known: Vec<_> = scene.patches.iter().take(20).map(|patch| patch.name.as_str()).collect();
-        let more = if scene.patches.len() > known.len() { ", …" } else { "" };
-        Failure::usage(format!("no patch is named {name}; the scene has {}{more}", known.join(", ")))
-    })
+    let names = scene.patches.iter().map(|patch| patch.name.as_str());
+    place(names, name).map_err(Failure::usage)
+}
+
+/// The place of a name among others; a message that tells some of these, where it is none of them.
+fn place<'n>(mut names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, String> {
+    let known: Vec<_> = names.clone().take(20).collect();
+    let more = if names.clone().nth(20).is_some() { ", …" } else { "" };
+    let found = names.position(|known| known == name);
+    found.ok_or_else(|| format!("no patch is named {name}; the scene has {}{more}", known.join(", ")))
 }
 
 /// Six finite numbers, the last three not all zero.

@@ -1,0 +1,58 @@
+//! What patches exchange: each pair once, on all threads, row by row.
+use super::journal::Journal;
+use super::patience::Patience;
+use super::tally::Tally;
+use crate::failure::Failure;
+use radiosity::formfactor::{Enclosure, ExchangeRow, Limits};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// So many rows are found before they are written.
+const BLOCK: usize = 16;
+
+/// The rows of all polygons; none when stopped. With an output, rows are noted in a journal beside it as they are found, and
+/// those that are there already are not found again.
+pub(super) fn find(
+    enclosure: &Enclosure,
+    tolerance: f64,
+    output: Option<&Path>,
+    patience: &Patience,
+) -> Result<Option<Vec<ExchangeRow>>, Failure> {
+    let count = enclosure.polygons().len();
+    let mut journal = output.map(|path| Journal::open(&beside(path), enclosure, tolerance)).transpose()?;
+    let mut rows = journal.as_mut().map(Journal::take_rows).unwrap_or_default();
+    let mut tally = Tally::new(count, rows.iter().map(|row| row.from));
+    let mut is_known = vec![false; count];
+    rows.iter().for_each(|row| is_known[row.from] = true);
+    let missing: Vec<usize> = (0..count).filter(|row| !is_known[*row]).collect();
+    let limits = Limits { stop: &|| patience.is_over(), ..Limits::default() };
+    for block in missing.chunks(BLOCK) {
+        let row = |from: &usize| enclosure.exchange_row(*from, tolerance, &limits);
+        let found: Result<Vec<_>, _> = block.par_iter().map(row).collect();
+        for row in found.map_err(Failure::usage)?.into_iter().flatten() {
+            journal.as_mut().map(|journal| journal.add(&row)).transpose()?;
+            tally.advance(row.from);
+            rows.push(row);
+        }
+        if rows.len() < count && patience.is_over() {
+            tally.stop(journal.is_some());
+            return Ok(None);
+        }
+    }
+    tally.end();
+    Ok(Some(rows))
+}
+
+/// The journal's place.
+fn beside(output: &Path) -> PathBuf {
+    let mut name = output.to_owned().into_os_string();
+    name.push(".rows");
+    name.into()
+}
+
+/// Removes the journal: the output holds all. One that cannot be removed does no harm.
+pub(super) fn forget(output: Option<&Path>) {
+    if let Some(output) = output {
+        let _ = std::fs::remove_file(beside(output));
+    }
+}

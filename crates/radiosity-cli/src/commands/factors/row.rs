@@ -1,0 +1,75 @@
+//! Rows of form factors.
+use crate::failure::Failure;
+use radiosity::Scene;
+use radiosity::formfactor::{DifferentialArea, Enclosure, Limits};
+use rayon::prelude::*;
+
+/// A form factor to a receiver, by its index.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub(super) to: usize,
+    pub(super) value: f64,
+    /// A bound for factors from a point; an estimate for those from an area.
+    pub(super) error: f64,
+}
+
+/// The form factors from a point or a surface.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    /// The surface; none for a point.
+    pub(super) from: Option<usize>,
+    /// By the receiver that they lead to; what is not seen may be missing.
+    pub(super) entries: Vec<Entry>,
+}
+
+impl Row {
+    /// From a point to every patch.
+    pub(super) fn of_point(enclosure: &Enclosure, from: &DifferentialArea) -> Row {
+        let factors = enclosure.row(from).into_iter().enumerate();
+        let entry = |(to, factor): (usize, radiosity::formfactor::FormFactor)| Entry {
+            to,
+            value: factor.value,
+            error: factor.error_bound,
+        };
+        Row { from: None, entries: factors.map(entry).collect() }
+    }
+
+    /// The sum of the factors, and of their errors.
+    pub(super) fn sum(&self) -> (f64, f64) {
+        let sum = |pick: fn(&Entry) -> f64| self.entries.iter().map(pick).sum();
+        (sum(|entry| entry.value), sum(|entry| entry.error))
+    }
+
+    /// The factor to a receiver.
+    pub(super) fn to(&self, receiver: usize) -> f64 {
+        let place = self.entries.binary_search_by_key(&receiver, |entry| entry.to);
+        place.map_or(0.0, |place| self.entries[place].value)
+    }
+}
+
+/// From the middle of each of the named patches, or of all that do more than block, exactly.
+pub(super) fn from_middles(scene: &Scene, enclosure: &Enclosure, named: &[usize]) -> Vec<Row> {
+    let row = |&patch: &usize| match scene.patches[patch].middle() {
+        Some(middle) => Row { from: Some(patch), ..Row::of_point(enclosure, &middle.owned_by(patch)) },
+        None => Row { from: Some(patch), entries: Vec::new() },
+    };
+    let all: Vec<usize> =
+        (0..scene.patches.len()).filter(|patch| !scene.patches[*patch].only_blocks).collect();
+    let chosen = if named.is_empty() { &all } else { named };
+    chosen.par_iter().map(row).collect()
+}
+
+/// From the named patches, area to area.
+pub(super) fn from_areas(
+    enclosure: &Enclosure,
+    named: &[usize],
+    tolerance: f64,
+) -> Result<Vec<Row>, Failure> {
+    let row = |patch: &usize| {
+        let row = enclosure.area_row(*patch, tolerance, &Limits::default()).map_err(Failure::usage)?;
+        let factors = row.unwrap_or_default().into_iter();
+        let entries = factors.map(|(to, f)| Entry { to, value: f.value, error: f.error_estimate });
+        Ok(Row { from: Some(*patch), entries: entries.collect() })
+    };
+    named.iter().map(row).collect()
+}
