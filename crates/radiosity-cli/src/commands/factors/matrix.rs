@@ -1,5 +1,5 @@
 //! The matrix from area to area: surfaces of several patches, and the changes asked for.
-use super::place;
+use super::names::place;
 use super::row::{Entry, Row};
 use crate::failure::Failure;
 use crate::parse::positive;
@@ -104,6 +104,7 @@ pub(super) fn finish(
         entries: matrix.row(from).map(|f| Entry { to: f.to, value: f.value, error: f.error }).collect(),
     });
     let (rows, areas) = (rows.collect(), matrix.areas()[..surfaces.count].to_vec());
+    let emittances = emittances[..surfaces.count].to_vec();
     Ok(Found { names, areas, emittances, rows, is_closed, is_gray: asked.emittances })
 }
 

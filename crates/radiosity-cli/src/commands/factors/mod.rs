@@ -9,10 +9,12 @@
 //! tally     progress and the time left
 //! patience  limits of time, and Ctrl-C
 //! row       rows of form factors
+//! names     patches by their names
 //! ```
 mod format;
 mod journal;
 mod matrix;
+mod names;
 mod npz;
 mod pairs;
 mod patience;
@@ -164,15 +166,7 @@ fn rows(arguments: &Factors, scene: &Scene, enclosure: &Enclosure) -> Result<Vec
 /// The index of the patch of that name.
 fn find(scene: &Scene, name: &str) -> Result<usize, Failure> {
     let names = scene.patches.iter().map(|patch| patch.name.as_str());
-    place(names, name).map_err(Failure::usage)
-}
-
-/// The place of a name among others; a message that tells some of these, where it is none of them.
-fn place<'n>(mut names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, String> {
-    let known: Vec<_> = names.clone().take(20).collect();
-    let more = if names.clone().nth(20).is_some() { ", …" } else { "" };
-    let found = names.position(|known| known == name);
-    found.ok_or_else(|| format!("no patch is named {name}; the scene has {}{more}", known.join(", ")))
+    names::place(names, name).map_err(Failure::usage)
 }
 
 /// Six finite numbers, the last three not all zero.
