@@ -156,6 +156,21 @@ impl Eye {
         if self.edges.is_empty() && self.turning.is_empty() { Focus::All } else { Focus::Part }
     }
 
+    /// Whether two of the shadows in focus meet anywhere, on the target or beside it, as the middle of a cell sees them.
+    ///
+    /// Events cut cells where two begin to meet, so that what holds for the middle holds for all.
+    pub(super) fn shadows_cross(&self, cell: &[DVec3]) -> bool {
+        let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
+        let shadow = |i: usize| {
+            let start = if i == 0 { 0 } else { self.edge_ends[i - 1] };
+            &self.edges[start..self.edge_ends[i]]
+        };
+        let count = self.edge_ends.len();
+        let mut pairs = (0..count).flat_map(|i| (0..i).map(move |j| [shadow(i), shadow(j)]));
+        (count + self.turning.len() > 1 && !self.turning.is_empty())
+            || pairs.any(|[one, other]| !is_beside(one, other, from) && !is_beside(other, one, from))
+    }
+
     /// [`Self::look`] past the silhouettes in focus.
     pub(super) fn look_past(
         &mut self,
@@ -300,6 +315,12 @@ impl Eye {
         let near = corners.iter().map(|corner| (*corner - corners[0]).lerp(middle, 0.25));
         near.map(|point| parts.seen_from(point, normal, spare)).fold(0.0, f64::max)
     }
+}
+
+/// Whether all of a silhouette is seen outside of one edge of another one.
+fn is_beside(one: &[[DVec3; 2]], other: &[[DVec3; 2]], from: DVec3) -> bool {
+    let leaves_out = |wall: Bound| other.iter().all(|[a, _]| wall.depth(*a - from) <= 0.0);
+    one.iter().any(|edge| leaves_out(Bound::through(*edge, from)))
 }
 
 /// What of a polygon is in a cone.
