@@ -2,7 +2,7 @@
 //! 1e-3 of the closed form.
 #![no_main]
 use arbitrary::Arbitrary;
-use formfactor::{Enclosure, PlanarPolygon};
+use formfactor::{Enclosure, Limits, PlanarPolygon};
 use libfuzzer_sys::fuzz_target;
 use tests::obstructed::{Pair, Plate, Plates};
 
@@ -37,7 +37,10 @@ fuzz_target!(|input: Input| {
     let pair = Pair::upright("fuzzed".into(), plates);
     let polygon = |points| PlanarPolygon::new([points]).expect("a rectangle");
     let enclosure = Enclosure::new(pair.polygons().into_iter().map(polygon).collect());
-    let found = enclosure.area_form_factor(0, 1, TOLERANCE).expect("a tolerance above 0");
+    let found = enclosure
+        .area_form_factor(0, 1, TOLERANCE, &Limits::default())
+        .expect("a tolerance above 0")
+        .expect("no stop");
     assert!((found.value - exact).abs() <= TOLERANCE, "{found:?}, exactly {exact}: {pair:?}");
     assert!((0.0..=1.0).contains(&found.value), "{found:?}");
 });

@@ -3,7 +3,8 @@
 //!
 //! `cargo run --release -p tests --example fingerprint [-- INPUTS]`; 200 inputs of each nasty kind by default.
 use formfactor::{
-    DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, unoccluded, unoccluded_complement,
+    DifferentialArea, Enclosure, FormFactor, Limits, PlanarPolygon, by_hierarchy, unoccluded,
+    unoccluded_complement,
 };
 use polycsg::{Csg, DVec2, Region, Scratch, classify};
 use tests::against::{csg, leaf};
@@ -148,7 +149,7 @@ fn area_factors(count: u64) -> [u64; 2] {
         let enclosure = Enclosure::new(case.polygons.iter().take(5).map(polygon).collect());
         for from in 0..enclosure.polygons().len() {
             for to in 0..enclosure.polygons().len() {
-                if let Ok(factor) = enclosure.area_form_factor(from, to, 1e-2) {
+                if let Ok(Some(factor)) = enclosure.area_form_factor(from, to, 1e-2, &Limits::default()) {
                     values.add(factor.value.to_bits());
                     errors.add(factor.error_estimate.to_bits());
                 }

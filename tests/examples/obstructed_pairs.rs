@@ -4,7 +4,7 @@
 //!
 //! It prints for each family and tolerance how many errors are beyond the tolerance and beyond the estimate, and after the
 //! table each of them by its seed. `-- PAIRS FIRST freeze` prints references as they stand in `tests/cases/obstructed.json`.
-use formfactor::{Enclosure, PlanarPolygon};
+use formfactor::{Enclosure, Limits, PlanarPolygon};
 use std::error::Error;
 use std::io::{self, Write};
 use std::thread;
@@ -74,7 +74,7 @@ fn check(seed: u64, tolerances: &[f64]) -> Vec<Outcome> {
     let Some(enclosure) = enclosure(&pair) else { return Vec::new() };
     let outcome = |&tolerance: &f64| {
         let start = Instant::now();
-        let found = enclosure.area_form_factor(0, 1, tolerance).ok()?;
+        let found = enclosure.area_form_factor(0, 1, tolerance, &Limits::default()).ok()??;
         Some(Outcome {
             seed,
             tolerance,

@@ -1,5 +1,5 @@
 //! Form factors from area to area past obstructions, against references that use nothing of `formfactor`.
-use formfactor::{AreaFormFactor, Enclosure, PlanarPolygon};
+use formfactor::{AreaFormFactor, Enclosure, Limits, PlanarPolygon};
 use serde_json::Value;
 use std::path::Path;
 use tests::obstructed::{Pair, Plate, Plates, Prisms, Setting, pair};
@@ -45,7 +45,10 @@ fn named() -> Vec<(Pair, f64, f64)> {
 fn found(pair: &Pair, tolerance: f64) -> AreaFormFactor {
     let polygon = |points| PlanarPolygon::new([points]).expect("a planar polygon");
     let enclosure = Enclosure::new(pair.polygons().into_iter().map(polygon).collect());
-    enclosure.area_form_factor(0, 1, tolerance).expect("a tolerance above 0")
+    enclosure
+        .area_form_factor(0, 1, tolerance, &Limits::default())
+        .expect("a tolerance above 0")
+        .expect("no stop")
 }
 
 /// What is wrong with a pair at a tolerance.
@@ -79,6 +82,18 @@ fn named_cases_are_within_their_tolerances() {
     let failures: Vec<String> =
         named.iter().filter_map(|(pair, tolerance, exact)| complaint(pair, *exact, *tolerance)).collect();
     assert!(failures.is_empty(), "{} of them:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Edges of three boxes seem to meet along a curve on the source, where an estimate by rates of analytic integrands fails.
+#[test]
+fn where_three_edges_meet_rules_are_not_trusted_too_far() {
+    for seed in [20055, 20271] {
+        let pair = pair(seed);
+        let exact = pair.form_factor();
+        let failures: Vec<String> =
+            [1e-8, 1e-9, 1e-10].into_iter().filter_map(|t| complaint(&pair, exact, t)).collect();
+        assert!(failures.is_empty(), "{}", failures.join("\n"));
+    }
 }
 
 /// The references of the named cases are by product quadrature; those of fuzzed ones are the closed form itself.

@@ -31,6 +31,7 @@
 //! | many polygons that are targets and occluders | form factors from a point to one, or to all | [`Enclosure::form_factor`], [`Enclosure::row`] |
 //! | many polygons | form factors from many points to one of them | [`Enclosure::form_factors`] |
 //! | many polygons | form factors from polygon to polygon | [`Enclosure::area_form_factor`], [`Enclosure::area_matrix`] |
+//! | many polygons | the same row by row, to be resumed or shared among machines; closed, grouped, sparse | [`Enclosure::exchange_row`], [`FactorMatrix`] |
 //! | a polygon that hides almost all of the hemisphere | 1 - F with all digits | [`unoccluded_complement`] |
 //! | an enclosure | approximate form factors to compare with | [`approx`] |
 //!
@@ -70,9 +71,12 @@
 //! is known to less than 13 digits, the target is integrated instead (`cubature`): all terms are positive, and the rule's
 //! error is bounded.
 //!
-//! **From area to area.** [`Enclosure::area_form_factor`] is the mean of point form factors. Where nothing stands in between
-//! it is a double contour integral. Elsewhere it is a cubature on cells, cut along the lines where the view changes its
-//! shape; it comes with an estimate of its error, not with a bound.
+//! **From area to area.** [`Enclosure::area_form_factor`] is the mean of point form factors. What stands in between is found as
+//! convex bodies and plates, coplanar polygons as one. Where nothing does, few nodes of the kernel are enough for what is far
+//! apart, a double contour integral for the rest. Elsewhere one of the two is cut along the lines on which edges and vertices seem to
+//! meet, so that each cell is integrated over by Gauss's rules of point form factors in plain doubles. The result comes with an
+//! estimate of its error, not with a bound: [`AreaFormFactor::error_estimate`] says from what. A [`Tolerance`] says what each
+//! entry and each row may err by, and [`Limits`] what they may cost.
 //!
 //! # Conventions and limits
 //!

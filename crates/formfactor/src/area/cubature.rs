@@ -1,13 +1,15 @@
 //! Pairs that are hidden in part: cubature on cells that are cut where the view changes its shape.
-use super::events::{Patch, cut, events};
-use super::integral::{Allowed, Integral, least_whole};
+use super::clip::before;
+use super::estimate::{CellView, FINE, RULES, Smoothness, a_priori, left};
+use super::events::{are_skew, cut, events};
+use super::integral::{Allowed, Integral, least_whole, most};
+use super::patch::Patch;
 use super::point::{Eye, Focus, Near, Seen};
-use crate::numeric::gauss::{RULE_1, RULE_2, RULE_3, RULE_4, RULE_6, RULE_8, RULE_12};
+use super::queue::{Open, Queue};
 use crate::scene::occluder::Face;
 use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves, nodes};
 use glam::DVec3;
-use std::{cmp::Ordering, collections::BinaryHeap, f64::consts::PI};
 
 /// The form factor from the points of a source to a target.
 #[derive(Debug)]
@@ -32,95 +34,21 @@ pub(super) struct Cubature<'p> {
     /// What counts as no less in the tolerance.
     least: f64,
     tolerance: f64,
-    open: BinaryHeap<Open>,
-    /// The sums over the open cells.
-    value: f64,
-    error: f64,
+    open: Queue,
     evaluations: u64,
-    count: usize,
 }
-
-/// A cell to be refined, the one with the largest error first.
-#[derive(Debug)]
-struct Open {
-    cell: Cell,
-    value: f64,
-    error: f64,
-    /// What cuts that were not made may change, if events were cut.
-    left_out: Option<f64>,
-    /// Its rule's place in the list.
-    order: usize,
-    /// The values by the rule before and by this one, where this one is fine.
-    values: [f64; 2],
-    /// What the finest rule may leave.
-    last: f64,
-    number: usize,
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Open {}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.error.total_cmp(&other.error).then(other.number.cmp(&self.number))
-    }
-}
-
-/// Rules by order.
-const RULES: [&[[f64; 2]]; 7] = [&RULE_1, &RULE_2, &RULE_3, &RULE_4, &RULE_6, &RULE_8, &RULE_12];
-
-/// From this place on differences to the two rules before say what a rule may err by.
-const FINE: usize = 4;
-
-/// What a rule may err by on a cell, as a share of what it were with nothing in between, by the cell's radius over the distance to what it looks at.
-///
-/// What is hidden in part is a polynomial of degree 2 where planes are parallel and nearly one elsewhere: each order more
-/// takes away one or two digits. The constants are three times the errors that 99 of 100 cells stayed below.
-fn error(focus: Focus, order: usize, ratio: f64) -> f64 {
-    if focus == Focus::Part {
-        return [0.3, 0.06 * ratio, 3e-3 * ratio.powi(2), 3e-4 * ratio.powi(3), 3e-6 * ratio.powi(4)]
-            [order.min(FINE)];
-    }
-    // A single node says little where a plane cuts the polygons off.
-    if order == 0 { 5.0 * ratio * ratio } else { ratio.powi(2 * [1, 2, 3, 4, 6, 8, 12][order]) }
-}
-
-/// What a fine rule leaves, by its value and those of the two rules before.
-///
-/// Where the integrand is analytic at all points of an ellipse around the foci -1 and 1 with semiaxes that add to r, n nodes err by less than
-/// C r^(-2n) [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3]. So each difference says what C is, as
-/// that of the coarser one's error; the larger counts, as one alone may be small by chance, eight times.
-fn left(values: [f64; 3], order: usize, apart: f64) -> f64 {
-    let beyond = |before: usize| rate(apart, before, order);
-    let [coarse, middle, fine] = values;
-    SURE * ((middle - coarse).abs() * beyond(order - 2)).max((fine - middle).abs() * beyond(order - 1))
-}
-
-/// What a rule leaves of the error of one before, by how far a cell is from what it looks at.
-fn rate(apart: f64, before: usize, order: usize) -> f64 {
-    let step = (apart + apart.hypot(1.0)).powi(-2);
-    step.powi(i32::try_from(RULES[order].len() - RULES[before].len()).unwrap_or(i32::MAX))
-}
-
-/// By so much what differences say is raised.
-const SURE: f64 = 8.0;
 
 /// The share of the tolerance that any cut which is not made may take.
 const UNCUT: f64 = 1e-3;
 
 /// The share of the tolerance that any cell may take at first.
 const START: f64 = 0.1;
+
+/// A rule of few nodes is checked by the next where a cell is so close to what it looks at, in halves of its longest side.
+const CLOSE: f64 = 2.0;
+
+/// What no node sees more of than this share counts as nothing: roundings of what is hidden.
+const DARK: f64 = 1e-13;
 
 /// A cell is halved so often before cuts by events are given up.
 const BLIND_HALVINGS: u32 = 4;
@@ -144,11 +72,8 @@ impl<'p> Cubature<'p> {
             scale: 0.0,
             least: least_whole(from, to),
             tolerance: 0.0,
-            value: 0.0,
-            error: 0.0,
-            open: BinaryHeap::new(),
+            open: Queue::default(),
             evaluations: 0,
-            count: 0,
         }
     }
 
@@ -166,8 +91,9 @@ impl<'p> Cubature<'p> {
         self.whole = unhidden.map_or_else(|| self.middling() * self.size, |unhidden| unhidden.value);
         // Where planes cut the polygons off, what the middle sees says little.
         self.scale = if unhidden.is_some() { self.whole } else { self.whole.max(8.0 * self.least) };
-        self.error = unhidden.map_or(0.0, |unhidden| unhidden.error);
-        self.tolerance = allowed.error(self.whole, self.whole.max(self.least));
+        let known = unhidden.map_or(0.0, |unhidden| unhidden.error);
+        let whole = self.whole.max(self.least);
+        self.tolerance = allowed.error(self.whole, whole);
         for piece in std::mem::take(&mut self.source) {
             self.begin(&piece);
         }
@@ -175,20 +101,15 @@ impl<'p> Cubature<'p> {
             if is_cancelled() {
                 return None;
             }
-            self.tolerance = allowed.error(self.seen(self.value), self.whole.max(self.least));
-            if self.error <= self.tolerance {
-                break;
-            }
-            if self.open.peek().is_none_or(|worst| worst.error == 0.0) {
+            self.tolerance = allowed.error(self.seen(self.open.value), whole);
+            if known + self.open.error <= self.tolerance {
                 break;
             }
             let Some(worst) = self.open.pop() else { break };
-            self.value -= worst.value;
-            self.error -= worst.error;
             self.refine(&worst);
         }
-        let (value, error) = self.sum();
-        Some(Integral { value: self.seen(value), error, evaluations: self.evaluations })
+        let (value, error) = self.open.sum();
+        Some(Integral { value: self.seen(value), error: known + error, evaluations: self.evaluations })
     }
 
     /// What is seen, given the sum over the cells.
@@ -256,44 +177,34 @@ impl<'p> Cubature<'p> {
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
     fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<[f64; 2]>) {
-        let is_smooth = left_out.is_some();
-        let share = area(&cell) / self.size;
-        if share == 0.0 {
+        if area(&cell) == 0.0 {
             return;
         }
-        let focus = if is_smooth { self.eye.focus(&cell, &self.target, self.occluders) } else { Focus::Part };
-        if focus == self.adds_nothing() {
-            let error = left_out.unwrap_or(0.0);
-            let values = [0.0; 2];
-            self.push(Open { cell, value: 0.0, error, left_out, order: 0, values, last: 0.0, number: 0 });
-            return;
+        let view = self.view(&cell, left_out.is_some());
+        let mut open = Open { cell, value: 0.0, error: 0.0, left_out, order: 0, values: [0.0; 2], last: 0.0 };
+        if view.focus != self.adds_nothing() {
+            let share = area(&cell) / self.size;
+            let allowed = self.tolerance * (share / 2.0).max(START);
+            let a_priori = |order| share * self.scale * a_priori(&view, order);
+            open.order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
+            open.error = a_priori(open.order);
+            let is_dark = self.by_rule(&mut open, &view, known);
+            if is_dark && (self.is_skew || !view.is_cut) {
+                open.error = open.error.max(self.unseen(&cell));
+            }
         }
-        let apart = if is_smooth { self.apart(&cell) } else { 0.0 };
-        let ratio = 1.0 / apart.max(0.25);
-        let allowed = self.tolerance * (share / 2.0).max(START);
-        let flat = if cell[2] == cell[3] { 1.0 / ratio.min(1.0) } else { 1.0 };
-        let a_priori = |order: usize| flat * share * self.scale * error(focus, order, ratio);
-        let order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
-        let mut error = a_priori(order);
-        let (mut value, seen) = self.product(&cell, order, focus, is_smooth);
-        let (mut values, mut last) = ([value; 2], 0.0);
-        if order >= FINE {
-            let [coarse, middle] = known
-                .unwrap_or_else(|| [2, 1].map(|back| self.product(&cell, order - back, focus, is_smooth).0));
-            values[0] = middle;
-            error = left([coarse, middle, value], order, apart);
-            last = error * rate(apart, order, RULES.len() - 1);
-        } else if seen.is_joint || !is_smooth || ratio > 0.5 {
-            let (finer, _) = self.product(&cell, order + 1, focus, is_smooth);
-            error = error.max((finer - value).abs());
-            value = finer;
+        open.error += left_out.unwrap_or(0.0);
+        self.open.push(open);
+    }
+
+    /// How a cell sees the target, all events on it cut or not.
+    fn view(&mut self, cell: &Cell, is_cut: bool) -> CellView {
+        let is_triangle = cell[2] == cell[3];
+        if !is_cut {
+            return CellView { focus: Focus::Part, is_cut, is_triangle, apart: 0.0 };
         }
-        let is_dark = focus == Focus::Part && seen.whole - seen.hidden <= 1e-13 * seen.whole;
-        if is_dark && (self.is_skew || !is_smooth) {
-            error = error.max(self.unseen(&cell));
-        }
-        error += left_out.unwrap_or(0.0);
-        self.push(Open { cell, value, error, left_out, order, values, last, number: 0 });
+        let focus = self.eye.focus(cell, &self.target, self.occluders);
+        CellView { focus, is_cut, is_triangle, apart: self.apart(cell) }
     }
 
     /// What a cell must see to add nothing.
@@ -301,12 +212,32 @@ impl<'p> Cubature<'p> {
         if self.unhidden.is_some() { Focus::All } else { Focus::Nothing }
     }
 
-    fn push(&mut self, mut cell: Open) {
-        self.value += cell.value;
-        self.error += cell.error;
-        self.count += 1;
-        cell.number = self.count;
-        self.open.push(cell);
+    /// The integral over a cell by its rule, and what that leaves, which where the rule has few nodes is known already but for
+    /// what one more node a side changes; whether no node sees anything.
+    fn by_rule(&mut self, open: &mut Open, view: &CellView, known: Option<[f64; 2]>) -> bool {
+        let Open { cell, order, .. } = *open;
+        let (value, seen) = self.product(&cell, order, view);
+        (open.value, open.values[1]) = (value, value);
+        if order >= FINE {
+            let [coarse, middle] =
+                known.unwrap_or_else(|| [2, 1].map(|back| self.product(&cell, order - back, view).0));
+            let smoothness = self.smoothness(&cell, view);
+            open.values[0] = middle;
+            open.error = left([coarse, middle, value], order, smoothness);
+            open.last = open.error * smoothness.rate(order, RULES.len() - 1);
+        } else if seen.is_joint || view.apart < CLOSE {
+            open.value = self.product(&cell, order + 1, view).0;
+            open.error = open.error.max((open.value - value).abs());
+        }
+        view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
+    }
+
+    fn smoothness(&self, cell: &Cell, view: &CellView) -> Smoothness {
+        if view.is_cut && self.is_skew && self.eye.shadows_cross(cell) {
+            Smoothness::Bends
+        } else {
+            Smoothness::Analytic { apart: view.apart }
+        }
     }
 
     /// What some of a cell might see though its nodes do not.
@@ -316,28 +247,29 @@ impl<'p> Cubature<'p> {
     }
 
     /// The integral by a rule: of what is hidden where the rest is known, else of what is seen.
-    fn product(&mut self, cell: &Cell, order: usize, focus: Focus, is_smooth: bool) -> (f64, Seen) {
-        let is_split = self.unhidden.is_some();
-        let part = |seen: Seen| match (focus, is_split) {
-            (Focus::Part, true) => seen.hidden,
-            (Focus::Part, false) => seen.whole - seen.hidden,
-            _ => seen.whole,
-        };
+    fn product(&mut self, cell: &Cell, order: usize, view: &CellView) -> (f64, Seen) {
         let mut all = Seen::default();
         let mut value = 0.0;
         for (point, weight) in nodes(cell, RULES[order]) {
-            let seen = if is_smooth {
+            let seen = if view.is_cut {
                 self.eye.look_past(point, self.normal, &self.target, self.occluders)
             } else {
                 self.eye.look(point, self.normal, &self.target, self.occluders)
             };
-            value += weight * part(seen);
-            all.whole += seen.whole;
-            all.hidden += seen.hidden;
-            all.is_joint |= seen.is_joint;
+            value += weight * self.part(seen, view.focus);
+            all.add(&seen);
             self.evaluations += 1;
         }
         (value, all)
+    }
+
+    /// What of the factor from a node counts.
+    fn part(&self, seen: Seen, focus: Focus) -> f64 {
+        match (focus, self.unhidden.is_some()) {
+            (Focus::Part, true) => seen.hidden,
+            (Focus::Part, false) => seen.whole - seen.hidden,
+            _ => seen.whole,
+        }
     }
 
     /// Makes cuts that were left out, or takes a finer rule where the integrand is smooth and there is one, else two halves.
@@ -359,60 +291,9 @@ impl<'p> Cubature<'p> {
             self.add(worst.cell, Some(left_out), worst.order + 1, known);
             return;
         }
-        halves(worst.cell).into_iter().for_each(|half| self.add(half, Some(left_out), 2, None));
-    }
-
-    /// The cells in the order in which they came about.
-    fn sum(&self) -> (f64, f64) {
-        let mut parts: Vec<(usize, f64)> = self.open.iter().map(|open| (open.number, open.value)).collect();
-        parts.sort_unstable_by_key(|part| part.0);
-        let error: f64 = self.open.iter().map(|open| open.error).sum();
-        (parts.iter().map(|part| part.1).sum(), error + self.unhidden.map_or(0.0, |unhidden| unhidden.error))
-    }
-}
-
-/// Whether edges run in three directions or more, with three convex shapes at least to have them.
-///
-/// What is seen begins as a point where a vertex meets an edge, or where edges of three shapes meet, or all along edges in one plane,
-/// where vertices meet edges too.
-fn are_skew(to: &Surface, occluders: &[Near]) -> bool {
-    let mut known: Vec<DVec3> = Vec::new();
-    let of_occluders = occluders.iter().flat_map(|o| o.ridges.iter().map(|ridge| ridge.ends));
-    for [a, b] in of_occluders.chain(to.edges.iter().copied()) {
-        let way = (b - a).normalize_or_zero();
-        if known.iter().all(|other| other.cross(way).length_squared() > PARALLEL * PARALLEL) {
-            known.push(way);
+        for half in halves(worst.cell) {
+            let share = area(&half) / area(&worst.cell);
+            self.add(half, Some(left_out * share), 2, None);
         }
     }
-    occluders.len() > 1 && known.len() > 2
-}
-
-/// Edges count as parallel up to this sine of their angle.
-const PARALLEL: f64 = 1e-9;
-
-/// What no point factor from one surface to the other exceeds, by its size and the distance.
-fn most(one: &Surface, other: &Surface) -> f64 {
-    let away = one.middle.distance(other.middle) - one.radius - other.radius;
-    let above = |from: &Surface, to: &Surface| to.face[1].dot(from.middle - to.face[0]) - from.radius;
-    let away = away.max(above(one, other));
-    if away > 0.0 { (other.area / (PI * away * away)).min(1.0) } else { 1.0 }
-}
-
-/// The parts of convex polygons before a plane.
-fn before(pieces: &[Vec<DVec3>], [on, normal]: Face) -> Vec<Vec<DVec3>> {
-    let height = |p: &DVec3| normal.dot(*p - on);
-    let part = |piece: &Vec<DVec3>| {
-        let mut kept = Vec::with_capacity(piece.len() + 1);
-        for (a, b) in piece.iter().zip(piece.iter().cycle().skip(1)) {
-            let (here, there) = (height(a), height(b));
-            if here >= 0.0 {
-                kept.push(*a);
-            }
-            if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
-                kept.push(*a + (*b - *a) * (here / (here - there)));
-            }
-        }
-        kept
-    };
-    pieces.iter().map(part).filter(|kept| kept.len() > 2).collect()
 }

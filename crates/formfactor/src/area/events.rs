@@ -3,9 +3,10 @@
 //! There a vertex of the target lies behind an edge of an occluder's silhouette, or an edge of the target behind a vertex of one,
 //! or a vertex of one occluder behind or before an edge of another; or an occluder's face that the target reaches across is
 //! seen edge-on. Kinks that three edges make together are curved, and weaker: they are left to the cubature.
+use super::patch::{MOST_CORNERS, Patch};
 use super::point::Near;
 use crate::scene::occluder::{CAP, Face, Occluder, Ridge};
-use crate::scene::surfaces::area;
+use crate::scene::surfaces::Surface;
 use glam::DVec3;
 
 /// More candidates than this are not looked at: halving cells does better.
@@ -99,115 +100,75 @@ impl Event {
     }
 }
 
-/// A patch has at most so many corners.
-const MOST_CORNERS: usize = 12;
-
-/// A small convex polygon.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Patch {
-    at: [DVec3; MOST_CORNERS],
-    count: usize,
-}
-
-impl Patch {
-    /// The first corners of a polygon, which are all if it has few.
-    pub(super) fn of(corners: &[DVec3]) -> Self {
-        let mut patch = Self { at: [DVec3::ZERO; MOST_CORNERS], count: 0 };
-        corners.iter().for_each(|corner| patch.push(*corner));
-        patch
-    }
-
-    fn push(&mut self, corner: DVec3) {
-        if self.count < MOST_CORNERS {
-            self.at[self.count] = corner;
-            self.count += 1;
-        }
-    }
-
-    pub(super) fn corners(&self) -> &[DVec3] {
-        &self.at[..self.count]
-    }
-
-    pub(super) fn area(&self) -> f64 {
-        if self.count < 3 { 0.0 } else { area(self.corners()) }
-    }
-
-    /// What is before and what is behind an event.
-    fn split(&self, event: &Event) -> [Self; 2] {
-        let mut parts = [Self::of(&[]); 2];
-        let Some(mut a) = self.corners().last().copied() else { return parts };
-        let mut there = event.height(a);
-        for &b in self.corners() {
-            let here = event.height(b);
-            if (there < 0.0 && here > 0.0) || (there > 0.0 && here < 0.0) {
-                let at = a + (b - a) * (there / (there - here));
-                parts.iter_mut().for_each(|part| part.push(at));
-            }
-            if here >= 0.0 {
-                parts[0].push(b);
-            }
-            if here <= 0.0 {
-                parts[1].push(b);
-            }
-            (a, there) = (b, here);
-        }
-        parts
-    }
-}
-
 /// The events on a cell, and whether they are all.
 pub(super) fn events(patch: &Patch, pieces: &[Vec<DVec3>], occluders: &[Near]) -> (Vec<Event>, bool) {
     let cell = patch.corners();
     let seen: Vec<Silhouette> =
         occluders.iter().map(|occluder| Silhouette::from_some(occluder, cell)).collect();
-    let mut found: Vec<(Event, [DVec3; 2])> = Vec::new();
-    let near = CLOSE * cell[0].distance(cell[cell.len() / 2]);
-    let (middle, radius) = ball_of(cell);
-    let mut add = |mut event: Event, nearest: f64| {
-        let Some(chord) = event.chord(patch) else { return };
-        if event.is_met(chord) {
-            let to_line = |(vertex, edge): (DVec3, _)| middle.distance(vertex).min(distance(middle, edge));
-            event.away = (event.line.map_or(nearest, to_line) - radius).max(0.0);
-            let alike = |[a, b]: [DVec3; 2]| a.abs_diff_eq(chord[0], near) && b.abs_diff_eq(chord[1], near);
-            match found.iter_mut().find(|(_, [a, b])| alike([*a, *b]) || alike([*b, *a])) {
-                // Each may meet its edge elsewhere on the common line.
-                Some((known, _)) => {
-                    (known.line, known.away) = (None, known.away.min(event.away));
-                }
-                None => found.push((event, chord)),
-            }
-        }
-    };
+    let mut found = Found::on(patch);
     for (occluder, silhouette) in occluders.iter().zip(&seen) {
         for piece in pieces {
             let edges = piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]);
-            edges
-                .for_each(|edge| silhouette.vertices.iter().for_each(|v| add(Event::through(*v, edge), 0.0)));
-            piece
-                .iter()
-                .for_each(|v| silhouette.edges.iter().for_each(|edge| add(Event::through(*v, *edge), 0.0)));
-            let faces = occluder.faces.iter().map(|face| Event::of_face(*face));
-            let nearest = middle.distance(occluder.middle) - occluder.radius;
-            faces.filter(|face| face.crosses(piece)).for_each(|face| add(face, nearest));
+            found.add_all(&silhouette.vertices, edges);
+            found.add_all(piece, silhouette.edges.iter().copied());
+            found.add_faces(occluder, piece);
         }
     }
     let vertices: usize = seen.iter().map(|silhouette| silhouette.vertices.len()).sum();
     let are_all = vertices * vertices <= MOST;
-    if are_all {
-        for (i, one) in seen.iter().enumerate() {
-            for (j, other) in seen[..i].iter().enumerate() {
-                if !may_overlap(cell, &occluders[i], &occluders[j]) {
-                    continue;
-                }
-                for (corners, edges) in [(&one.vertices, &other.edges), (&other.vertices, &one.edges)] {
-                    corners
-                        .iter()
-                        .for_each(|v| edges.iter().for_each(|edge| add(Event::through(*v, *edge), 0.0)));
-                }
-            }
+    let pairs = (0..seen.len()).flat_map(|i| (0..i).map(move |j| [i, j])).filter(|_| are_all);
+    for [i, j] in pairs.filter(|[i, j]| may_overlap(cell, &occluders[*i], &occluders[*j])) {
+        found.add_all(&seen[i].vertices, seen[j].edges.iter().copied());
+        found.add_all(&seen[j].vertices, seen[i].edges.iter().copied());
+    }
+    (found.events.into_iter().map(|(event, _)| event).collect(), are_all)
+}
+
+/// Events that meet a patch, each with the ends of its line there.
+struct Found<'p> {
+    patch: &'p Patch,
+    middle: DVec3,
+    radius: f64,
+    /// Ends that are nearer to each other are one.
+    near: f64,
+    events: Vec<(Event, [DVec3; 2])>,
+}
+
+impl<'p> Found<'p> {
+    fn on(patch: &'p Patch) -> Self {
+        let cell = patch.corners();
+        let (middle, radius) = ball_of(cell);
+        let near = CLOSE * cell[0].distance(cell[cell.len() / 2]);
+        Self { patch, middle, radius, near, events: Vec::new() }
+    }
+
+    /// Vertices behind or before edges.
+    fn add_all(&mut self, vertices: &[DVec3], edges: impl Iterator<Item = [DVec3; 2]>) {
+        for edge in edges {
+            vertices.iter().for_each(|vertex| self.add(Event::through(*vertex, edge), 0.0));
         }
     }
-    (found.into_iter().map(|(event, _)| event).collect(), are_all)
+
+    /// Faces that a piece reaches across.
+    fn add_faces(&mut self, occluder: &Occluder, piece: &[DVec3]) {
+        let nearest = self.middle.distance(occluder.middle) - occluder.radius;
+        let faces = occluder.faces.iter().map(|face| Event::of_face(*face));
+        faces.filter(|face| face.crosses(piece)).for_each(|face| self.add(face, nearest));
+    }
+
+    fn add(&mut self, mut event: Event, nearest: f64) {
+        let Some(chord) = event.chord(self.patch).filter(|chord| event.is_met(*chord)) else { return };
+        let to_line =
+            |(vertex, edge): (DVec3, _)| self.middle.distance(vertex).min(distance(self.middle, edge));
+        event.away = (event.line.map_or(nearest, to_line) - self.radius).max(0.0);
+        let near = self.near;
+        let alike = |[a, b]: [DVec3; 2]| a.abs_diff_eq(chord[0], near) && b.abs_diff_eq(chord[1], near);
+        match self.events.iter_mut().find(|(_, [a, b])| alike([*a, *b]) || alike([*b, *a])) {
+            // Each may meet its edge elsewhere on the common line.
+            Some((known, _)) => (known.line, known.away) = (None, known.away.min(event.away)),
+            None => self.events.push((event, chord)),
+        }
+    }
 }
 
 /// A ball around the corners of a cell.
@@ -268,7 +229,7 @@ pub(super) fn cut(patch: Patch, events: &[Event], most: f64, least: f64) -> Opti
         for i in 0..parts.len() {
             let (part, left_out) = &parts[i];
             let Some(chord) = event.chord(part).filter(|chord| event.is_met(*chord)) else { continue };
-            let [left, right] = part.split(event);
+            let [left, right] = part.split(|p| event.height(p));
             let small = left.area().min(right.area());
             let width = 2.0 * small / chord[0].distance(chord[1]);
             let change = small * if width < most * event.away { width / event.away } else { most };
@@ -286,3 +247,22 @@ pub(super) fn cut(patch: Patch, events: &[Event], most: f64, least: f64) -> Opti
     }
     Some(parts)
 }
+
+/// Whether edges run in three directions or more, with three convex shapes at least to have them.
+///
+/// What is seen begins as a point where a vertex meets an edge, or where edges of three shapes meet, or all along edges in one plane,
+/// where vertices meet edges too.
+pub(super) fn are_skew(to: &Surface, occluders: &[Near]) -> bool {
+    let mut known: Vec<DVec3> = Vec::new();
+    let of_occluders = occluders.iter().flat_map(|o| o.ridges.iter().map(|ridge| ridge.ends));
+    for [a, b] in of_occluders.chain(to.edges.iter().copied()) {
+        let way = (b - a).normalize_or_zero();
+        if known.iter().all(|other| other.cross(way).length_squared() > PARALLEL * PARALLEL) {
+            known.push(way);
+        }
+    }
+    occluders.len() > 1 && known.len() > 2
+}
+
+/// Edges count as parallel up to this sine of their angle.
+const PARALLEL: f64 = 1e-9;

@@ -40,3 +40,11 @@ pub(super) fn least_whole(one: &Surface, other: &Surface) -> f64 {
     let most = one.area * other.area / (PI * one.middle.distance_squared(other.middle));
     (most / 8.0).min(one.area).min(other.area)
 }
+
+/// What no point factor from one surface to the other exceeds, by its size and the distance.
+pub(super) fn most(one: &Surface, other: &Surface) -> f64 {
+    let away = one.middle.distance(other.middle) - one.radius - other.radius;
+    let above = |from: &Surface, to: &Surface| to.face[1].dot(from.middle - to.face[0]) - from.radius;
+    let away = away.max(above(one, other));
+    if away > 0.0 { (other.area / (PI * away * away)).min(1.0) } else { 1.0 }
+}

@@ -2,13 +2,18 @@
 //!
 //! F(i -> j) is the mean over polygon i of the exact point form factors to polygon j. Where nothing stands in between it
 //! has a closed form; elsewhere it is taken by adaptive cubature, whose cells are cut where the view changes its shape.
+mod clip;
 mod contour;
 mod cubature;
+mod estimate;
 mod events;
 mod integral;
 mod kernel;
+mod lambert;
 mod pair;
+mod patch;
 mod point;
+mod queue;
 mod tolerance;
 
 use crate::error::Error;
@@ -27,7 +32,18 @@ pub struct AreaFormFactor {
     /// The fraction of the power leaving the front of the first polygon that reaches the front of the second directly: a number
     /// from 0 to 1, without a unit.
     pub value: f64,
-    /// An estimate of the error, from the differences between quadrature rules. It is not a bound.
+    /// An estimate of the error; it is not a bound.
+    ///
+    /// Where nothing stands in between, it is what Gauss's rules of the kernel err by, from the surfaces' sizes and their
+    /// distance, or the differences and roundings of contour integrals. Elsewhere one polygon is cut along the lines on which
+    /// edges and vertices seem to meet, so that the integrand is analytic on each cell but where three edges seem to meet. Rules of few
+    /// nodes take an a-priori share of what is hidden at most; finer ones take the differences between three rules, times what theory
+    /// says is left of them: r^(-2n) for n nodes a side, r from the distance to what is looked at, or n^(-3) where three edges may
+    /// meet. Cuts that are not made count with what they can change, and a cell that sees nothing with what its umbrae leave
+    /// open.
+    ///
+    /// Of 10 000 pairs past obstructions, from 1e-2 to 1e-8, none was off by more than its estimate
+    /// (`--example obstructed_pairs` of the workspace's tests); it is ten times the error or more where cells are few.
     pub error_estimate: f64,
     /// The number of point form factors that were evaluated; 0 for a closed form.
     pub evaluations: u64,
@@ -38,12 +54,12 @@ pub type Row = Vec<(usize, AreaFormFactor)>;
 
 impl Enclosure {
     /// The form factor from polygon `from` to polygon `to`, with all other polygons as occluders: the mean of the point form
-    /// factors over the front of `from`.
+    /// factors over the front of `from`. `None` once `limits` stop it.
     ///
-    /// The integral is taken over the smaller polygon; A1 F12 = A2 F21 gives the other direction, so that reciprocity holds to
-    /// rounding. Refinement stops when the estimated error of both directions is within `tolerance`, or after four million
-    /// point form factors: compare `error_estimate` with `tolerance`. About 1e2 evaluations suffice where no occluder's edge is
-    /// near the line of sight; elsewhere it takes 1e3 to 1e5.
+    /// The integral is taken over one of both; A1 F12 = A2 F21 gives the other direction, so that reciprocity holds to
+    /// rounding. Refinement stops when the estimated error of both directions is within `tolerance`, or when the limit on
+    /// evaluations is reached: compare `error_estimate` with `tolerance`. Where nothing stands in between there are none; else it takes
+    /// about 100 at 1e-2 and 1 000 at 1e-6 with one edge or a few near the line of sight, ten times as many with boxes.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless the tolerance is positive.
@@ -52,12 +68,12 @@ impl Enclosure {
     /// When there is no polygon with one of the ids.
     ///
     /// ```
-    /// use formfactor::{Enclosure, PlanarPolygon};
+    /// use formfactor::{Enclosure, Limits, PlanarPolygon};
     /// // Unit squares, one above the other.
     /// let floor = PlanarPolygon::new([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]])?;
     /// let ceiling = PlanarPolygon::new([[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]]])?;
-    /// let f = Enclosure::new(vec![floor, ceiling]).area_form_factor(0, 1, 1e-9)?;
-    /// assert!((f.value - 0.199_824_895_698_387_4).abs() < 1e-9);
+    /// let f = Enclosure::new(vec![floor, ceiling]).area_form_factor(0, 1, 1e-9, &Limits::default())?;
+    /// assert!(f.is_some_and(|f| (f.value - 0.199_824_895_698_387_4).abs() < 1e-9));
     /// # Ok::<(), formfactor::Error>(())
     /// ```
     pub fn area_form_factor(
@@ -65,14 +81,15 @@ impl Enclosure {
         from: usize,
         to: usize,
         tolerance: impl Into<Tolerance>,
-    ) -> Result<AreaFormFactor, Error> {
+        limits: &Limits,
+    ) -> Result<Option<AreaFormFactor>, Error> {
         let tolerance = Tolerance { row: f64::INFINITY, ..tolerance.into() };
         tolerance.check()?;
         let [first, second] = [from.min(to), from.max(to)];
         let outlook = Outlook::from(self.surfaces(), first);
-        let limits = Limits::default();
+        let limits = limits.with(limits.in_all);
         let found = self.pair(&outlook, [first, second], &tolerance, &limits, &mut Eye::default());
-        Ok(found.flatten().map_or_else(AreaFormFactor::default, |found| factor(&found, self.area(from))))
+        Ok(found.map(|found| found.map_or_else(AreaFormFactor::default, |f| factor(&f, self.area(from)))))
     }
 
     /// The form factors from polygon `from` to all polygons that it sees. In a closed room they add to 1 within the row's
@@ -91,18 +108,22 @@ impl Enclosure {
     ) -> Result<Option<Row>, Error> {
         let tolerance = tolerance.into();
         tolerance.check()?;
-        let count = self.polygons().len();
         let own = Outlook::from(self.surfaces(), from);
-        let all: Vec<usize> = (0..count).collect();
-        let found = each(&all, |eye, to| {
-            let before = (*to < from).then(|| Outlook::from(self.surfaces(), *to));
-            let pair = [from.min(*to), from.max(*to)];
-            self.pair(before.as_ref().unwrap_or(&own), pair, &tolerance, limits, eye)
-        });
-        let mut row = Row::new();
-        for (to, found) in found.into_iter().enumerate() {
-            let Some(found) = found else { return Ok(None) };
-            row.extend(found.map(|found| (to, factor(&found, self.area(from)))));
+        let all: Vec<usize> = (0..self.polygons().len()).collect();
+        let (mut row, mut left) = (Row::new(), limits.in_all);
+        for block in all.chunks(BLOCK) {
+            let limits = limits.with(left);
+            let found = each(block, |eye, to| {
+                let before = (*to < from).then(|| Outlook::from(self.surfaces(), *to));
+                let pair = [from.min(*to), from.max(*to)];
+                self.pair(before.as_ref().unwrap_or(&own), pair, &tolerance, &limits, eye)
+            });
+            for (to, found) in block.iter().zip(found) {
+                let Some(found) = found else { return Ok(None) };
+                let Some(found) = found else { continue };
+                left = left.saturating_sub(found.evaluations);
+                row.push((*to, factor(&found, self.area(from))));
+            }
         }
         Ok(Some(row))
     }
@@ -126,7 +147,7 @@ impl Enclosure {
         let mut rows = vec![Row::new(); ids.len()];
         let mut left = limits.in_all;
         for block in ids.chunks(BLOCK) {
-            let limits = Limits { per_pair: limits.per_pair.min(left), ..*limits };
+            let limits = limits.with(left);
             let found = each(block, |eye, from| self.later(*from, &tolerance, &limits, eye));
             for (from, later) in block.iter().zip(found) {
                 let Some(later) = later else { return Ok(None) };

@@ -1,7 +1,8 @@
 //! One pair of polygons.
 use super::cubature::Cubature;
 use super::integral::{Allowed, Integral, least_whole};
-use super::point::{Eye, Near, lambert};
+use super::lambert::lambert;
+use super::point::{Eye, Near};
 use super::{contour, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
@@ -114,38 +115,51 @@ fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Int
         return None;
     }
     let square = one.middle.distance_squared(other.middle);
-    let ratio = (one.radius + other.radius).powi(2) / square;
-    // The largest that the kernel may be.
-    let most = one.area * other.area / (PI * square);
     let rough = kernel::exchange(one, other).min(one.area).min(other.area);
     let tolerance = allowed.error(rough, rough.max(least_whole(one, other)));
-    if ratio < 0.5 {
-        let error = kernel::ERROR * ratio * ratio * most;
+    let far = if (one.radius + other.radius).powi(2) < square / 2.0 {
+        far_apart(one, other, rough, tolerance)
+    } else {
+        None
+    };
+    far.or_else(|| {
+        let [value, error] = contour::exchange(one, other, tolerance);
+        (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 })
+    })
+}
+
+/// By nodes on both, or on the smaller one alone.
+fn far_apart(one: &Surface, other: &Surface, rough: f64, tolerance: f64) -> Option<Integral> {
+    let square = one.middle.distance_squared(other.middle);
+    let found = |value: f64, error: f64| Some(Integral { value, error, evaluations: 0 });
+    // The largest that the kernel may be.
+    let most = one.area * other.area / (PI * square);
+    let ratio = (one.radius + other.radius) / square.sqrt();
+    let error = kernel::ERROR * ratio.powi(4) * most;
+    if error <= tolerance {
+        return found(rough, error);
+    }
+    // A triangle's rule has a degree less.
+    let is_triangular = one.cells.iter().chain(&other.cells).any(|cell| cell[2] == cell[3]);
+    let lost = i32::from(is_triangular);
+    for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4)] {
+        let error = kernel::ERROR * ratio.powi(2 * power - lost) * most;
         if error <= tolerance {
-            return Some(Integral { value: rough, error, evaluations: 0 });
-        }
-        let is_flat = one.cells.iter().chain(&other.cells).any(|cell| cell[2] == cell[3]);
-        for (rule, power) in [(&RULE_3[..], 3.0), (&RULE_4[..], 4.0)] {
-            let error = kernel::ERROR * ratio.powf(if is_flat { power - 0.5 } else { power }) * most;
-            if error <= tolerance {
-                let value = kernel::exchange_by(one, other, rule);
-                return Some(Integral { value, error, evaluations: 0 });
-            }
-        }
-        let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
-        let away = square.sqrt() - far.radius;
-        let ratio = near.radius / away.max(near.radius);
-        // An edge's part is its angle at most, and they cancel where the view is flat.
-        let rounding = 4.0 * f64::EPSILON * far.edges.len() as f64 * (far.radius / away).min(1.0) * near.area;
-        for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4), (&RULE_6[..], 6)] {
-            let error = ratio.powi(2 * power) * most + rounding;
-            if error <= tolerance {
-                return Some(Integral { value: points(near, far, rule), error, evaluations: 0 });
-            }
+            return found(kernel::exchange_by(one, other, rule), error);
         }
     }
-    let [value, error] = contour::exchange(one, other, tolerance);
-    (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 })
+    let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
+    let away = square.sqrt() - far.radius;
+    let ratio = near.radius / away.max(near.radius);
+    // An edge's part is its angle at most, and they cancel where the view is flat.
+    let rounding = 4.0 * f64::EPSILON * far.edges.len() as f64 * (far.radius / away).min(1.0) * near.area;
+    for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4), (&RULE_6[..], 6)] {
+        let error = ratio.powi(2 * power) * most + rounding;
+        if error <= tolerance {
+            return found(points(near, far, rule), error);
+        }
+    }
+    None
 }
 
 /// By exact point factors.

@@ -18,7 +18,7 @@ mod prisms;
 #[allow(unreachable_pub, reason = "a module of another package")]
 mod profile;
 
-use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
+use formfactor::{DifferentialArea, Enclosure, Limits, PlanarPolygon};
 use key::{Key, Setup};
 use page::Found;
 use std::path::Path;
@@ -42,7 +42,7 @@ fn find(setup: &Setup) -> Found {
         }
         Setup::Area { polygons, tolerance } => {
             let enclosure = Enclosure::new(polygons.iter().map(polygon).collect());
-            let found = enclosure.area_form_factor(0, 1, *tolerance).unwrap();
+            let found = enclosure.area_form_factor(0, 1, *tolerance, &Limits::default()).unwrap().unwrap();
             Found { value: found.value, error: found.error_estimate }
         }
     }

@@ -1,0 +1,80 @@
+//! Cells that may be refined, and the sums over them.
+use crate::shapes::cell::Cell;
+use std::{cmp::Ordering, collections::BinaryHeap};
+
+/// A cell that was integrated over.
+#[derive(Debug)]
+pub(super) struct Open {
+    pub(super) cell: Cell,
+    pub(super) value: f64,
+    pub(super) error: f64,
+    /// What cuts that were not made may change, if events were cut.
+    pub(super) left_out: Option<f64>,
+    /// Its rule's place in the list.
+    pub(super) order: usize,
+    /// The values by the rule before and by this one, where this one is fine.
+    pub(super) values: [f64; 2],
+    /// What the finest rule may leave.
+    pub(super) last: f64,
+}
+
+/// A cell and when it came.
+#[derive(Debug)]
+struct Numbered(Open, usize);
+
+impl PartialEq for Numbered {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Numbered {}
+
+impl PartialOrd for Numbered {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Numbered {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.error.total_cmp(&other.0.error).then(other.1.cmp(&self.1))
+    }
+}
+
+/// All cells, the one with the largest error first.
+#[derive(Debug, Default)]
+pub(super) struct Queue {
+    cells: BinaryHeap<Numbered>,
+    count: usize,
+    /// The sums as cells come and go, up to rounding.
+    pub(super) value: f64,
+    pub(super) error: f64,
+}
+
+impl Queue {
+    pub(super) fn push(&mut self, cell: Open) {
+        self.value += cell.value;
+        self.error += cell.error;
+        self.count += 1;
+        self.cells.push(Numbered(cell, self.count));
+    }
+
+    /// The cell with the largest error, if it has any.
+    pub(super) fn pop(&mut self) -> Option<Open> {
+        if self.cells.peek()?.0.error == 0.0 {
+            return None;
+        }
+        let Numbered(worst, _) = self.cells.pop()?;
+        self.value -= worst.value;
+        self.error -= worst.error;
+        Some(worst)
+    }
+
+    /// The integral and its error, summed in the order in which the cells came about.
+    pub(super) fn sum(&self) -> (f64, f64) {
+        let mut parts: Vec<_> = self.cells.iter().map(|cell| (cell.1, cell.0.value, cell.0.error)).collect();
+        parts.sort_unstable_by_key(|part| part.0);
+        (parts.iter().map(|part| part.1).sum(), parts.iter().map(|part| part.2).sum())
+    }
+}
