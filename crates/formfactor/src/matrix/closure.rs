@@ -1,5 +1,5 @@
 //! Closure and reciprocity by least squares.
-use super::{Factor, FactorMatrix};
+use super::sparse::{Factor, FactorMatrix};
 use crate::error::Error;
 
 /// What [`FactorMatrix::closed`] did.

@@ -1,5 +1,5 @@
 //! Gray surfaces: what one emits and another absorbs, with all reflections in between.
-use super::{Factor, FactorMatrix};
+use super::sparse::{Factor, FactorMatrix};
 use crate::error::Error;
 
 impl FactorMatrix {

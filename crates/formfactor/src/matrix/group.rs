@@ -1,5 +1,5 @@
 //! Groups of polygons as one: the two sides of a plate, the pieces of a wall.
-use super::{Factor, FactorMatrix};
+use super::sparse::{Factor, FactorMatrix};
 use std::collections::BTreeMap;
 
 impl FactorMatrix {

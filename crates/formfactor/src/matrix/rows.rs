@@ -1,5 +1,5 @@
 //! Rows of the upper triangle: what each polygon exchanges with those behind it.
-use super::{FactorMatrix, column};
+use super::sparse::{FactorMatrix, column};
 use crate::area::{Limits, Tolerance};
 use crate::error::Error;
 use crate::scene::enclosure::Enclosure;

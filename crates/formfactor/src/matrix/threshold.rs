@@ -1,5 +1,5 @@
 //! Small factors left out, the rows' sums kept.
-use super::{Factor, FactorMatrix};
+use super::sparse::{Factor, FactorMatrix};
 
 impl FactorMatrix {
     /// The matrix without the factors below a threshold. A pair goes only where the factors of both directions are below it; what
