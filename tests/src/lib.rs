@@ -4,7 +4,7 @@
 //! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
 //! cases of `tests/corpus`, [`company`] sends them down every path. [`against`] sets a result of `polycsg` beside the oracle's, [`shrink`] makes a failing case small, [`survey`] counts how a kind of
 //! input fares, [`trees`] makes expressions, [`retelling`] tells them in other words, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
-//! factors, which uses nothing of `formfactor`.
+//! factors, which uses nothing of `formfactor`, and [`precise`] the same with 90 digits for few polygons.
 pub mod against;
 pub mod company;
 pub mod corpus;
@@ -12,6 +12,7 @@ pub mod enclosures;
 pub mod exact;
 pub mod generators;
 pub mod oracle;
+pub mod precise;
 pub mod random;
 pub mod retelling;
 pub mod shrink;
