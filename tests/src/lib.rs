@@ -3,7 +3,7 @@
 //! Nothing here uses `polycsg`'s code: [`oracle`] is the plain algorithm over exact integers and rationals,
 //! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
 //! cases of `tests/corpus`, [`company`] sends them down every path. [`against`] sets a result of `polycsg` beside the oracle's, [`shrink`] makes a failing case small, [`survey`] counts how a kind of
-//! input fares, [`trees`] makes expressions, [`retelling`] tells them in other words, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
+//! input fares, [`trees`] makes expressions, [`near`] views that ask for digits, [`retelling`] tells them in other words, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
 //! factors, which uses nothing of `formfactor`, and [`precise`] the same with 90 digits for few polygons.
 pub mod against;
 pub mod company;
@@ -11,6 +11,7 @@ pub mod corpus;
 pub mod enclosures;
 pub mod exact;
 pub mod generators;
+pub mod near;
 pub mod oracle;
 pub mod precise;
 pub mod random;

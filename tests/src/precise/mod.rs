@@ -58,6 +58,16 @@ pub fn form_factor(position: DVec3, normal: DVec3, target: &Loops, occluders: &[
     Precise(sum(&normal, &target, &occluders).by(&Fixed::tau()).ratio())
 }
 
+/// Whether a position lies on or behind a polygon's plane.
+pub fn turns_its_back(position: DVec3, polygon: &Loops) -> bool {
+    let points: Vec<DVec3> = polygon.iter().flatten().copied().chain([position]).collect();
+    let doubles: Vec<DVec2> = points.iter().flat_map(|p| [p.truncate(), DVec2::splat(p.z)]).collect();
+    let grid = Grid::of(&doubles);
+    let seen = |p: &DVec3| minus(&p.to_array().map(|x| grid.steps(x)), &position.to_array().map(|x| grid.steps(x)));
+    let outer: Vec<Vector> = polygon[0].iter().map(seen).collect();
+    !dot(&newell(&outer), &outer[0]).is_negative()
+}
+
 /// Lambert's sum times 2 pi.
 fn sum(normal: &Vector, target: &[Vec<Vector>], occluders: &[Vec<Vec<Vector>>]) -> Fixed {
     // dA must be on the side to which the target's normal points.

@@ -1,0 +1,58 @@
+//! Point factors near a wall, beside edges, in map coordinates and at every size, against 90 digits. `NEAR_VIEWS` sets their number.
+use formfactor::{
+    DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded, unoccluded_complement,
+};
+use tests::near::{NearView, near};
+use tests::precise::{self, Precise};
+use tests::sweep::Loops;
+
+/// Whether a value is as near to the exact one as is promised, and its bound as small.
+fn judge(found: FormFactor, exact: &Precise, what: &str) -> Result<(), String> {
+    let (error, FormFactor { value, error_bound }) = (exact.distance(found.value), found);
+    let fail = |why: &str| Err(format!("{what}: {why}: {value:e} is off by {error:e}, bound {error_bound:e}"));
+    if !(0.0..=1.0).contains(&value) || !(0.0..=1.0).contains(&error_bound) {
+        fail("out of range")
+    } else if error > error_bound {
+        fail("beyond the bound")
+    } else if error > (1e-13 * value).max(1e-15) {
+        fail("not right")
+    } else if error_bound > 1e-11 {
+        fail("the bound says too little")
+    } else {
+        Ok(())
+    }
+}
+
+fn check(view: &NearView) -> Result<(), String> {
+    let polygon = |loops: &Loops| PlanarPolygon::new(loops).map_err(|e| format!("refused: {e}"));
+    let Ok(from) = DifferentialArea::new(view.position, view.normal) else { return Ok(()) };
+    let to = polygon(&view.target)?;
+    let Ok(occluders) = view.occluders.iter().map(polygon).collect::<Result<Vec<_>, _>>() else { return Ok(()) };
+    let free = precise::form_factor(view.position, view.normal, &view.target, &[]);
+    judge(unoccluded(&from, &to), &free, "unoccluded")?;
+    judge(unoccluded_complement(&from, &to), &free.complement(), "complement")?;
+    let seen = precise::form_factor(view.position, view.normal, &view.target, &view.occluders);
+    judge(form_factor(&from, &to, &occluders), &seen, "occluded")?;
+    judge(by_hierarchy(&from, &to, &occluders), &seen, "by hierarchy")?;
+    let all = Enclosure::new(occluders.into_iter().chain([to]).collect());
+    judge(all.form_factor(&from, all.polygons().len() - 1), &seen, "in an enclosure")
+}
+
+fn views() -> u64 {
+    let asked = std::env::var("NEAR_VIEWS").ok();
+    asked.map_or(900, |count| count.parse().expect("NEAR_VIEWS is a number"))
+}
+
+#[test]
+fn near_views_are_right_and_their_bounds_say_so() {
+    let count = views();
+    let every = |start: u64| {
+        let seeds = (start..count).step_by(2);
+        seeds.map(near).filter_map(|v| check(&v).err().map(|e| format!("{}: {e}", v.name))).collect::<Vec<_>>()
+    };
+    let failures: Vec<String> = std::thread::scope(|scope| {
+        let running: Vec<_> = (0..2).map(|start| scope.spawn(move || every(start))).collect();
+        running.into_iter().flat_map(|t| t.join().expect("the check itself does not panic")).collect()
+    });
+    assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
+}
