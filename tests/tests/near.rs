@@ -2,6 +2,8 @@
 use formfactor::{
     DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded, unoccluded_complement,
 };
+use glam::DVec3;
+use serde_json::Value;
 use tests::near::{NearView, near};
 use tests::precise::{self, Precise};
 use tests::sweep::Loops;
@@ -36,6 +38,27 @@ fn check(view: &NearView) -> Result<(), String> {
     judge(by_hierarchy(&from, &to, &occluders), &seen, "by hierarchy")?;
     let all = Enclosure::new(occluders.into_iter().chain([to]).collect());
     judge(all.form_factor(&from, all.polygons().len() - 1), &seen, "in an enclosure")
+}
+
+fn found() -> Vec<NearView> {
+    let data: Value = serde_json::from_str(include_str!("../cases/near.json")).expect("JSON");
+    let list = |v: &Value| v.as_array().expect("a list").clone();
+    let vector = |v: &Value| DVec3::from([0, 1, 2].map(|i| v[i].as_f64().expect("a number")));
+    let loops = |v: &Value| list(v).iter().map(|l| list(l).iter().map(vector).collect()).collect();
+    let view = |case: &Value| NearView {
+        name: case["name"].as_str().expect("a name").to_owned(),
+        position: vector(&case["point"]),
+        normal: vector(&case["normal"]),
+        target: loops(&case["target"]),
+        occluders: list(&case["occluders"]).iter().map(loops).collect(),
+    };
+    list(&data["cases"]).iter().map(view).collect()
+}
+
+#[test]
+fn what_was_found_is_right() {
+    let failures = found().iter().filter_map(|v| check(v).err().map(|e| format!("{}: {e}", v.name))).collect::<Vec<_>>();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
 fn views() -> u64 {

@@ -96,10 +96,13 @@ fn skirt(normal: DVec3, a: DVec3, b: DVec3) -> Option<FormFactor> {
     let (top, base) = (raised - flat * leaning, flat * cosine + rise * length);
     let beta = length.atan2(cosine);
     let value = top.atan2(base) + beta * leaning / length;
-    let top_error =
-        24.0 * ROUNDING * (raised.abs() + flat.abs() * leaning) + flat.abs() * lean_error / (length + rise);
-    let base_error =
-        24.0 * ROUNDING * (flat.abs() * cosine.abs() + a_z.abs() * b_z.abs() * cosine.abs() + rise * length);
+    // The edge's plane may contain the normal but for rounding.
+    let rise_error = 8.0 * ROUNDING * length;
+    let top_error = 24.0 * ROUNDING * (raised.abs() + (cosine.abs() + (a_z * b_z).abs()) * leaning)
+        + flat.abs() * lean_error / (length + rise)
+        + rise_error * ((a_z * b_z).abs() + flat.abs() * leaning / (length + rise));
+    let base_error = 24.0 * ROUNDING * ((flat * cosine).abs() + (a_z * b_z * cosine).abs())
+        + rise_error * length;
     let turned = (base.abs() * top_error + top.abs() * base_error) / (top * top + base * base);
     let lost = beta * (24.0 * ROUNDING * leaning + lean_error / (length + rise)) / length;
     let error_bound = (turned + lost + 8.0 * ROUNDING * value.abs()) / TAU;
