@@ -43,7 +43,7 @@ pub fn near(seed: u64) -> NearView {
     if seed / count % 3 == 2 {
         scale(&mut view, &mut random);
     }
-    turn_to_dA(&mut view);
+    turn_to_face(&mut view);
     view.name = format!("{family}, seed {seed}");
     view
 }
@@ -58,8 +58,7 @@ fn scale(view: &mut NearView, random: &mut Random) {
 }
 
 /// Turns the target's loops around where its front is on the other side.
-#[expect(non_snake_case, reason = "dA is its name")]
-fn turn_to_dA(view: &mut NearView) {
+fn turn_to_face(view: &mut NearView) {
     if crate::precise::turns_its_back(view.position, &view.target) {
         view.target.iter_mut().for_each(|points| points.reverse());
     }
@@ -133,23 +132,19 @@ fn wall_at(random: &mut Random, base: DVec3, height: f64) -> NearView {
     }
 }
 
+/// The wall's coordinate is 0, so that the gap keeps its digits.
 fn before_a_wall(random: &mut Random) -> NearView {
     let height = log(random, -12, -1);
-    // Only where the wall's coordinate is 0 or small does the gap keep its digits.
     let mut view = wall_at(random, DVec3::ZERO, height);
-    let shift = if random.one_in(2) { view.target[0][0] } else { view.position };
-    let axis = (0..3).find(|i| view.target[0].iter().all(|p| p[*i] == view.target[0][0][*i])).expect("a wall");
-    let off = DVec3::AXES[axis] * shift[axis];
-    let flat = view.position;
-    view.position -= off;
+    let corners = view.target[0].clone();
+    let is_level = |axis: &usize| corners.iter().all(|p| p[*axis] == corners[0][*axis]);
+    let axis = (0..3).find(is_level).expect("a wall along two axes");
+    let off = DVec3::AXES[axis] * corners[0][axis];
     let polygons = std::iter::once(&mut view.target).chain(&mut view.occluders);
-    for p in polygons.flatten().flatten() {
-        *p -= off;
-    }
-    let gap = view.target[0][0][axis] - view.position[axis];
-    if gap == 0.0 || (flat[axis] - shift[axis]).abs() > 1.0 {
-        view.position[axis] = view.target[0][0][axis] - height;
-    }
+    polygons.flatten().flatten().for_each(|p| *p -= off);
+    // The difference of two roundings may have come out 0.
+    let gap = (view.position - off)[axis];
+    view.position[axis] = if gap == 0.0 { height } else { gap };
     view
 }
 
@@ -250,11 +245,11 @@ fn far_on_a_map(random: &mut Random) -> NearView {
     NearView { name: String::new(), position, normal: vector(random, 1.0), target, occluders }
 }
 
-/// Gaps and blockers of all decades, down to 1e-15.
+/// Gaps and blockers of all decades, down to 1e-14.
 fn a_hair_before(random: &mut Random) -> NearView {
     let axes = axes(random);
     let [u, v, across] = axes;
-    let (height, side) = (log(random, -15, -3), log(random, 0, 2));
+    let (height, side) = (log(random, -14, -3), log(random, 0, 2));
     let position = -height * across;
     let mut occluders = Vec::new();
     for _ in 0..random.below(5) {
