@@ -91,7 +91,13 @@ fn normal(random: &mut Random, [u, v, across]: [DVec3; 3]) -> DVec3 {
 }
 
 /// Triangles before a plane, `height` from dA, which is at `position`: from as small as the gap to as large as the wall.
-fn blockers(random: &mut Random, position: DVec3, [u, v, across]: [DVec3; 3], height: f64, wall: f64) -> Vec<Loops> {
+fn blockers(
+    random: &mut Random,
+    position: DVec3,
+    [u, v, across]: [DVec3; 3],
+    height: f64,
+    wall: f64,
+) -> Vec<Loops> {
     let count = random.below(4);
     let mut found = Vec::new();
     for _ in 0..count {
@@ -103,7 +109,11 @@ fn blockers(random: &mut Random, position: DVec3, [u, v, across]: [DVec3; 3], he
         let middle = random.range(-size, size) * u + random.range(-size, size) * v;
         let corner = |random: &mut Random| {
             let share = if random.one_in(6) { random.range(-2.0, 3.0) } else { random.range(0.05, 0.95) };
-            position + middle + random.range(-size, size) * u + random.range(-size, size) * v + share * height * across
+            position
+                + middle
+                + random.range(-size, size) * u
+                + random.range(-size, size) * v
+                + share * height * across
         };
         found.push(vec![vec![corner(random), corner(random), corner(random)]]);
     }
@@ -178,7 +188,13 @@ fn before_a_triangle(random: &mut Random) -> NearView {
     let (s, t) = (random.range(0.05, 0.45), random.range(0.05, 0.45));
     let position = a + s * (b - a) + t * (c - a) - height * axes[2];
     let occluders = blockers(random, position, axes, height, side);
-    NearView { name: String::new(), position, normal: normal(random, axes), target: vec![vec![a, b, c]], occluders }
+    NearView {
+        name: String::new(),
+        position,
+        normal: normal(random, axes),
+        target: vec![vec![a, b, c]],
+        occluders,
+    }
 }
 
 /// Rounded to a multiple of 2^-20, so that sums of a few are exact.
@@ -194,7 +210,13 @@ fn before_a_parallelogram(random: &mut Random) -> NearView {
     let height = log(random, if base == DVec3::ZERO { -10 } else { -3 }, 1);
     let position = a + random.range(0.01, 0.99) * u + random.range(0.01, 0.99) * v - height * axes[2];
     let occluders = blockers(random, position, axes, height, 10.0);
-    NearView { name: String::new(), position, normal: normal(random, axes), target: rectangle(a, u, v), occluders }
+    NearView {
+        name: String::new(),
+        position,
+        normal: normal(random, axes),
+        target: rectangle(a, u, v),
+        occluders,
+    }
 }
 
 fn before_a_concave_wall(random: &mut Random) -> NearView {
@@ -208,7 +230,11 @@ fn before_a_concave_wall(random: &mut Random) -> NearView {
         target.push([[1.25, -0.75], [1.75, -0.75], [1.5, 0.5]].map(|[x, y]| point(x, y)).to_vec());
     }
     let near_an_edge = random.one_in(2);
-    let [x, y] = if near_an_edge { [1.0 + log(random, -12, -1), log(random, -12, -1)] } else { [random.range(-0.2, 2.2), random.range(-1.2, 1.2)] };
+    let [x, y] = if near_an_edge {
+        [1.0 + log(random, -12, -1), log(random, -12, -1)]
+    } else {
+        [random.range(-0.2, 2.2), random.range(-1.2, 1.2)]
+    };
     let position = point(x, y) - height * across;
     let occluders = blockers(random, position, axes, height, 2.0);
     NearView { name: String::new(), position, normal: normal(random, axes), target, occluders }
@@ -221,7 +247,13 @@ fn beside_an_edge(random: &mut Random) -> NearView {
     let beside = if random.one_in(2) { beside } else { -beside };
     let position = random.range(0.0, 10.0) * u + beside * v - height * across;
     let occluders = blockers(random, position, axes, height.max(beside.abs()), 10.0);
-    NearView { name: String::new(), position, normal: normal(random, axes), target: rectangle(DVec3::ZERO, 10.0 * u, 6.0 * v), occluders }
+    NearView {
+        name: String::new(),
+        position,
+        normal: normal(random, axes),
+        target: rectangle(DVec3::ZERO, 10.0 * u, 6.0 * v),
+        occluders,
+    }
 }
 
 fn far_on_a_map(random: &mut Random) -> NearView {
@@ -254,10 +286,21 @@ fn a_hair_before(random: &mut Random) -> NearView {
     let mut occluders = Vec::new();
     for _ in 0..random.below(5) {
         let size = log(random, -16, 3);
-        let mut corner = || position + random.range(-size, size) * u + random.range(-size, size) * v + random.range(0.02, 0.98) * height * across;
+        let mut corner = || {
+            position
+                + random.range(-size, size) * u
+                + random.range(-size, size) * v
+                + random.range(0.02, 0.98) * height * across
+        };
         occluders.push(vec![vec![corner(), corner(), corner()]]);
     }
-    NearView { name: String::new(), position, normal: normal(random, axes), target: rectangle(-side * (u + v), 2.0 * side * u, 2.0 * side * v), occluders }
+    NearView {
+        name: String::new(),
+        position,
+        normal: normal(random, axes),
+        target: rectangle(-side * (u + v), 2.0 * side * u, 2.0 * side * v),
+        occluders,
+    }
 }
 
 /// A wall behind boards that share edges: halves, quarters and fans that leave nothing or a gap.
@@ -269,8 +312,15 @@ fn behind_halves(random: &mut Random) -> NearView {
     let size = log(random, -12, 1).max(height);
     let at = |x: f64, y: f64, share: f64| position + size * x * u + size * y * v + share * height * across;
     let middle = at(random.range(-0.5, 0.5), random.range(-0.5, 0.5), random.range(0.1, 0.9));
-    let rim = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| at(x, y, random.range(0.1, 0.9)));
+    let rim =
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| at(x, y, random.range(0.1, 0.9)));
     let mut fan: Vec<Loops> = (0..4).map(|i| vec![vec![middle, rim[i], rim[(i + 1) % 4]]]).collect();
     fan.truncate(random.below(5));
-    NearView { name: String::new(), position, normal: normal(random, axes), target: rectangle(base - 5.0 * (u + v), 10.0 * u, 10.0 * v), occluders: fan }
+    NearView {
+        name: String::new(),
+        position,
+        normal: normal(random, axes),
+        target: rectangle(base - 5.0 * (u + v), 10.0 * u, 10.0 * v),
+        occluders: fan,
+    }
 }

@@ -1,6 +1,7 @@
 //! Point factors near a wall, beside edges, in map coordinates and at every size, against 90 digits. `NEAR_VIEWS` sets their number.
 use formfactor::{
-    DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded, unoccluded_complement,
+    DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded,
+    unoccluded_complement,
 };
 use glam::DVec3;
 use serde_json::Value;
@@ -11,7 +12,8 @@ use tests::sweep::Loops;
 /// Whether a value is as near to the exact one as is promised, and its bound as small as `most`.
 fn judge(found: FormFactor, exact: &Precise, most: f64, what: &str) -> Result<(), String> {
     let (error, FormFactor { value, error_bound }) = (exact.distance(found.value), found);
-    let fail = |why: &str| Err(format!("{what}: {why}: {value:e} is off by {error:e}, bound {error_bound:e}"));
+    let fail =
+        |why: &str| Err(format!("{what}: {why}: {value:e} is off by {error:e}, bound {error_bound:e}"));
     if !(0.0..=1.0).contains(&value) || !(0.0..=1.0).contains(&error_bound) {
         fail("out of range")
     } else if error > error_bound {
@@ -29,7 +31,9 @@ fn check(view: &NearView, most: f64) -> Result<(), String> {
     let polygon = |loops: &Loops| PlanarPolygon::new(loops).map_err(|e| format!("refused: {e}"));
     let Ok(from) = DifferentialArea::new(view.position, view.normal) else { return Ok(()) };
     let to = polygon(&view.target)?;
-    let Ok(occluders) = view.occluders.iter().map(polygon).collect::<Result<Vec<_>, _>>() else { return Ok(()) };
+    let Ok(occluders) = view.occluders.iter().map(polygon).collect::<Result<Vec<_>, _>>() else {
+        return Ok(());
+    };
     let free = precise::form_factor(view.position, view.normal, &view.target, &[]);
     judge(unoccluded(&from, &to), &free, most, "unoccluded")?;
     judge(unoccluded_complement(&from, &to), &free.complement(), most, "complement")?;

@@ -38,10 +38,8 @@ pub fn unoccluded_complement(from: &DifferentialArea, to: &PlanarPolygon) -> For
         return free;
     }
     let factor = unoccluded(from, to);
-    let rest = FormFactor {
-        value: 1.0 - factor.value,
-        error_bound: (factor.error_bound + ROUNDING).min(1.0),
-    };
+    let rest =
+        FormFactor { value: 1.0 - factor.value, error_bound: (factor.error_bound + ROUNDING).min(1.0) };
     summed.filter(|free| free.error_bound < rest.error_bound).unwrap_or(rest)
 }
 
@@ -101,8 +99,8 @@ fn skirt(normal: DVec3, a: DVec3, b: DVec3) -> Option<FormFactor> {
     let top_error = 24.0 * ROUNDING * (raised.abs() + (cosine.abs() + (a_z * b_z).abs()) * leaning)
         + flat.abs() * lean_error / (length + rise)
         + rise_error * ((a_z * b_z).abs() + flat.abs() * leaning / (length + rise));
-    let base_error = 24.0 * ROUNDING * ((flat * cosine).abs() + (a_z * b_z * cosine).abs())
-        + rise_error * length;
+    let base_error =
+        24.0 * ROUNDING * ((flat * cosine).abs() + (a_z * b_z * cosine).abs()) + rise_error * length;
     let turned = (base.abs() * top_error + top.abs() * base_error) / (top * top + base * base);
     let lost = beta * (24.0 * ROUNDING * leaning + lean_error / (length + rise)) / length;
     let error_bound = (turned + lost + 8.0 * ROUNDING * value.abs()) / TAU;

@@ -63,7 +63,8 @@ pub fn turns_its_back(position: DVec3, polygon: &Loops) -> bool {
     let points: Vec<DVec3> = polygon.iter().flatten().copied().chain([position]).collect();
     let doubles: Vec<DVec2> = points.iter().flat_map(|p| [p.truncate(), DVec2::splat(p.z)]).collect();
     let grid = Grid::of(&doubles);
-    let seen = |p: &DVec3| minus(&p.to_array().map(|x| grid.steps(x)), &position.to_array().map(|x| grid.steps(x)));
+    let seen =
+        |p: &DVec3| minus(&p.to_array().map(|x| grid.steps(x)), &position.to_array().map(|x| grid.steps(x)));
     let outer: Vec<Vector> = polygon[0].iter().map(seen).collect();
     !dot(&newell(&outer), &outer[0]).is_negative()
 }
@@ -99,7 +100,11 @@ mod tests {
     use super::*;
 
     fn square(half: f64, z: f64) -> Loops {
-        vec![[[-half, half], [half, half], [half, -half], [-half, -half]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()]
+        vec![
+            [[-half, half], [half, half], [half, -half], [-half, -half]]
+                .map(|[x, y]| DVec3::new(x, y, z))
+                .to_vec(),
+        ]
     }
 
     #[test]
@@ -112,14 +117,19 @@ mod tests {
     fn a_board_hides_what_its_shadow_covers() {
         let whole = form_factor(DVec3::ZERO, DVec3::Z, &square(1.0, 2.0), &[]);
         let shadow = form_factor(DVec3::ZERO, DVec3::Z, &square(0.5, 2.0), &[]);
-        let left = form_factor(DVec3::ZERO, DVec3::Z, &square(1.0, 2.0), &[square(0.25, 1.0), square(0.25, 1.0)]);
+        let left =
+            form_factor(DVec3::ZERO, DVec3::Z, &square(1.0, 2.0), &[square(0.25, 1.0), square(0.25, 1.0)]);
         assert!((whole.0 - shadow.0 - &left.0).abs() < ratio(1e-90));
         assert_eq!(left.round(), 0.165_978_835_648_252_17);
     }
 
     #[test]
     fn a_board_through_the_targets_plane_and_past_the_point_hides_before_the_target_alone() {
-        let rectangle = |x: f64| vec![[[-1.0, 1.0], [x, 1.0], [x, -1.0], [-1.0, -1.0]].map(|[x, y]| DVec3::new(x, y, 1.0)).to_vec()];
+        let rectangle = |x: f64| {
+            vec![
+                [[-1.0, 1.0], [x, 1.0], [x, -1.0], [-1.0, -1.0]].map(|[x, y]| DVec3::new(x, y, 1.0)).to_vec(),
+            ]
+        };
         let corners = [[-9.0, 2.0], [-9.0, -3.0], [9.0, -3.0], [9.0, 2.0]];
         let board = vec![corners.map(|[y, z]| DVec3::new(0.5, y, z)).to_vec()];
         let left = form_factor(DVec3::ZERO, DVec3::Z, &rectangle(1.0), &[board]);

@@ -116,7 +116,8 @@ impl Outline {
             let alike: Vec<bool> = self.edges.iter().map(|other| edge.is_along(other)).collect();
             for pair in self.cuts(edge, &alike).windows(2) {
                 let middle = plus(&pair[0], &pair[1]);
-                let over: Vec<usize> = (0..self.edges.len()).filter(|i| alike[*i] && self.edges[*i].holds(&middle)).collect();
+                let over: Vec<usize> =
+                    (0..self.edges.len()).filter(|i| alike[*i] && self.edges[*i].holds(&middle)).collect();
                 if over[0] != index {
                     continue;
                 }

@@ -155,7 +155,8 @@ fn cut(inner: &Vertex, outer: &Vertex, height: impl Fn(&Vertex) -> Measured) -> 
     let across = above - below;
     let mut cut = inner.toward(outer, above / across);
     // Both errors move it along the edge, by a little more than this where they are small against the heights.
-    cut.deviation += 2.0 * (above_error + below_error) / across.hi * inner.offset.to(outer.offset).round().length();
+    cut.deviation +=
+        2.0 * (above_error + below_error) / across.hi * inner.offset.to(outer.offset).round().length();
     cut
 }
 

@@ -97,8 +97,7 @@ fn project_vertex(
 fn flat(view: &View, Vertex { offset, depth, .. }: Vertex) -> DVec2 {
     let scale = view.height / depth;
     let [u, v, _] = view.to.axes();
-    let coordinate =
-        |axis: usize| (DoubleDouble::from(view.eye[axis]) + offset.0[axis] * scale).round();
+    let coordinate = |axis: usize| (DoubleDouble::from(view.eye[axis]) + offset.0[axis] * scale).round();
     DVec2::new(coordinate(u), coordinate(v))
 }
 

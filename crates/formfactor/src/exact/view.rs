@@ -104,7 +104,8 @@ impl<'a> View<'a> {
     pub(crate) fn direction(&self, flat: DVec2) -> Direction {
         let lifted = self.to.lift(self.from.position(), self.eye, flat);
         let (offset, deviation) = (lifted.offset, self.to.deviation());
-        let seen = Vertex { offset, given: None, deviation, is_on_horizon: false, depth: DoubleDouble::ZERO }.direction();
+        let seen = Vertex { offset, given: None, deviation, is_on_horizon: false, depth: DoubleDouble::ZERO }
+            .direction();
         // The dropped axis is the steepest: a step in a kept coordinate is at most sqrt 2 times as long in the plane.
         let step = 1.5 * ROUNDING * (flat.x.abs() + flat.y.abs());
         Direction { error: seen.error + (step + lifted.error) / seen.toward.length(), ..seen }

@@ -28,9 +28,8 @@ pub(super) fn deviation_error(corners: &[Corner], edges: &[Edge]) -> Option<f64>
     if !edges.iter().all(|edge| corners.iter().all(|c| is_apart(edge, c.at))) {
         return None;
     }
-    let direction = |c: &Corner| {
-        Direction { toward: c.at, error: c.deviation / c.at.length() * (1.0 + 16.0 * ROUNDING) }
-    };
+    let direction =
+        |c: &Corner| Direction { toward: c.at, error: c.deviation / c.at.length() * (1.0 + 16.0 * ROUNDING) };
     let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
     Some(pairs.map(|(a, b)| swept(direction(a), direction(b))).sum())
 }

@@ -151,7 +151,10 @@ impl PlanarPolygon {
 
     /// The plane's point with the kept coordinates `flat`; a vertex is itself.
     pub(crate) fn raise(&self, flat: DVec2) -> DVec3 {
-        self.find(flat).map_or_else(|| self.lift(DVec3::ZERO, DVec3::ZERO, flat).offset.round(), |index| self.points[index])
+        self.find(flat).map_or_else(
+            || self.lift(DVec3::ZERO, DVec3::ZERO, flat).offset.round(),
+            |index| self.points[index],
+        )
     }
 
     /// Area in space per area in the two kept coordinates.
