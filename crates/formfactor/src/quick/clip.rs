@@ -17,7 +17,7 @@ pub(super) fn clip(
 ) {
     spare.clear();
     let given = corners.iter().filter_map(|corner| Some((corner, corner.given?)));
-    let Some((mut before, last)) = given.clone().last() else { return };
+    let Some((mut before, last)) = given.clone().next_back() else { return };
     let (mut left, mut there) = (last, place(last));
     for (corner, reached) in given {
         let here = place(reached);
