@@ -3,16 +3,19 @@
 //! Nothing here uses `polycsg`'s code: [`oracle`] is the plain algorithm over exact integers and rationals,
 //! [`validity`] checks a result's topology exactly, [`generators`] make the inputs, [`corpus`] reads the named
 //! cases of `tests/corpus`, [`company`] sends them down every path. [`against`] sets a result of `polycsg` beside the oracle's, [`shrink`] makes a failing case small, [`survey`] counts how a kind of
-//! input fares, [`trees`] makes expressions, [`retelling`] tells them in other words, [`triangles`] checks triangulations. [`sweep`] is the oracle for form
-//! factors and [`obstructed`] that for factors from area to area: they use nothing of `formfactor`.
+//! input fares, [`trees`] makes expressions, [`near`] views that ask for digits, [`retelling`] tells expressions in other words,
+//! [`triangles`] checks triangulations. [`sweep`] is the oracle for form factors, [`precise`] the same with 90 digits for few
+//! polygons, and [`obstructed`] that for factors from area to area: they use nothing of `formfactor`.
 pub mod against;
 pub mod company;
 pub mod corpus;
 pub mod enclosures;
 pub mod exact;
 pub mod generators;
+pub mod near;
 pub mod obstructed;
 pub mod oracle;
+pub mod precise;
 pub mod random;
 pub mod retelling;
 pub mod shrink;

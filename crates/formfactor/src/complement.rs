@@ -15,7 +15,7 @@ use crate::numeric::rounding::ROUNDING;
 use crate::pipeline::unoccluded;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// `1 - F` for a polygon with nothing in between, without the cancellation of a subtraction.
 ///
@@ -33,11 +33,18 @@ use std::f64::consts::TAU;
 /// ```
 #[must_use]
 pub fn unoccluded_complement(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
-    skirts(from, to).unwrap_or_else(|| {
-        let factor = unoccluded(from, to);
-        FormFactor { value: 1.0 - factor.value, error_bound: factor.error_bound + ROUNDING }
-    })
+    let summed = skirts(from, to);
+    if let Some(free) = summed.filter(|free| free.error_bound <= FINE * free.value) {
+        return free;
+    }
+    let factor = unoccluded(from, to);
+    let rest =
+        FormFactor { value: 1.0 - factor.value, error_bound: (factor.error_bound + ROUNDING).min(1.0) };
+    summed.filter(|free| free.error_bound < rest.error_bound).unwrap_or(rest)
 }
+
+/// The relative error up to which the sum over the skirts is good enough.
+const FINE: f64 = 1e-13;
 
 /// The sum over the skirts, when the zenith lies inside the polygon.
 fn skirts(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
@@ -45,9 +52,17 @@ fn skirts(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
     if !to.is_convex() {
         return None;
     }
-    let directions: Vec<Direction> = view.loops.iter().flatten().map(Vertex::direction).collect();
+    let vertices: Vec<&Vertex> = view.loops.iter().flatten().collect();
+    let directions: Vec<Direction> = vertices.iter().map(|vertex| scaled(vertex.direction())).collect();
     let mut free = FormFactor { value: 0.0, error_bound: view.facing_error + tilt(from) };
-    for (a, b) in directions.iter().zip(directions.iter().cycle().skip(1)) {
+    for (i, a) in directions.iter().enumerate() {
+        let next = (i + 1) % directions.len();
+        let b = &directions[next];
+        if vertices[i].is_on_horizon && vertices[next].is_on_horizon {
+            // Nothing is below it. The skirts beside it do not share its ends' errors.
+            free.error_bound += (a.error + b.error) / PI;
+            continue;
+        }
         // Seen from the front the loop is counter-clockwise, seen from above clockwise.
         let skirt = skirt(from.normal(), b.toward, a.toward)?;
         free.value += skirt.value;
@@ -56,6 +71,13 @@ fn skirts(from: &DifferentialArea, to: &PlanarPolygon) -> Option<FormFactor> {
     let rounding =
         4.0 * ROUNDING * free.value * f64::from(u32::try_from(directions.len()).unwrap_or(u32::MAX));
     Some(FormFactor { value: free.value.clamp(0.0, 1.0), error_bound: free.error_bound + rounding })
+}
+
+/// A direction of the length of a unit, so that no product overflows: by a power of two, which rounds nothing.
+fn scaled(direction: Direction) -> Direction {
+    let largest = direction.toward.abs().max_element();
+    let exponent = largest.log2().floor().clamp(-1000.0, 1000.0);
+    Direction { toward: direction.toward * (-exponent).exp2(), ..direction }
 }
 
 /// The skirt's form factor; `None` when the zenith is not to the left of the edge.
@@ -72,10 +94,13 @@ fn skirt(normal: DVec3, a: DVec3, b: DVec3) -> Option<FormFactor> {
     let (top, base) = (raised - flat * leaning, flat * cosine + rise * length);
     let beta = length.atan2(cosine);
     let value = top.atan2(base) + beta * leaning / length;
-    let top_error =
-        24.0 * ROUNDING * (raised.abs() + flat.abs() * leaning) + flat.abs() * lean_error / (length + rise);
+    // The edge's plane may contain the normal but for rounding.
+    let rise_error = 8.0 * ROUNDING * length;
+    let top_error = 24.0 * ROUNDING * (raised.abs() + (cosine.abs() + (a_z * b_z).abs()) * leaning)
+        + flat.abs() * lean_error / (length + rise)
+        + rise_error * ((a_z * b_z).abs() + flat.abs() * leaning / (length + rise));
     let base_error =
-        24.0 * ROUNDING * (flat.abs() * cosine.abs() + a_z.abs() * b_z.abs() * cosine.abs() + rise * length);
+        24.0 * ROUNDING * ((flat * cosine).abs() + (a_z * b_z * cosine).abs()) + rise_error * length;
     let turned = (base.abs() * top_error + top.abs() * base_error) / (top * top + base * base);
     let lost = beta * (24.0 * ROUNDING * leaning + lean_error / (length + rise)) / length;
     let error_bound = (turned + lost + 8.0 * ROUNDING * value.abs()) / TAU;

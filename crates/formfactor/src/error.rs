@@ -39,8 +39,10 @@ pub enum Error {
         /// Index of the vertex within that loop.
         vertex: usize,
     },
-    /// The first loop encloses no area, or is smaller than 2^-200, so that the polygon has no front.
+    /// The first loop encloses no area, so that the polygon has no front.
     ZeroArea,
+    /// The first loop encloses less area than a square of side 2^-200.
+    TooSmall,
     /// A vertex lies further off the polygon's plane than rounding of its coordinates explains.
     NotPlanar {
         /// Index of the loop, in the order given.
@@ -62,7 +64,10 @@ impl fmt::Display for Error {
                 "the point has a coordinate that is NaN, infinite or beyond 2^200; give finite numbers"
             ),
             Error::BadNormal => {
-                write!(f, "the normal has no direction; give a finite vector that is not zero")
+                write!(
+                    f,
+                    "the normal is zero, not finite, or shorter than 2^-200 or longer than 2^200; give it a length near 1, as only its direction counts"
+                )
             }
             Error::BadTolerance => write!(f, "the tolerance is not positive; give a number like 1e-6"),
             Error::NotClosed { row, defect } => write!(
@@ -83,6 +88,10 @@ impl fmt::Display for Error {
             Error::ZeroArea => {
                 write!(f, "the first loop encloses no area, so that the polygon has no front; drop it")
             }
+            Error::TooSmall => write!(
+                f,
+                "the first loop is too small: it encloses less than a square of side 2^-200; scale all coordinates up, as form factors have no unit, or drop it"
+            ),
             Error::NotPlanar { loop_index, vertex, distance, allowed } => write!(
                 f,
                 "loop {loop_index}, vertex {vertex}: {distance:e} off the polygon's plane where {allowed:e} is allowed; split the polygon into triangles"

@@ -29,14 +29,10 @@ pub fn by_hierarchy(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pl
             (of_region(&view, &region), error)
         }
     };
+    let open = view.flat_error + view.facing_error + error;
     FormFactor {
-        value: (whole.value - hidden.value).max(0.0),
-        error_bound: whole.error_bound
-            + hidden.error_bound
-            + view.clip_error
-            + view.facing_error
-            + error
-            + ROUNDING,
+        value: (whole.value - hidden.value).clamp(0.0, 1.0),
+        error_bound: (whole.error_bound + hidden.error_bound + open + ROUNDING).min(1.0),
     }
 }
 

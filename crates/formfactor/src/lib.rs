@@ -59,8 +59,9 @@
 //! | `visible` | subtracts the union of these shadows from the target with `polycsg`: exact topology |
 //! | `lambert` | sums 1/(2 pi) beta N . n over the directed edges of what remains; beta is the angle that an edge subtends, n the unit normal of its plane through dA |
 //!
-//! Points of the target's plane keep two of their three coordinates. So the target's vertices stay the same bit for bit,
-//! and a shadow whose vertices are doubles is exact. No tolerance decides anything.
+//! Points of the target's plane keep two of their three coordinates, relative to dA. So directions are rounded by no more than
+//! a few roundings, however near or far away, and a shadow whose vertices are doubles is exact. Edges that pass dA are halved
+//! where they are nearest, so that no plane through dA turns by more than that. No tolerance decides anything.
 //!
 //! **The quick route.** Most form factors never get that far. For a convex target and convex occluders a route in plain
 //! doubles (`quick`) clips each edge against the cones that dA spans with the other polygons. Every sign comes with a bound on
@@ -89,6 +90,9 @@
 //! * *dA on the target's plane* sees 0; just before a point inside the target it sees 1, or 1/2 before an edge: F jumps
 //!   there. Values at the vertices of a mesh are limits from one side, or interpolated.
 //! * *Range.* Coordinates up to 2^200 in magnitude, and extents down to 2^-200. Units are yours: F has none.
+//! * *Near and far.* Down to a gap of 1e-14 of a wall's size, and in coordinates of 5e6, values are within 1e-13 of themselves
+//!   or 1e-15, bounds below 1e-11. A polygon of more than three vertices that are not exactly coplanar stays uncertain by its
+//!   deviation: give tilted ones in map coordinates as triangles, or relative to a point nearby.
 //!
 //! # The error bound
 //!

@@ -57,7 +57,7 @@ pub fn visible_part(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pl
 }
 
 fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> Region {
-    let Some(view) = View::new(from, to) else {
+    let Some(view) = View::in_place(from, to) else {
         return Region::default();
     };
     match shadows(&view, occluders, &mut Stats::default()) {

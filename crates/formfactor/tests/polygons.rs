@@ -48,6 +48,10 @@ fn bad_polygons_are_named() {
     assert_eq!(refused(&[vec![[1.0; 3]; 5]]), Error::ZeroArea);
     let bow_tie = vec![[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     assert_eq!(refused(&[bow_tie]), Error::ZeroArea);
+    for small in [1e-61, 1e-100, 1e-200, 1e-300] {
+        assert_eq!(refused(&[square(-small, small, 1.0)]), Error::TooSmall, "{small:e}");
+        assert_eq!(refused(&[vec![[0.0; 3], [small; 3], [2.0 * small; 3]]]), Error::ZeroArea, "{small:e}");
+    }
     let mut bent = SQUARE.to_vec();
     bent[1][2] = 1e-9;
     let error = refused(&[bent]);
@@ -234,7 +238,10 @@ fn messages_say_where_and_what_to_do() {
             Error::BadPoint,
             "the point has a coordinate that is NaN, infinite or beyond 2^200; give finite numbers",
         ),
-        (Error::BadNormal, "the normal has no direction; give a finite vector that is not zero"),
+        (
+            Error::BadNormal,
+            "the normal is zero, not finite, or shorter than 2^-200 or longer than 2^200; give it a length near 1, as only its direction counts",
+        ),
         (Error::BadTolerance, "the tolerance is not positive; give a number like 1e-6"),
         (Error::NoLoops, "the polygon has no loops; give at least its outer loop"),
         (
@@ -246,6 +253,10 @@ fn messages_say_where_and_what_to_do() {
             "loop 1, vertex 3: a coordinate is NaN, infinite or beyond 2^200; give finite numbers",
         ),
         (Error::ZeroArea, "the first loop encloses no area, so that the polygon has no front; drop it"),
+        (
+            Error::TooSmall,
+            "the first loop is too small: it encloses less than a square of side 2^-200; scale all coordinates up, as form factors have no unit, or drop it",
+        ),
         (
             Error::NotPlanar { loop_index: 0, vertex: 3, distance: 0.25, allowed: 1e-15 },
             "loop 0, vertex 3: 2.5e-1 off the polygon's plane where 1e-15 is allowed; split the polygon into triangles",

@@ -8,17 +8,22 @@ use exactfloat::DoubleDouble;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A vertex as seen from dA. A clip point lies on its edge within 2^-98 of the lengths of the edge's ends.
+/// A vertex as seen from dA.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Vertex {
     pub(crate) offset: Offset,
-    /// Its index among the polygon's points, `None` for a clip point.
+    /// Its index among the polygon's points, `None` for a point that was found on an edge.
     pub(crate) given: Option<usize>,
     /// How far it may lie from where it stands, once the polygon is moved onto its plane.
     pub(crate) deviation: f64,
+    /// Whether it lies on the horizon exactly: it was clipped there, or given so. Never with a deviation.
+    pub(crate) is_on_horizon: bool,
     /// For an occluder's vertex, its distance from dA toward the target's plane, in the unit of the view's `height`.
     pub(crate) depth: DoubleDouble,
 }
+
+/// A point of an edge is within 2^-98 of the lengths of the edge's ends: more than what an offset's arithmetic takes.
+const ON_EDGE: f64 = 3.155_443_620_884_047e-30;
 
 /// Shorter directions are scaled up, before their squares underflow.
 const SHORT: f64 = 1e-100;
@@ -29,17 +34,27 @@ impl Vertex {
         let toward = self.offset.round();
         let lost: f64 = self.offset.0.iter().map(|x| (x.hi - x.round() + x.lo).abs()).sum();
         let error = (lost + self.deviation) / toward.length() * (1.0 + 8.0 * ROUNDING);
-        // A clip point is within 2^-98 of its edge by the lengths of the ends; 2^-96 leaves room for points nearer than those.
-        let clipped = if self.given.is_none() { ROUNDING * ROUNDING * 1024.0 } else { 0.0 };
         if toward.abs().max_element() >= SHORT {
-            return Direction { toward, error: error + clipped };
+            return Direction { toward, error };
         }
         // By powers of two, which round nothing that matters.
         let mut longer = toward;
         while longer.abs().max_element() < SHORT && longer != DVec3::ZERO {
             longer /= SMALLEST;
         }
-        Direction { toward: longer, error: (lost + self.deviation) / toward.abs().max_element() + clipped }
+        Direction { toward: longer, error: (lost + self.deviation) / toward.abs().max_element() }
+    }
+
+    /// The point at `share` of the way to `other`.
+    pub(crate) fn toward(&self, other: &Self, share: DoubleDouble) -> Self {
+        let reach = [self, other].map(|v| v.offset.round().length()).iter().sum::<f64>();
+        Self {
+            offset: self.offset.toward(other.offset, share),
+            given: None,
+            deviation: self.deviation.max(other.deviation) + ON_EDGE * reach,
+            is_on_horizon: self.is_on_horizon && other.is_on_horizon,
+            depth: self.depth + share * (other.depth - self.depth),
+        }
     }
 }
 
@@ -53,27 +68,41 @@ pub(crate) fn seen(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
         offset: Offset::between(from.position(), *p),
         given: index.next(),
         deviation: polygon.deviation(),
+        is_on_horizon: false,
         depth: DoubleDouble::ZERO,
     };
     polygon.loops().map(|l| l.iter().map(&mut vertex).collect()).collect()
 }
 
-/// The part of `polygon` that is not below dA's horizon, and whether anything was cut off.
-pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops, bool) {
+/// The part of `polygon` that is not below dA's horizon.
+pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> Loops {
     let (normal, position) = (from.given_normal(), from.position());
     let places: Vec<Ordering> = polygon.points().iter().map(|p| place(normal, position, *p)).collect();
-    let loops = seen(from, polygon);
+    let mut loops = seen(from, polygon);
+    if polygon.deviation() == 0.0 {
+        let level = loops.iter_mut().flatten().zip(&places).filter(|(_, place)| place.is_eq());
+        level.for_each(|(vertex, _)| vertex.is_on_horizon = true);
+    }
     if !places.contains(&Ordering::Less) {
-        return (loops, false);
+        return loops;
     }
     if !places.contains(&Ordering::Greater) {
-        return (Vec::new(), true);
+        return Vec::new();
     }
     // Nothing was clipped yet: every vertex is a given one.
     let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| places[i]);
-    let height = |i: usize| over_horizon(normal, position, polygon.points()[i]).value;
-    (clip(&loops, place, |v| v.given.map_or(DoubleDouble::ZERO, height)), true)
+    let height = |i: usize| over_horizon(normal, position, polygon.points()[i]).into();
+    let mut loops = clip(&loops, place, |v| v.given.map_or(LEVEL, height));
+    let cuts = loops.iter_mut().flatten().filter(|v| v.given.is_none());
+    cuts.for_each(|v| v.is_on_horizon = polygon.deviation() == 0.0);
+    loops
 }
+
+/// A height over some plane, and a bound on its error.
+pub(crate) type Measured = (DoubleDouble, f64);
+
+/// The height of what was clipped at the plane.
+pub(crate) const LEVEL: Measured = (DoubleDouble::ZERO, 0.0);
 
 /// The part of loops that is not on the lower side of a plane (Sutherland and Hodgman). `place` says where a vertex lies,
 /// `height` how far from the plane in some measure, with the same sign.
@@ -91,7 +120,7 @@ pub(crate) fn above(from: &DifferentialArea, polygon: &PlanarPolygon) -> (Loops,
 pub(crate) fn clip(
     loops: &Loops,
     place: impl Fn(&Vertex) -> Ordering,
-    height: impl Fn(&Vertex) -> DoubleDouble,
+    height: impl Fn(&Vertex) -> Measured,
 ) -> Loops {
     let kept = loops.iter().map(|l| clip_loop(l, &place, &height));
     kept.filter(|l| l.len() > 2).collect()
@@ -100,7 +129,7 @@ pub(crate) fn clip(
 fn clip_loop(
     vertices: &[Vertex],
     place: impl Fn(&Vertex) -> Ordering,
-    height: impl Fn(&Vertex) -> DoubleDouble,
+    height: impl Fn(&Vertex) -> Measured,
 ) -> Vec<Vertex> {
     let mut kept = Vec::with_capacity(vertices.len() + 2);
     let Some(last) = vertices.last() else { return kept };
@@ -121,15 +150,14 @@ fn clip_loop(
 }
 
 /// The point of an edge where its height is zero.
-fn cut(inner: &Vertex, outer: &Vertex, height: impl Fn(&Vertex) -> DoubleDouble) -> Vertex {
-    let (above, below) = (height(inner), height(outer));
-    let share = above / (above - below);
-    Vertex {
-        offset: inner.offset.toward(outer.offset, share),
-        given: None,
-        deviation: inner.deviation.max(outer.deviation),
-        depth: inner.depth + share * (outer.depth - inner.depth),
-    }
+fn cut(inner: &Vertex, outer: &Vertex, height: impl Fn(&Vertex) -> Measured) -> Vertex {
+    let ((above, above_error), (below, below_error)) = (height(inner), height(outer));
+    let across = above - below;
+    let mut cut = inner.toward(outer, above / across);
+    // Both errors move it along the edge, by a little more than this where they are small against the heights.
+    cut.deviation +=
+        2.0 * (above_error + below_error) / across.hi * inner.offset.to(outer.offset).round().length();
+    cut
 }
 
 #[cfg(test)]
@@ -147,7 +175,7 @@ mod tests {
             let left = PlanarPolygon::new([[a, b, DVec3::new(-3.0, step, 4.0)]]).expect("a triangle");
             let right = PlanarPolygon::new([[b, a, DVec3::new(5.0, -step, 0.1)]]).expect("a triangle");
             let cuts = |polygon: &PlanarPolygon| {
-                let loops = above(&from, polygon).0.concat();
+                let loops = above(&from, polygon).concat();
                 let bits = |v: Vertex| v.offset.0.map(|x| [x.hi.to_bits(), x.lo.to_bits()]);
                 loops.into_iter().filter(|v| v.given.is_none()).map(bits).collect::<Vec<_>>()
             };

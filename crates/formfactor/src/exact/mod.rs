@@ -5,6 +5,7 @@
 pub(crate) mod cubature;
 pub(crate) mod cull;
 pub(crate) mod deviation;
+pub(crate) mod halves;
 pub(crate) mod horizon;
 pub(crate) mod lambert;
 pub(crate) mod planarity;
@@ -52,5 +53,5 @@ where
         return whole::form_factor(&view, view.facing_error + open);
     }
     stats.csg_edges += visible::edge_count(&view, &shadows);
-    visible::sum(&view, &shadows, scratch).form_factor(view.clip_error + view.facing_error + open)
+    visible::sum(&view, &shadows, scratch).form_factor(view.flat_error + view.facing_error + open)
 }

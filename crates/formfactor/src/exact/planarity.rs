@@ -69,7 +69,7 @@ fn deviation_at_target(view: &View, occluder: &PlanarPolygon) -> f64 {
 /// The form factor of the part of the target that a polygon in its plane overlaps.
 fn overlap(view: &View, polygon: &PlanarPolygon) -> f64 {
     let flat: Vec<Vec<DVec2>> =
-        polygon.loops().map(|l| l.iter().map(|p| view.to.flat(*p)).collect()).collect();
+        polygon.loops().map(|l| l.iter().map(|p| view.flat_of(*p)).collect()).collect();
     let common = leaf(&view.flat) & leaf(&flat);
     let factor = view.sum_over(&common, &mut Scratch::default()).form_factor(0.0);
     factor.value + factor.error_bound + swept(view.from.position(), polygon, 2.0 * polygon.deviation())

@@ -2,7 +2,8 @@
 //!
 //! The projection is a pure function of the vertex in double-doubles, rounded once: where the exact projection is a double,
 //! it is that double, so that shadows that meet exactly do so in doubles too.
-use super::horizon::{Loops, Vertex, clip, seen};
+use super::halves::halved;
+use super::horizon::{LEVEL, Loops, Vertex, clip, seen};
 use super::projected_vertex::{ProjectedVertex, swept};
 use super::{planarity::loosen, pyramid::Wall, view::View};
 use crate::numeric::offset::Offset;
@@ -38,7 +39,7 @@ pub(crate) fn project(view: &View, occluder: &PlanarPolygon, sides: &[Ordering])
     }
     let projected = |v: &Vertex| project_vertex(view, occluder, v, sides);
     let vertices: Vec<Vec<ProjectedVertex>> =
-        loops.iter().map(|l| l.iter().map(projected).collect()).collect();
+        halved(loops).iter().map(|l| l.iter().map(projected).collect()).collect();
     Shadow {
         loops: vertices.iter().map(|l| l.iter().map(|v| v.flat).collect()).collect(),
         error: vertices.iter().map(|l| swept(l)).sum(),
@@ -53,8 +54,9 @@ fn before_target(view: &View, occluder: &PlanarPolygon, sides: &[Ordering]) -> L
     if sides.contains(&Ordering::Less) {
         // Nothing was clipped yet: every vertex is a given one.
         let place = |v: &Vertex| v.given.map_or(Ordering::Equal, |i| sides[i]);
-        let height = |i: usize| view.to.plane().side(occluder.points()[i]).value;
-        loops = clip(&loops, place, |v| v.given.map_or(DoubleDouble::ZERO, height));
+        let height = |i: usize| view.to.plane().side(occluder.points()[i]).into();
+        loops = clip(&loops, place, |v| v.given.map_or(LEVEL, height));
+        loops.iter_mut().flatten().filter(|v| v.given.is_none()).for_each(|v| v.depth = view.height);
     }
     loosen(view, occluder, &mut loops);
     loops
@@ -67,13 +69,13 @@ fn inside(view: &View, loops: Loops, wall: &Wall) -> Loops {
     if loops.iter().flatten().all(|v| rounded(v) == Ordering::Greater) {
         return loops;
     }
-    let out = DoubleDouble::difference(wall.bound, view.from.position()[wall.axis]);
+    let out = DoubleDouble::difference(wall.bound, view.eye[wall.axis]);
     let height = |v: &Vertex| {
         let height = v.offset.0[wall.axis] * view.height - out * v.depth;
         if wall.is_upper { -height } else { height }
     };
     let place = |v: &Vertex| rounded(v).then_with(|| height(v).hi.total_cmp(&0.0));
-    clip(&loops, place, height)
+    clip(&loops, place, |v| (height(v), 0.0))
 }
 
 /// Where the ray from dA through a vertex meets the target's plane.
@@ -84,19 +86,18 @@ fn project_vertex(
     sides: &[Ordering],
 ) -> ProjectedVertex {
     let on_plane = vertex.given.filter(|i| sides[*i] == Ordering::Equal);
-    let flat = on_plane.map_or_else(|| flat(view, *vertex), |i| view.to.flat(occluder.points()[i]));
+    let flat = on_plane.map_or_else(|| flat(view, *vertex), |i| view.flat_of(occluder.points()[i]));
     // Clip lines lie well outside of the target, and so does whatever the bounds move.
     let [low, high] = view.pyramid.bounds;
     let kept = DVec2::new(flat.x.max(low.x).min(high.x), flat.y.max(low.y).min(high.y));
-    ProjectedVertex::measured(view.from, view.to, kept, vertex)
+    ProjectedVertex::measured(view.from, view.to, view.eye, kept, vertex)
 }
 
 /// u = O_u + W_u H / depth(W), rounded once.
 fn flat(view: &View, Vertex { offset, depth, .. }: Vertex) -> DVec2 {
     let scale = view.height / depth;
     let [u, v, _] = view.to.axes();
-    let coordinate =
-        |axis: usize| (DoubleDouble::from(view.from.position()[axis]) + offset.0[axis] * scale).round();
+    let coordinate = |axis: usize| (DoubleDouble::from(view.eye[axis]) + offset.0[axis] * scale).round();
     DVec2::new(coordinate(u), coordinate(v))
 }
 

@@ -4,7 +4,7 @@ use super::lambert::{self, Arc, Direction};
 use crate::numeric::rounding::ROUNDING;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use exactfloat::DoubleDouble;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// A vertex put on the target's plane: its rounded coordinates, and the direction to it with the error that this brought.
@@ -16,14 +16,18 @@ pub(crate) struct ProjectedVertex {
 
 impl ProjectedVertex {
     /// A vertex of the target, or of an edge of it that was cut: its two kept coordinates rounded.
-    pub(crate) fn of_target(from: &DifferentialArea, to: &PlanarPolygon, vertex: &Vertex) -> Self {
-        if let Some(index) = vertex.given {
+    pub(crate) fn of_target(
+        from: &DifferentialArea,
+        to: &PlanarPolygon,
+        eye: DVec3,
+        vertex: &Vertex,
+    ) -> Self {
+        if let Some(index) = vertex.given.filter(|_| eye == from.position()) {
             return Self { flat: to.flat(to.points()[index]), direction: vertex.direction() };
         }
         let [u, v, _] = to.axes();
-        let flat =
-            [u, v].map(|axis| (DoubleDouble::from(from.position()[axis]) + vertex.offset.0[axis]).round());
-        Self::measured(from, to, flat.into(), vertex)
+        let flat = [u, v].map(|axis| (DoubleDouble::from(eye[axis]) + vertex.offset.0[axis]).round());
+        Self::measured(from, to, eye, flat.into(), vertex)
     }
 
     /// The vertex put at `flat`. Its error is measured: the angle between the directions to where it was put and to where
@@ -31,16 +35,18 @@ impl ProjectedVertex {
     pub(crate) fn measured(
         from: &DifferentialArea,
         to: &PlanarPolygon,
+        eye: DVec3,
         flat: DVec2,
         vertex: &Vertex,
     ) -> Self {
-        let (toward, put) = (vertex.offset.round(), to.lift(from.position(), flat).round());
+        let lifted = to.lift(from.position(), eye, flat);
+        let (toward, put) = (vertex.offset.round(), lifted.offset.round());
         let off =
             Arc::between(Direction { toward, error: 0.0 }, Direction { toward: put, error: 0.0 }).angle();
-        let anchor = to.flat(to.plane().corners[0]);
-        let slope = to.lift_error() * ((flat.x - anchor.x).abs() + (flat.y - anchor.y).abs()) / put.length();
-        let error =
-            off * (1.0 + 16.0 * ROUNDING) + 4.0 * ROUNDING + slope + vertex.deviation / toward.length();
+        let error = off * (1.0 + 16.0 * ROUNDING)
+            + 4.0 * ROUNDING
+            + lifted.error / put.length()
+            + vertex.deviation / toward.length();
         // NaN comes of a vertex put at dA itself: it may be anywhere.
         Self { flat, direction: Direction { toward, error: if error <= PI { error } else { PI } } }
     }

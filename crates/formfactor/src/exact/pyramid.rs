@@ -71,6 +71,7 @@ impl Pyramid {
     pub(crate) fn over(
         from: &DifferentialArea,
         to: &PlanarPolygon,
+        eye: DVec3,
         height: f64,
         flat: &[Vec<DVec2>],
     ) -> Self {
@@ -79,7 +80,7 @@ impl Pyramid {
         let high = points.reduce(DVec2::max).unwrap_or_default();
         let size = DVec2::splat((high - low).max_element());
         let (position, normal) = (from.position(), to.plane().normal.round());
-        let walls = |low: DVec2, high: DVec2| walls(position, to.axes(), -normal, height, low, high);
+        let walls = |low: DVec2, high: DVec2| walls(eye, to.axes(), -normal, height, low, high);
         let mut tight = vec![Side::of(from.normal())];
         if has_few_edges(to) {
             tight.extend(to.edges().map(|(a, b)| Side::through(a - position, b - position)));
@@ -145,10 +146,10 @@ fn has_few_edges(polygon: &PlanarPolygon) -> bool {
     polygon.is_convex() && polygon.points().len() <= 8
 }
 
-/// The planes u >= low.x, u <= high.x, and so for v, seen from `position`: a point W before the target's plane is
+/// The planes u >= low.x, u <= high.x, and so for v, seen from `eye`: a point W before the target's plane is
 /// projected to u = O_u + W_u H / (outward . W).
 fn walls(
-    position: DVec3,
+    eye: DVec3,
     [u, v, _]: [usize; 3],
     outward: DVec3,
     height: f64,
@@ -156,7 +157,7 @@ fn walls(
     high: DVec2,
 ) -> [Wall; 4] {
     let wall = |axis: usize, bound: f64, is_upper: bool| {
-        let (along, across) = (height * DVec3::AXES[axis], (bound - position[axis]) * outward);
+        let (along, across) = (height * DVec3::AXES[axis], (bound - eye[axis]) * outward);
         let normal = if is_upper { across - along } else { along - across };
         Wall { axis, bound, is_upper, side: Side { normal, terms: along.abs() + across.abs() } }
     };

@@ -1,12 +1,13 @@
 //! A target as a differential area sees it, before anything stands in between.
+use super::halves::halved;
 use super::horizon::{Loops, Vertex, above};
 use super::lambert::{ContourSum, Direction};
 use super::projected_vertex::{ProjectedVertex, swept};
 use super::{deviation, pyramid::Pyramid};
-use crate::numeric::{offset::Offset, predicates::place, rounding::ROUNDING};
+use crate::numeric::rounding::ROUNDING;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use exactfloat::DoubleDouble;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use polycsg::{Csg, Scratch};
 use std::cmp::Ordering;
 
@@ -15,36 +16,51 @@ use std::cmp::Ordering;
 pub(crate) struct View<'a> {
     pub(crate) from: &'a DifferentialArea,
     pub(crate) to: &'a PlanarPolygon,
+    /// Where dA lies in the coordinates of `flat`: where it is, or at 0 so that what is near it keeps all its digits.
+    pub(crate) eye: DVec3,
     /// dA's distance from the target's plane, times the length of the plane's normal: positive.
     pub(crate) height: DoubleDouble,
     pub(crate) loops: Loops,
     pub(crate) flat: Vec<Vec<DVec2>>,
-    /// A bound on what rounding the clip points of `flat` changes in the form factor of any part of the target.
-    pub(crate) clip_error: f64,
+    /// A bound on what rounding the vertices of `flat` changes in the form factor of any part of the target.
+    pub(crate) flat_error: f64,
     /// A bound on what the deviation of the target's vertices leaves open about the side on which dA lies.
     pub(crate) facing_error: f64,
     pub(crate) pyramid: Pyramid,
 }
 
 impl<'a> View<'a> {
+    /// The target in coordinates relative to dA, in which a Boolean rounds directions by no more than a few roundings.
+    ///
     /// `None` when the target turns its back or lies below the horizon: decided exactly, nothing of it is seen.
     pub(crate) fn new(from: &'a DifferentialArea, to: &'a PlanarPolygon) -> Option<Self> {
+        Self::with_eye(from, to, DVec3::ZERO)
+    }
+
+    /// The target in its own coordinates, in which its vertices keep their bits.
+    pub(crate) fn in_place(from: &'a DifferentialArea, to: &'a PlanarPolygon) -> Option<Self> {
+        Self::with_eye(from, to, from.position())
+    }
+
+    fn with_eye(from: &'a DifferentialArea, to: &'a PlanarPolygon, eye: DVec3) -> Option<Self> {
         if to.plane().side_of(from.position()) != Ordering::Greater {
             return None;
         }
         let height = to.plane().side(from.position());
-        let (loops, is_cut) = above(from, to);
+        let loops = above(from, to);
         if loops.is_empty() {
             return None;
         }
-        let projected = |v: &Vertex| ProjectedVertex::of_target(from, to, v);
+        let loops = halved(loops);
+        let projected = |v: &Vertex| ProjectedVertex::of_target(from, to, eye, v);
         let vertices: Vec<Vec<ProjectedVertex>> =
             loops.iter().map(|l| l.iter().map(projected).collect()).collect();
         let flat: Vec<Vec<DVec2>> = vertices.iter().map(|l| l.iter().map(|v| v.flat).collect()).collect();
-        let pyramid = Pyramid::over(from, to, height.value.round(), &flat);
-        let clip_error = if is_cut { vertices.iter().map(|l| swept(l)).sum() } else { 0.0 };
+        let pyramid = Pyramid::over(from, to, eye, height.value.round(), &flat);
+        let is_given = eye == from.position() && loops.iter().flatten().all(|v| v.given.is_some());
+        let flat_error = if is_given { 0.0 } else { vertices.iter().map(|l| swept(l)).sum() };
         let facing_error = deviation::of_facing(from.position(), to);
-        Some(Self { from, to, height: height.value, loops, flat, clip_error, facing_error, pyramid })
+        Some(Self { from, to, eye, height: height.value, loops, flat, flat_error, facing_error, pyramid })
     }
 
     /// Lambert's sum over the target as it stands: right for a convex one.
@@ -56,7 +72,7 @@ impl<'a> View<'a> {
         for vertices in &self.loops {
             let Some(last) = vertices.last() else { continue };
             for (a, b) in std::iter::once(last).chain(vertices).zip(vertices) {
-                if self.is_on_horizon(a) && self.is_on_horizon(b) {
+                if a.is_on_horizon && b.is_on_horizon {
                     sum.add_horizon(a.direction(), b.direction());
                 } else {
                     sum.add(a.direction(), b.direction());
@@ -76,28 +92,22 @@ impl<'a> View<'a> {
         sum
     }
 
-    /// Whether a vertex lies on the horizon exactly: it was clipped there, or given so. Never for a target with a deviation,
-    /// whose vertices stand elsewhere.
-    fn is_on_horizon(&self, vertex: &Vertex) -> bool {
-        let place = |i: usize| place(self.from.given_normal(), self.from.position(), self.to.points()[i]);
-        self.to.deviation() == 0.0 && vertex.given.is_none_or(|i| place(i) == Ordering::Equal)
+    /// The two kept coordinates of a point of the target's plane.
+    pub(crate) fn flat_of(&self, point: DVec3) -> DVec2 {
+        if self.eye == self.from.position() {
+            return self.to.flat(point);
+        }
+        self.to.flat(point - self.from.position())
     }
 
-    /// The direction to a point of the target's plane. It is exact for the target's own vertices, but for its own rounding; for
-    /// other points it includes the error of rounding their two coordinates.
+    /// The direction to a point of the target's plane, with the error of rounding its two coordinates.
     pub(crate) fn direction(&self, flat: DVec2) -> Direction {
-        let deviation = self.to.deviation();
-        let given = self.to.find(flat);
-        if let Some(index) = given {
-            let offset = Offset::between(self.from.position(), self.to.points()[index]);
-            return Vertex { offset, given, deviation, depth: DoubleDouble::ZERO }.direction();
-        }
-        let offset = self.to.lift(self.from.position(), flat);
-        let seen = Vertex { offset, given, deviation, depth: DoubleDouble::ZERO }.direction();
-        let anchor = self.to.flat(self.to.plane().corners[0]);
+        let lifted = self.to.lift(self.from.position(), self.eye, flat);
+        let (offset, deviation) = (lifted.offset, self.to.deviation());
+        let seen = Vertex { offset, given: None, deviation, is_on_horizon: false, depth: DoubleDouble::ZERO }
+            .direction();
         // The dropped axis is the steepest: a step in a kept coordinate is at most sqrt 2 times as long in the plane.
         let step = 1.5 * ROUNDING * (flat.x.abs() + flat.y.abs());
-        let slope = self.to.lift_error() * ((flat.x - anchor.x).abs() + (flat.y - anchor.y).abs());
-        Direction { error: seen.error + (step + slope) / seen.toward.length(), ..seen }
+        Direction { error: seen.error + (step + lifted.error) / seen.toward.length(), ..seen }
     }
 }

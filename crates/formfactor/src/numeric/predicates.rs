@@ -20,11 +20,18 @@ const QUICK: f64 = 32.0 * ROUNDING;
 /// More than underflow can take from a product of three, for coordinates up to 2^200.
 const QUICK_UNDERFLOW: f64 = 1e-240;
 
-/// A height with its exact sign. `value` has that sign and is within the filter's error; it is zero when the sign is `Equal`.
+/// A height with its exact sign. `value` has that sign and is within `error`; it is zero when the sign is `Equal`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Height {
     pub(crate) value: DoubleDouble,
+    pub(crate) error: f64,
     pub(crate) sign: Ordering,
+}
+
+impl From<Height> for (DoubleDouble, f64) {
+    fn from(height: Height) -> Self {
+        (height.value, height.error)
+    }
 }
 
 /// The plane through three points, and its normal (b - a) x (c - a) in double-double arithmetic.
@@ -101,7 +108,7 @@ impl Plane {
     /// The height of `point` over the plane, with the sign of [`Self::side_of`].
     pub(crate) fn side(&self, point: DVec3) -> Height {
         if self.corners.contains(&point) {
-            return Height { value: DoubleDouble::ZERO, sign: Ordering::Equal };
+            return Height { value: DoubleDouble::ZERO, error: 0.0, sign: Ordering::Equal };
         }
         self.height(self.corners[0], point)
     }
@@ -150,21 +157,23 @@ pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
 }
 
 fn decide(value: DoubleDouble, terms: f64, exact: impl FnOnce() -> Ordering) -> Height {
+    let error = FILTER * terms;
     if terms == 0.0 {
-        return Height { value: DoubleDouble::ZERO, sign: Ordering::Equal };
+        return Height { value: DoubleDouble::ZERO, error, sign: Ordering::Equal };
     }
-    if value.hi.abs() > FILTER * terms {
-        return Height { value, sign: value.hi.total_cmp(&0.0) };
+    if value.hi.abs() > error {
+        return Height { value, error, sign: value.hi.total_cmp(&0.0) };
     }
     let sign = exact();
     let certain = value.hi.partial_cmp(&0.0) == Some(sign);
     // Where only integers decide the sign, any value with that sign within the filter's error will do.
     let least = DoubleDouble::from(match sign {
-        Ordering::Less => -FILTER * terms,
+        Ordering::Less => -error,
         Ordering::Equal => 0.0,
-        Ordering::Greater => FILTER * terms,
+        Ordering::Greater => error,
     });
-    Height { value: if certain { value } else { least }, sign }
+    // That value may be off by the filter's error twice.
+    Height { value: if certain { value } else { least }, error: 2.0 * error, sign }
 }
 
 /// (b - a) x (c - a) . (to - from), on integers.

@@ -60,17 +60,17 @@ pub(super) fn classify(
     if facing == Ordering::Equal || !sides().any(|side| side == Ordering::Greater) {
         return Some(Class::Misses { error: 0.0 });
     }
-    copy(occluder, facing == Ordering::Less, corners);
+    copy(occluder, origin, facing == Ordering::Less, corners);
     if is_clipped {
         clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
     }
     // From here on the occluder is what is left of it, counter-clockwise seen from dA.
-    let edges = cones.push(origin, corners);
+    let edges = cones.push(corners);
     if edges.len() < 3 {
         // So little is in front of the target that its corners coincide.
         return None;
     }
-    let error = deviation_error(origin, corners, edges)?;
+    let error = deviation_error(corners, edges)?;
     if error == 0.0
         && edges.iter().all(|edge| target.edges.iter().all(|t| edge.place(t.start) == Place::Inside))
     {

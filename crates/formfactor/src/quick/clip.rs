@@ -4,7 +4,7 @@ use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Keeps the part of a convex polygon that is not on the lower side of a plane. `place` says where a vertex lies,
+/// Keeps the part of a convex polygon, whose corners are all given, that is not on the lower side of a plane. `place` says where a vertex lies,
 /// `height` how far from the plane in some measure, within a rounding or two.
 ///
 /// A clip point lies on its edge within its deviation. The ends are taken in the same order for both directions of an edge, so that
@@ -16,29 +16,35 @@ pub(super) fn clip(
     height: impl Fn(DVec3) -> f64,
 ) {
     spare.clear();
-    let Some(last) = corners.last() else { return };
-    let (mut before, mut there) = (last.at, place(last.at));
-    for corner in corners.iter() {
-        let here = place(corner.at);
+    let given = corners.iter().filter_map(|corner| Some((corner, corner.given?)));
+    let Some((mut before, last)) = given.clone().next_back() else { return };
+    let (mut left, mut there) = (last, place(last));
+    for (corner, reached) in given {
+        let here = place(reached);
         match (there, here) {
-            (Ordering::Less, Ordering::Greater) => spare.push(cut(corner.at, before, &height)),
-            (Ordering::Greater, Ordering::Less) => spare.push(cut(before, corner.at, &height)),
+            (Ordering::Less, Ordering::Greater) => {
+                spare.push(cut(corner, left - reached, height(reached), height(left)));
+            }
+            (Ordering::Greater, Ordering::Less) => {
+                spare.push(cut(before, reached - left, height(left), height(reached)));
+            }
             _ => (),
         }
         if here != Ordering::Less {
-            spare.push(*corner);
+            // An edge to a clip point starts where the corner was rounded to.
+            let deviation = corner.deviation + 2.0 * ROUNDING * size(corner.at);
+            spare.push(Corner { deviation, ..*corner });
         }
-        (before, there) = (corner.at, here);
+        (before, left, there) = (corner, reached, here);
     }
     std::mem::swap(corners, spare);
 }
 
-/// The point of an edge where its height is zero.
+/// The point of an edge from `inner` where its height is zero.
 ///
 /// The factor errs by 8 roundings of itself, the sum by those of its parts.
-fn cut(inner: DVec3, outer: DVec3, height: impl Fn(DVec3) -> f64) -> Corner {
-    let (above, below) = (height(inner), height(outer));
-    let along = outer - inner;
-    let at = inner + along * (above / (above - below));
-    Corner { at, deviation: 2.0 * ROUNDING * (size(inner) + 8.0 * size(along)) }
+fn cut(inner: &Corner, along: DVec3, above: f64, below: f64) -> Corner {
+    let at = inner.at + along * (above / (above - below));
+    let rounding = 2.0 * ROUNDING * (size(inner.at) + 8.0 * size(along));
+    Corner { at, given: None, deviation: inner.deviation + rounding }
 }

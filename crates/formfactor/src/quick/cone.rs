@@ -16,8 +16,21 @@ use std::ops::Range;
 /// A vertex of a convex polygon, and how far it may lie from where it stands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
+    /// Relative to dA, rounded once.
     pub(super) at: DVec3,
+    /// The vertex as given; `None` where the polygon was cut.
+    pub(super) given: Option<DVec3>,
     pub(super) deviation: f64,
+}
+
+impl Corner {
+    /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
+    fn along(&self, other: &Self) -> DVec3 {
+        match (self.given, other.given) {
+            (Some(from), Some(to)) => to - from,
+            _ => other.at - self.at,
+        }
+    }
 }
 
 /// An edge as dA sees it, the polygon to its left.
@@ -194,16 +207,15 @@ impl Frame {
     }
 }
 
-/// Adds the edges of a convex polygon whose corners are counter-clockwise as `origin` sees them.
-pub(super) fn faces(origin: DVec3, corners: &[Corner], edges: &mut Vec<Edge>) {
-    let Some(last) = corners.last() else { return };
-    let (mut before, mut start) = (last.at, last.at - origin);
+/// Adds the edges of a convex polygon whose corners are counter-clockwise as dA sees them.
+pub(super) fn faces(corners: &[Corner], edges: &mut Vec<Edge>) {
+    let Some(mut before) = corners.last() else { return };
     for corner in corners {
-        let end = corner.at - origin;
-        if corner.at != before {
-            edges.push(Edge::new(start, end, corner.at - before));
+        let along = before.along(corner);
+        if along != DVec3::ZERO {
+            edges.push(Edge::new(before.at, corner.at, along));
         }
-        (before, start) = (corner.at, end);
+        before = corner;
     }
 }
 
@@ -224,10 +236,10 @@ impl Cones {
         self.extents.clear();
     }
 
-    /// Adds the cone of a convex polygon whose corners are counter-clockwise as `origin` sees them, and returns its edges.
-    pub(super) fn push(&mut self, origin: DVec3, corners: &[Corner]) -> &[Edge] {
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
+    pub(super) fn push(&mut self, corners: &[Corner]) -> &[Edge] {
         let first = self.edges.len();
-        faces(origin, corners, &mut self.edges);
+        faces(corners, &mut self.edges);
         self.ends.push(self.edges.len());
         &self.edges[first..]
     }

@@ -1,6 +1,6 @@
 //! Lambert's sum in plain doubles, with a bound.
 use super::cone::{Edge, coarse_error};
-use super::interval::Interval;
+use super::interval::{Interval, greater};
 use crate::form_factor::FormFactor;
 use crate::numeric::{predicates::place, rounding::ROUNDING};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
@@ -44,6 +44,8 @@ pub(super) struct Sum {
     normal: DVec3,
     value: f64,
     error: f64,
+    /// The largest error of one part or of one angle.
+    worst: f64,
     /// Sum of the magnitudes of the terms, and their number.
     terms: f64,
     count: f64,
@@ -100,7 +102,7 @@ impl Line {
 
 impl Sum {
     pub(super) fn new(normal: DVec3) -> Self {
-        Self { normal, value: 0.0, error: 0.0, terms: 0.0, count: 0.0 }
+        Self { normal, value: 0.0, error: 0.0, worst: 0.0, terms: 0.0, count: 0.0 }
     }
 
     /// What the parts of an edge in a plane with this normal have in common, the sum of whose components' errors is
@@ -121,7 +123,7 @@ impl Sum {
     pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Interval, parts: &mut Parts) {
         let stretch = edge.spread * line.inverse;
         let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
-        self.error += line.turns(ends, [part.low.error(), part.high.error()], stretch);
+        self.add_error(line.turns(ends, [part.low.error(), part.high.error()], stretch));
         if part.low.at < part.high.at {
             let turn = DVec2::new(ends[0].dot(ends[1]), (part.high.at - part.low.at) * line.sine);
             if parts.is_full() {
@@ -149,8 +151,18 @@ impl Sum {
         let term = angle * line.cosine;
         self.value += term;
         self.terms += term.abs();
-        self.error += angle * (line.turned + ROUNDINGS * ROUNDING + cut);
+        self.add_error(angle * (line.turned + ROUNDINGS * ROUNDING + cut));
         self.count += 1.0;
+    }
+
+    fn add_error(&mut self, error: f64) {
+        self.error += error;
+        self.worst = greater(self.worst, error);
+    }
+
+    /// The largest error of one part or of one angle.
+    pub(super) fn worst(&self) -> f64 {
+        self.worst
     }
 
     /// [`Self::form_factor`] of a target that nothing hides, if its value is known to 13 digits.

@@ -5,9 +5,11 @@ use crate::numeric::rounding::ROUNDING;
 use crate::shapes::polygon::PlanarPolygon;
 use glam::DVec3;
 
-/// Copies the vertices of a convex polygon, in reverse order when it turns its back, so that they run counter-clockwise.
-pub(super) fn copy(polygon: &PlanarPolygon, is_reversed: bool, corners: &mut Vec<Corner>) {
-    let corner = |at: &DVec3| Corner { at: *at, deviation: polygon.deviation() };
+/// Copies the vertices of a convex polygon, in reverse order when it turns its back, so that they run counter-clockwise seen
+/// from `origin`.
+pub(super) fn copy(polygon: &PlanarPolygon, origin: DVec3, is_reversed: bool, corners: &mut Vec<Corner>) {
+    let corner =
+        |given: &DVec3| Corner { at: *given - origin, given: Some(*given), deviation: polygon.deviation() };
     corners.clear();
     if is_reversed {
         corners.extend(polygon.points().iter().rev().map(corner));
@@ -18,18 +20,16 @@ pub(super) fn copy(polygon: &PlanarPolygon, is_reversed: bool, corners: &mut Vec
 
 /// A bound on the form factor of what the deviation of the corners leaves open; `None` when the polygon, moved onto its plane,
 /// may not be convex.
-pub(super) fn deviation_error(origin: DVec3, corners: &[Corner], edges: &[Edge]) -> Option<f64> {
+pub(super) fn deviation_error(corners: &[Corner], edges: &[Edge]) -> Option<f64> {
     if corners.iter().all(|corner| corner.deviation == 0.0) {
         return Some(0.0);
     }
     let is_apart = |edge: &Edge, p: DVec3| p == edge.start || p == edge.end || edge.place(p) == Place::Inside;
-    if !edges.iter().all(|edge| corners.iter().all(|c| is_apart(edge, c.at - origin))) {
+    if !edges.iter().all(|edge| corners.iter().all(|c| is_apart(edge, c.at))) {
         return None;
     }
-    let direction = |c: &Corner| {
-        let toward = c.at - origin;
-        Direction { toward, error: c.deviation / toward.length() * (1.0 + 16.0 * ROUNDING) }
-    };
+    let direction =
+        |c: &Corner| Direction { toward: c.at, error: c.deviation / c.at.length() * (1.0 + 16.0 * ROUNDING) };
     let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
     Some(pairs.map(|(a, b)| swept(direction(a), direction(b))).sum())
 }

@@ -94,8 +94,8 @@ impl<'a> Target<'a> {
         if !to.is_convex() || to.plane().quick_side(origin) != Some(Ordering::Greater) {
             return None;
         }
-        copy(to, false, corners);
-        let height = |c: &Corner| place(normal, origin, c.at);
+        copy(to, origin, false, corners);
+        let height = |c: &Corner| c.given.map_or(Ordering::Equal, |p| place(normal, origin, p));
         if corners.iter().any(|c| height(c) == Ordering::Less) {
             let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
             clip(corners, spare, |p| place(normal, origin, p), exact);
@@ -104,12 +104,12 @@ impl<'a> Target<'a> {
             return None;
         }
         edges.clear();
-        faces(origin, corners, edges);
+        faces(corners, edges);
         if edges.len() < 3 {
             // So little is above the horizon that its corners coincide: anything would seem to cover it.
             return None;
         }
-        let error = deviation_error(origin, corners, edges)? + deviation::of_facing(origin, to);
+        let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to);
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));

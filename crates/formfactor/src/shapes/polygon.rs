@@ -72,7 +72,7 @@ impl PlanarPolygon {
         // A spike of many decades may have an area that rounds to 0, or a Newell normal that lies in the dropped axis' plane.
         let area = polygon.area();
         if !area.is_finite() || area == 0.0 {
-            return Err(Error::ZeroArea);
+            return Err(Error::TooSmall);
         }
         let Self { points, order, .. } = &mut polygon;
         order.sort_by(|a, b| by_kept_axes(axes, points[*a], points[*b]));
@@ -149,14 +149,12 @@ impl PlanarPolygon {
         self.loops().map(|l| l.iter().map(|p| self.flat(*p)).collect()).collect()
     }
 
-    /// A bound on the error of [`Self::lift`] per unit of distance from the plane's first corner.
-    pub(crate) fn lift_error(&self) -> f64 {
-        self.plane.normal_error() / self.plane.normal.0[self.axes[2]].hi.abs()
-    }
-
     /// The plane's point with the kept coordinates `flat`; a vertex is itself.
     pub(crate) fn raise(&self, flat: DVec2) -> DVec3 {
-        self.find(flat).map_or_else(|| self.lift(DVec3::ZERO, flat).round(), |index| self.points[index])
+        self.find(flat).map_or_else(
+            || self.lift(DVec3::ZERO, DVec3::ZERO, flat).offset.round(),
+            |index| self.points[index],
+        )
     }
 
     /// Area in space per area in the two kept coordinates.
@@ -164,19 +162,26 @@ impl PlanarPolygon {
         1.0 / self.normal[self.axes[2]].abs()
     }
 
-    /// Where the plane's point with the kept coordinates `flat` lies as seen from `position`.
-    pub(crate) fn lift(&self, position: DVec3, flat: DVec2) -> Offset {
+    /// Where the plane's point with the kept coordinates `flat` lies as seen from `position`, which has the kept coordinates of
+    /// `eye`.
+    pub(crate) fn lift(&self, position: DVec3, eye: DVec3, flat: DVec2) -> Lifted {
         let [u, v, w] = self.axes;
-        let anchor = self.plane.corners[0];
-        let [along_u, along_v] = self.slopes;
-        let run = along_u * DoubleDouble::difference(flat.x, anchor[u])
-            + along_v * DoubleDouble::difference(flat.y, anchor[v]);
+        let anchor = Offset::between(position, self.plane.corners[0]).0;
         let mut offset = [DoubleDouble::ZERO; 3];
-        offset[u] = DoubleDouble::difference(flat.x, position[u]);
-        offset[v] = DoubleDouble::difference(flat.y, position[v]);
-        offset[w] = DoubleDouble::difference(anchor[w], position[w]) - run;
-        Offset(offset)
+        offset[u] = DoubleDouble::difference(flat.x, eye[u]);
+        offset[v] = DoubleDouble::difference(flat.y, eye[v]);
+        let run = [offset[u] - anchor[u], offset[v] - anchor[v]];
+        offset[w] = anchor[w] - (self.slopes[0] * run[0] + self.slopes[1] * run[1]);
+        let error = self.plane.normal_error() / self.plane.normal.0[w].hi.abs();
+        Lifted { offset: Offset(offset), error: error * (run[0].hi.abs() + run[1].hi.abs()) }
     }
+}
+
+/// A point of a polygon's plane as seen from elsewhere, and a bound on the error of its dropped coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lifted {
+    pub(crate) offset: Offset,
+    pub(crate) error: f64,
 }
 
 fn collect<L, P>(loops: L) -> Result<(Vec<DVec3>, Vec<usize>), Error>
@@ -212,7 +217,11 @@ fn newell(outer: &[DVec3]) -> Result<DVec3, Error> {
     let sum = sum.round();
     let largest = sum.abs().max_element();
     if largest < SMALLEST * SMALLEST {
-        return Err(Error::ZeroArea);
+        // Products of extents below 2^-200 may underflow: only integers tell whether there is an area.
+        let is_near = outer.iter().all(|p| (*p - outer[0]).abs().max_element() < SMALLEST);
+        let spans = |pair: &[DVec3]| Plane::through([outer[0], pair[0], pair[1]]).is_some();
+        let has_area = largest > 0.0 || is_near && outer[1..].windows(2).any(spans);
+        return Err(if has_area { Error::TooSmall } else { Error::ZeroArea });
     }
     Ok((sum / largest).normalize())
 }

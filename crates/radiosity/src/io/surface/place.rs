@@ -182,6 +182,7 @@ fn planar(
         }
         Err(
             formfactor::Error::ZeroArea
+            | formfactor::Error::TooSmall
             | formfactor::Error::NoLoops
             | formfactor::Error::TooFewVertices { .. },
         ) => {
