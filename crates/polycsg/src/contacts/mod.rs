@@ -83,11 +83,12 @@ impl Contacts {
         let most = meter.contacts();
         let size = chains.size();
         self.start(edges);
-        close_pairs.start(edges.len(), size, wanted);
+        let are_single = chains.len() + edges.rings().len() == edges.len();
+        close_pairs.start(edges.len(), size, wanted, are_single);
         let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, meter)?;
         if !is_done && self.found.len() <= most {
             self.start(edges);
-            close_pairs.start(edges.len(), size, wanted);
+            close_pairs.start(edges.len(), size, wanted, false);
             self.find_by_slabs(edges, chains, slabs, close_pairs, meter)?;
         }
         if self.found.len() > most {

@@ -8,13 +8,15 @@
 //! ```
 
 use crate::edges::Edges;
-use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, side};
+use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, side, side_of};
 use glam::DVec2;
 
 /// How two edges meet, as far as that is clear whatever rounding does.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meeting {
     Apart,
+    /// In a common end alone, at an angle that is not flat; whether it is where each edge ends, not where it starts.
+    Sharing([bool; 2]),
     Crossing(Crossing),
     /// Not clear; with the areas of each one's ends against the other.
     Close {
@@ -48,20 +50,18 @@ impl Crossing {
 #[inline]
 pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
     let (s, t) = (edges.segment(e), edges.segment(f));
-    // Most neighbours along a ring meet in their common end alone, as their corner tells.
-    let corner = if f == e + 1 {
-        Some([s[0], s[1], t[1]])
-    } else {
-        (t[1] == s[0] && edges.head(f) == e).then_some([t[0], t[1], s[1]])
-    };
-    let meet_there_alone = |[a, b, c]: [DVec2; 3]| {
-        let shared = SharedEnd { common: b, end_of_s: a, end_of_t: c };
-        shared.is_straight() || margins.are_steep([s, t], doubled_area(a, b, c))
-    };
-    if corner.is_some_and(meet_there_alone) {
+    let meet_there_alone =
+        |shared: &SharedEnd| shared.is_straight() || margins.are_steep([s, t], shared.area());
+    if f == e + 1 && meet_there_alone(&SharedEnd::of_neighbours(s, t)) {
         return Meeting::Apart;
     }
     let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
+    if ends_of_f[0].value == 0.0 || ends_of_f[1].value == 0.0 {
+        // So it is where an end is shared.
+        if let Some(shared) = SharedEnd::of(s, t).filter(meet_there_alone) {
+            return Meeting::Sharing(shared.at_end);
+        }
+    }
     if margins.are_apart(s, ends_of_f) {
         return Meeting::Apart;
     }
@@ -83,28 +83,52 @@ pub(super) fn overlap(edges: &Edges, pair: [u32; 2]) -> bool {
 }
 
 /// Two edges with one end in common.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct SharedEnd {
-    pub(super) common: DVec2,
-    pub(super) end_of_s: DVec2,
-    pub(super) end_of_t: DVec2,
+    /// Whether it is where each edge ends, not where it starts.
+    pub(super) at_end: [bool; 2],
+    common: DVec2,
+    others: [DVec2; 2],
 }
 
 impl SharedEnd {
+    /// Of an edge and the next one.
+    #[inline]
+    fn of_neighbours(s: Segment, t: Segment) -> SharedEnd {
+        SharedEnd { at_end: [true, false], common: s[1], others: [s[0], t[1]] }
+    }
+
+    /// Without branches but for whether there is any, as edges share ends in any order.
+    #[inline]
     pub(super) fn of(s: Segment, t: Segment) -> Option<SharedEnd> {
-        let shared = |i: usize, j: usize| SharedEnd { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
-        let mut corners = [(1, 0), (0, 1), (0, 0), (1, 1)]
-            .into_iter()
-            .filter(|&(i, j)| s[i] == t[j])
-            .map(|(i, j)| shared(i, j));
-        let first = corners.next()?;
-        corners.next().is_none().then_some(first)
+        let differ = |a: f64, b: f64| a.to_bits() ^ b.to_bits();
+        let same = |i: usize, j: usize| {
+            u32::from(differ(s[i].x, t[j].x) | differ(s[i].y, t[j].y) == 0) << (2 * i + j)
+        };
+        let ends = same(0, 0) | same(0, 1) | same(1, 0) | same(1, 1);
+        ends.is_power_of_two().then(|| {
+            let (i, j) = (ends.trailing_zeros() as usize >> 1, ends.trailing_zeros() as usize & 1);
+            SharedEnd { at_end: [i == 1, j == 1], common: s[i], others: [s[1 - i], t[1 - j]] }
+        })
+    }
+
+    /// Of the triangle of both edges.
+    #[inline]
+    pub(super) fn area(&self) -> Area {
+        doubled_area(self.common, self.others[0], self.others[1])
+    }
+
+    /// Whether the edges do not lead from the common end in one direction.
+    pub(super) fn is_a_corner(&self) -> bool {
+        side_of(self.area(), self.common, self.others[0], self.others[1]) != Side::On || self.is_straight()
     }
 
     /// Whether the other ends lie in opposite quadrants from the common one: then the edges do not overlap, and are
     /// not flat to one another.
+    #[inline]
     pub(super) fn is_straight(&self) -> bool {
-        let opposite = |a: f64, c: f64, b: f64| (a <= c && c <= b) || (b <= c && c <= a);
-        let (c, p, q) = (self.common, self.end_of_s, self.end_of_t);
-        opposite(p.x, c.x, q.x) && opposite(p.y, c.y, q.y)
+        let opposite = |a: f64, c: f64, b: f64| ((a <= c) & (c <= b)) | ((b <= c) & (c <= a));
+        let (c, [p, q]) = (self.common, self.others);
+        opposite(p.x, c.x, q.x) & opposite(p.y, c.y, q.y)
     }
 }
