@@ -40,7 +40,7 @@ impl Contacts {
         close_pairs: &mut ClosePairs,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        if let Some(shared) = SharedEnd::of(s, t).filter(SharedEnd::is_a_corner) {
+        if let Some(shared) = SharedEnd::of(s, t).filter(SharedEnd::is_corner) {
             close_pairs.add(e, f);
             return self.share(edges, [e, f], shared.at_end);
         }
@@ -68,7 +68,6 @@ impl Contacts {
 
     /// Two edges that have an end in common, and nothing else. The edges that start there join its vertices, and those that
     /// end open rings there.
-    #[inline]
     fn share(&mut self, edges: &Edges, pair: [u32; 2], at_end: [bool; 2]) {
         let vertex = |i: usize| if at_end[i] { edges.open_end(pair[i]) } else { Some(pair[i]) };
         if let (Some(v), Some(w)) = (vertex(0), vertex(1)) {

@@ -8,7 +8,7 @@
 //! ```
 
 use crate::edges::Edges;
-use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, side, side_of};
+use crate::predicates::{Area, Clear, Margins, Parameter, Segment, Side, doubled_area, side};
 use glam::DVec2;
 
 /// How two edges meet, as far as that is clear whatever rounding does.
@@ -50,17 +50,20 @@ impl Crossing {
 #[inline]
 pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
     let (s, t) = (edges.segment(e), edges.segment(f));
-    let meet_there_alone =
-        |shared: &SharedEnd| shared.is_straight() || margins.are_steep([s, t], shared.area());
-    if f == e + 1 && meet_there_alone(&SharedEnd::of_neighbours(s, t)) {
-        return Meeting::Apart;
+    // Most neighbours along a ring meet in their common end alone.
+    if f == e + 1 {
+        if SharedEnd::at([true, false], s, t).is_clear([s, t], margins) {
+            return Meeting::Apart;
+        }
+    } else if t[1] == s[0] && SharedEnd::at([false, true], s, t).is_clear([s, t], margins) {
+        return Meeting::Sharing([false, true]);
     }
     let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
-    if ends_of_f[0].value == 0.0 || ends_of_f[1].value == 0.0 {
-        // So it is where an end is shared.
-        if let Some(shared) = SharedEnd::of(s, t).filter(meet_there_alone) {
-            return Meeting::Sharing(shared.at_end);
-        }
+    // So it is where an end is shared.
+    if ends_of_f[0].value * ends_of_f[1].value == 0.0
+        && let Some(at_end) = clear_corner(s, t, margins)
+    {
+        return Meeting::Sharing(at_end);
     }
     if margins.are_apart(s, ends_of_f) {
         return Meeting::Apart;
@@ -73,6 +76,12 @@ pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meet
         Clear::CrossFromRight => crossing(false),
         Clear::Unclear => Meeting::Close { ends_of_f, ends_of_e },
     }
+}
+
+/// Where each of two edges has their common end, if they meet there alone, whatever rounding does.
+#[inline(never)]
+fn clear_corner(s: Segment, t: Segment, margins: Margins) -> Option<[bool; 2]> {
+    SharedEnd::of(s, t).filter(|shared| shared.is_clear([s, t], margins)).map(|shared| shared.at_end)
 }
 
 /// Whether two edges whose boxes meet have more than a point in common.
@@ -92,10 +101,10 @@ pub(super) struct SharedEnd {
 }
 
 impl SharedEnd {
-    /// Of an edge and the next one.
     #[inline]
-    fn of_neighbours(s: Segment, t: Segment) -> SharedEnd {
-        SharedEnd { at_end: [true, false], common: s[1], others: [s[0], t[1]] }
+    fn at(at_end: [bool; 2], s: Segment, t: Segment) -> SharedEnd {
+        let [i, j] = at_end.map(usize::from);
+        SharedEnd { at_end, common: s[i], others: [s[1 - i], t[1 - j]] }
     }
 
     /// Without branches but for whether there is any, as edges share ends in any order.
@@ -106,21 +115,20 @@ impl SharedEnd {
             u32::from(differ(s[i].x, t[j].x) | differ(s[i].y, t[j].y) == 0) << (2 * i + j)
         };
         let ends = same(0, 0) | same(0, 1) | same(1, 0) | same(1, 1);
-        ends.is_power_of_two().then(|| {
-            let (i, j) = (ends.trailing_zeros() as usize >> 1, ends.trailing_zeros() as usize & 1);
-            SharedEnd { at_end: [i == 1, j == 1], common: s[i], others: [s[1 - i], t[1 - j]] }
-        })
+        let first = ends.trailing_zeros();
+        ends.is_power_of_two().then(|| SharedEnd::at([first & 2 != 0, first & 1 != 0], s, t))
     }
 
-    /// Of the triangle of both edges.
+    /// Whether the edges do not lead from the common end in nearly one direction.
     #[inline]
-    pub(super) fn area(&self) -> Area {
-        doubled_area(self.common, self.others[0], self.others[1])
+    fn is_clear(&self, edges: [Segment; 2], margins: Margins) -> bool {
+        let area = || doubled_area(self.common, self.others[0], self.others[1]);
+        self.is_straight() || margins.are_steep(edges, area())
     }
 
     /// Whether the edges do not lead from the common end in one direction.
-    pub(super) fn is_a_corner(&self) -> bool {
-        side_of(self.area(), self.common, self.others[0], self.others[1]) != Side::On || self.is_straight()
+    pub(super) fn is_corner(&self) -> bool {
+        self.is_straight() || side(self.common, self.others[0], self.others[1]) != Side::On
     }
 
     /// Whether the other ends lie in opposite quadrants from the common one: then the edges do not overlap, and are
