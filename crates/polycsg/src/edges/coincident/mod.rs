@@ -29,7 +29,7 @@ use crate::expression::winding::WindingNumbers;
 use covered::CoveredRings;
 use intervals::Intervals;
 use lines::Lines;
-use runs::{Run, Runs};
+use runs::{EdgeRun, EdgeRuns};
 use sample::EdgeSample;
 use std::ops::Range;
 use table::Table;
@@ -77,13 +77,17 @@ pub(crate) struct CoincidentEdges {
     before: Vec<Change>,
     lines: Lines,
     intervals: Intervals,
-    runs: Runs,
+    runs: EdgeRuns,
+    /// Whether runs are joined.
+    joins: bool,
     united: Edges,
 }
 
 impl CoincidentEdges {
-    /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide.
-    pub(crate) fn unite(&mut self, edges: &mut Edges, winding: &WindingNumbers) {
+    /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide. What
+    /// leads on is joined, which changes the order of edges, if asked for.
+    pub(crate) fn unite(&mut self, edges: &mut Edges, winding: &WindingNumbers, joins: bool) {
+        self.joins = joins;
         self.drop_covered(edges, winding);
         if self.sample.pays(edges) {
             self.table.group(edges, &mut self.fates);
@@ -197,7 +201,12 @@ impl CoincidentEdges {
         for &ring in edges.rings() {
             let fate = |edge: u32| self.fates[edge as usize];
             match (ring.start..ring.end).find(|&edge| fate(edge) == Fate::Starts) {
-                Some(first) => self.add_runs(ring, first),
+                Some(first) => {
+                    self.add_runs(ring, first);
+                    if !self.joins {
+                        self.add_open_rings(edges);
+                    }
+                }
                 None if fate(ring.start) == Fate::GoesOn => {
                     self.add_edges(edges, ring.start..ring.end);
                     self.end_ring(edges, ring.start, None);
@@ -205,9 +214,7 @@ impl CoincidentEdges {
                 None => {}
             }
         }
-        if !self.runs.all.is_empty() {
-            self.add_open_rings(edges);
-        }
+        self.add_open_rings(edges);
     }
 
     fn add_open_rings(&mut self, edges: &Edges) {
@@ -218,6 +225,7 @@ impl CoincidentEdges {
             let end = ring.last().filter(|_| is_open).map(|run| run.end);
             self.end_ring(edges, ring[0].start, end);
         }
+        runs.all.clear();
         self.runs = runs;
     }
 
@@ -236,10 +244,10 @@ impl CoincidentEdges {
 
     /// Adds a run that ends where another edge starts.
     fn add_run(&mut self, ring: EdgeRing, start: u32, end: u32) {
-        let is_simple = ring.also == END && self.table.is_alone(start);
+        let is_simple = self.joins && ring.also == END && self.table.is_alone(start);
         let change = ring.counter.map(|counter| Change { counter, winds: ring.winds });
         let end = if end == ring.start { ring.end } else { end };
-        self.runs.all.push(Run { start, end, change: change.filter(|_| is_simple) });
+        self.runs.all.push(EdgeRun { start, end, change: change.filter(|_| is_simple) });
     }
 
     /// Adds edges, cut at the vertices that touch them.

@@ -1,4 +1,4 @@
-//! Runs of edges that change the same. Those that lead on from one another become one ring: what is left of neighbours whose
+//! EdgeRuns of edges that change the same. Those that lead on from one another become one ring: what is left of neighbours whose
 //! common border is gone is a closed one, which meets nothing in the corners of the border.
 
 use crate::base::id::index;
@@ -15,14 +15,14 @@ const AT_ONE_POINT: usize = 4;
 
 /// Edges of one ring, from one on to the slot in which the last one ends, over the ring's end if that is not behind.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct EdgeRun {
     pub(super) start: u32,
     pub(super) end: u32,
     /// What crossing them changes, where that is simple.
     pub(super) change: Option<Change>,
 }
 
-impl Run {
+impl EdgeRun {
     pub(super) fn spans(self, edges: &Edges) -> [Range<u32>; 2] {
         let ring = edges.ring(self.start);
         if self.start < self.end {
@@ -35,22 +35,22 @@ impl Run {
 
 /// See the module's page.
 #[derive(Debug, Default)]
-pub(super) struct Runs {
-    pub(super) all: Vec<Run>,
+pub(super) struct EdgeRuns {
+    pub(super) all: Vec<EdgeRun>,
     /// Those with a simple change, by where they start.
     by_start: Vec<u32>,
     /// Per run the one that goes on where it ends, and whether it goes on from one.
     next: Vec<u32>,
     goes_on: Vec<bool>,
     /// The runs ring by ring, and of each ring where they stand and whether it is open.
-    ordered: Vec<Run>,
+    ordered: Vec<EdgeRun>,
     rings: Vec<(Range<usize>, bool)>,
 }
 
-impl Runs {
+impl EdgeRuns {
     /// Finds out which runs lead on to which: of those that change the same to the first at the point that no other does.
     pub(super) fn join(&mut self, edges: &Edges) {
-        let Runs { all, by_start, next, goes_on, .. } = self;
+        let EdgeRuns { all, by_start, next, goes_on, .. } = self;
         let start = |run: u32| edges.point(all[run as usize].start);
         by_start.clear();
         by_start.extend((0..index(all.len())).filter(|&run| all[run as usize].change.is_some()));
@@ -73,7 +73,7 @@ impl Runs {
 
     /// Lists the runs ring by ring: the open rings from their first run on, then what is left, which closes.
     fn order(&mut self) {
-        let Runs { all, next, goes_on, ordered, rings, .. } = self;
+        let EdgeRuns { all, next, goes_on, ordered, rings, .. } = self;
         ordered.clear();
         rings.clear();
         let firsts = (0..all.len()).filter(|&run| !goes_on[run]);
@@ -90,14 +90,14 @@ impl Runs {
     }
 
     /// The runs of each ring, and whether it is open.
-    pub(super) fn rings(&self) -> impl Iterator<Item = (&[Run], bool)> {
+    pub(super) fn rings(&self) -> impl Iterator<Item = (&[EdgeRun], bool)> {
         self.rings.iter().map(|(runs, is_open)| (&self.ordered[runs.clone()], *is_open))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Run, Runs};
+    use super::{EdgeRun, EdgeRuns};
     use crate::edges::{Change, Edges, Origin};
     use glam::DVec2;
 
@@ -113,9 +113,9 @@ mod tests {
             edges.end_ring(None, &[change]);
         }
         let joined = |changes: [Option<Change>; 2]| -> Vec<(Vec<u32>, bool)> {
-            let mut runs = Runs::default();
+            let mut runs = EdgeRuns::default();
             let ends = [(2, 1), (5, 8)];
-            runs.all.extend(ends.iter().zip(changes).map(|(&(start, end), change)| Run {
+            runs.all.extend(ends.iter().zip(changes).map(|(&(start, end), change)| EdgeRun {
                 start,
                 end,
                 change,
