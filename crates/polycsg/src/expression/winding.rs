@@ -1,9 +1,9 @@
 //! The state of a walk over the arrangement: the winding number of each operand at the walk's place, and whether the whole
 //! expression holds there.
 //!
-//! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions and, among many
-//! operands, simple rings) and stand under one union or symmetric difference share one counter: the number of operands that
-//! contain the place decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
+//! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions, and small simple
+//! rings) and stand under one union or symmetric difference share one counter: the number of operands that contain the place
+//! decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
 
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};

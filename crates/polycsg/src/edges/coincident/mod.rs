@@ -8,6 +8,8 @@
 //!     +--<--+--<--+         vertices count all the same: where they touch an edge, they become vertices of that.
 //! ```
 //!
+//! What is left of rings and changes the same is joined where it leads on: around a block of cells to one closed ring.
+//!
 //! A sample of the edges decides whether this pays.
 //!
 //! Edges that overlap in part are cut at all ends on their line, and one edge stands for all in each interval. So n edges on
