@@ -379,6 +379,7 @@ impl Arrangement {
 }
 
 /// Sorts half-edges behind their compasses, and lists them: a few by how many are before each, without branches.
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is the half-edge")]
 fn sort_by_compass(leaving: &mut [u64], half_edges: &mut [u32]) {
     const FEW: usize = 8;
     if leaving.len() <= FEW {
