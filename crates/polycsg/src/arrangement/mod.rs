@@ -47,11 +47,11 @@ pub(crate) struct Arrangement {
     /// Per junction where its half-edges start in `around`.
     starts: Vec<u32>,
     around: Vec<u32>,
-    /// Per sub-edge its representative and the next that coincides; empty when there are no junctions.
+    /// Per sub-edge its representative and the next that coincides; empty where none do.
     representatives: Vec<u32>,
     next: Vec<u32>,
-    /// The half-edges that leave one junction.
-    leaving: Vec<(Compass, u32)>,
+    /// The half-edges that leave one junction, each behind its [`Compass`] in the higher bits.
+    leaving: Vec<u64>,
 }
 
 /// Where a sub-edge starts.
@@ -139,28 +139,20 @@ impl Arrangement {
         self.list_half_edges(edges);
         self.representatives.clear();
         self.next.clear();
-        if self.around.is_empty() {
-            return;
-        }
-        self.representatives.extend(0..index(self.sub_edges.len()));
-        self.next.resize(self.sub_edges.len(), NONE);
         let (mut around, mut leaving) = (std::mem::take(&mut self.around), std::mem::take(&mut self.leaving));
         for junction in 0..index(self.junction_count()) {
             let span = self.span(junction);
             let half_edges = &mut around[span.start as usize..span.end as usize];
-            let way = |&half_edge: &u32| (Compass::of(self.direction(edges, half_edge)), half_edge);
+            let compass = |half_edge: u32| Compass::of(self.direction(edges, half_edge));
             leaving.clear();
-            leaving.extend(half_edges.iter().map(way));
-            leaving.sort_unstable();
-            for (half_edge, &(_, sorted)) in half_edges.iter_mut().zip(&leaving) {
-                *half_edge = sorted;
-            }
+            leaving.extend(half_edges.iter().map(|&h| (compass(h) as u64) << 32 | u64::from(h)));
+            sort_by_compass(&mut leaving, half_edges);
             let mut rest = half_edges;
-            for alike in leaving.chunk_by(|g, h| g.0 == h.0) {
+            for alike in leaving.chunk_by(|g, h| g >> 32 == h >> 32) {
                 let (half_edges, others) = rest.split_at_mut(alike.len());
                 rest = others;
                 if alike.len() > 1 {
-                    self.sort_within(edges, alike[0].0, half_edges);
+                    self.sort_within(edges, half_edges);
                 }
             }
         }
@@ -168,8 +160,8 @@ impl Arrangement {
     }
 
     /// Sorts half-edges that leave a junction alike by angle, and unites those that overlap.
-    fn sort_within(&mut self, edges: &Edges, way: Compass, half_edges: &mut [u32]) {
-        if way.is_axis() {
+    fn sort_within(&mut self, edges: &Edges, half_edges: &mut [u32]) {
+        if Compass::of(self.direction(edges, half_edges[0])).is_axis() {
             return self.unite(half_edges);
         }
         let order = |g: u32, h: u32| by_turn(self.direction(edges, g), self.direction(edges, h));
@@ -207,6 +199,10 @@ impl Arrangement {
 
     /// Links overlapping sub-edges, given by their half-edges in order; at their other ends it was or will be done alike.
     fn unite(&mut self, overlapping: &[u32]) {
+        if self.next.is_empty() && overlapping.len() > 1 {
+            self.representatives.extend(0..index(self.sub_edges.len()));
+            self.next.resize(self.sub_edges.len(), NONE);
+        }
         let representative = overlapping[0] >> 1;
         for pair in overlapping.windows(2) {
             let [sub_edge, next] = [pair[0] >> 1, pair[1] >> 1];
@@ -309,6 +305,12 @@ impl Arrangement {
         }
     }
 
+    /// Whether any sub-edges overlap.
+    #[inline]
+    pub(crate) fn overlaps(&self) -> bool {
+        !self.next.is_empty()
+    }
+
     /// The representative of all sub-edges that overlap this one.
     #[inline]
     pub(crate) fn representative(&self, sub_edge: u32) -> u32 {
@@ -374,6 +376,22 @@ impl Arrangement {
         });
         crossings && junctions
     }
+}
+
+/// Sorts half-edges behind their compasses, and lists them: a few by how many are before each, without branches.
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is the half-edge")]
+fn sort_by_compass(leaving: &mut [u64], half_edges: &mut [u32]) {
+    const FEW: usize = 8;
+    if leaving.len() <= FEW {
+        let mut sorted = [0; FEW];
+        for &half_edge in &*leaving {
+            sorted[leaving.iter().filter(|&&other| other < half_edge).count()] = half_edge;
+        }
+        leaving.copy_from_slice(&sorted[..leaving.len()]);
+    } else {
+        leaving.sort_unstable();
+    }
+    half_edges.iter_mut().zip(leaving).for_each(|(half_edge, sorted)| *half_edge = *sorted as u32);
 }
 
 /// The order counter-clockwise of two directions within a quadrant.

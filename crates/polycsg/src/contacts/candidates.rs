@@ -111,7 +111,7 @@ impl Sample {
             chains.chain(a).meet(chains.chain(b), edges.points(), |e, f| {
                 sample.pairs += 1;
                 match meeting(edges, [e.min(f), e.max(f)], margins) {
-                    Meeting::Apart => {}
+                    Meeting::Apart | Meeting::Sharing(_) => {}
                     Meeting::Crossing(_) => sample.crossings += 1,
                     Meeting::Close { .. } => sample.overlaps += usize::from(overlap(edges, [e, f])),
                 }

@@ -20,6 +20,8 @@ const PAIRS: usize = 64;
 pub(crate) struct ClosePairs {
     /// Whether all edges count as close.
     all: bool,
+    /// Whether all edges whose boxes meet are compared, as each is a chain of its own.
+    are_compared: bool,
     pairs: Vec<[u32; 2]>,
     /// More pairs take longer than all edges.
     most: usize,
@@ -54,8 +56,9 @@ pub(super) struct CloseGroups {
 
 impl ClosePairs {
     /// Starts over for so many edges with coordinates up to a size; where pairs are not wanted, all edges count as close.
-    pub(crate) fn start(&mut self, edges: usize, size: f64, wanted: bool) {
+    pub(crate) fn start(&mut self, edges: usize, size: f64, wanted: bool, are_compared: bool) {
         self.all = !wanted;
+        self.are_compared = are_compared;
         self.most = PAIRS * edges.max(PAIRS);
         self.pairs.clear();
         self.close.clear();
@@ -233,6 +236,9 @@ impl ClosePairs {
         extent: DVec2,
         step: impl Fn(u32) -> Option<u32>,
     ) {
+        if self.are_compared {
+            return;
+        }
         if extent.x.abs() <= self.margins.close {
             self.find_along_chain(edges, edge, neighbour, |p| p, &step);
         }

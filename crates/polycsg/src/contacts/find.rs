@@ -29,7 +29,7 @@ impl Compared {
                 self.crossings += 1;
                 self.meetings.push(Ok(crossing));
             }
-            Meeting::Close { .. } => self.meetings.push(Err(pair)),
+            Meeting::Sharing(_) | Meeting::Close { .. } => self.meetings.push(Err(pair)),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::contact::{Contact, Partner};
 use super::pair::{Crossing, Meeting, SharedEnd, meeting};
 use super::{Contacts, NONE};
 use crate::edges::Edges;
-use crate::predicates::{Area, Parameter, Segment, Side, doubled_area, is_inside, side_of};
+use crate::predicates::{Area, Parameter, Segment, Side, is_inside, side_of};
 
 impl Contacts {
     /// Compares two edges and notes how they meet.
@@ -13,6 +13,7 @@ impl Contacts {
     pub(super) fn meet(&mut self, edges: &Edges, e: u32, f: u32, close_pairs: &mut ClosePairs) {
         match meeting(edges, [e, f], close_pairs.margins()) {
             Meeting::Apart => {}
+            Meeting::Sharing(at_end) => self.share(edges, [e, f], at_end),
             Meeting::Crossing(crossing) => self.cross(edges, crossing),
             Meeting::Close { ends_of_f, ends_of_e } => {
                 self.meet_closely(edges, [e, f], ends_of_f, ends_of_e, close_pairs);
@@ -39,13 +40,9 @@ impl Contacts {
         close_pairs: &mut ClosePairs,
     ) {
         let (s, t) = (edges.segment(e), edges.segment(f));
-        if let Some(shared) = SharedEnd::of(s, t) {
-            let area = doubled_area(shared.common, shared.end_of_s, shared.end_of_t);
-            if side_of(area, shared.common, shared.end_of_s, shared.end_of_t) != Side::On
-                || shared.is_straight()
-            {
-                return self.share(edges, [e, f], &shared, area, close_pairs);
-            }
+        if let Some(shared) = SharedEnd::of(s, t).filter(SharedEnd::is_corner) {
+            close_pairs.add(e, f);
+            return self.share(edges, [e, f], shared.at_end);
         }
         let sides_of = |line: Segment, areas: [Area; 2], ends: Segment| {
             [0, 1].map(|i| side_of(areas[i], line[0], line[1], ends[i]))
@@ -69,22 +66,11 @@ impl Contacts {
         }
     }
 
-    /// Two edges that have an end in common, and nothing else.
-    fn share(
-        &mut self,
-        edges: &Edges,
-        [e, f]: [u32; 2],
-        shared: &SharedEnd,
-        area: Area,
-        close_pairs: &mut ClosePairs,
-    ) {
-        let (s, t) = (edges.segment(e), edges.segment(f));
-        if !shared.is_straight() && !close_pairs.margins().are_steep([s, t], area) {
-            close_pairs.add(e, f);
-        }
-        let v = if s[0] == shared.common { e } else { edges.head(e) };
-        let w = if t[0] == shared.common { f } else { edges.head(f) };
-        if v != w {
+    /// Two edges that have an end in common, and nothing else. The edges that start there join its vertices, and those that
+    /// end open rings there.
+    fn share(&mut self, edges: &Edges, pair: [u32; 2], at_end: [bool; 2]) {
+        let vertex = |i: usize| if at_end[i] { edges.open_end(pair[i]) } else { Some(pair[i]) };
+        if let (Some(v), Some(w)) = (vertex(0), vertex(1)) {
             self.join(edges, v, w);
         }
     }

@@ -40,8 +40,9 @@ const PART: u32 = 8;
 pub(crate) struct Request<'a> {
     /// The limits of the call.
     pub(crate) meter: &'a Meter<'a>,
-    /// Whether close pairs of edges are noted.
-    pub(crate) close_pairs: bool,
+    /// Whether rings are built: then close pairs of edges are noted, and what leads on is joined before. Else edges keep
+    /// their order.
+    pub(crate) rings: bool,
     /// What comparing boxes may cost.
     pub(crate) budget: WorkBudget,
 }
@@ -79,15 +80,16 @@ impl Contacts {
         request: Request<'_>,
     ) -> Result<(), Error> {
         let Candidates { edges, chains, phase, .. } = candidates;
-        let Request { meter, close_pairs: wanted, .. } = request;
+        let Request { meter, rings: wanted, .. } = request;
         let most = meter.contacts();
         let size = chains.size();
         self.start(edges);
-        close_pairs.start(edges.len(), size, wanted);
+        let are_single = chains.len() + edges.rings().len() == edges.len();
+        close_pairs.start(edges.len(), size, wanted, are_single);
         let is_done = phase != BroadPhase::Slabs && self.find_by_boxes(candidates, close_pairs, meter)?;
         if !is_done && self.found.len() <= most {
             self.start(edges);
-            close_pairs.start(edges.len(), size, wanted);
+            close_pairs.start(edges.len(), size, wanted, false);
             self.find_by_slabs(edges, chains, slabs, close_pairs, meter)?;
         }
         if self.found.len() > most {

@@ -15,6 +15,8 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meeting {
     Apart,
+    /// In a common end alone, at an angle that is not flat; whether it is where each edge ends, not where it starts.
+    Sharing([bool; 2]),
     Crossing(Crossing),
     /// Not clear; with the areas of each one's ends against the other.
     Close {
@@ -48,20 +50,21 @@ impl Crossing {
 #[inline]
 pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meeting {
     let (s, t) = (edges.segment(e), edges.segment(f));
-    // Most neighbours along a ring meet in their common end alone, as their corner tells.
-    let corner = if f == e + 1 {
-        Some([s[0], s[1], t[1]])
-    } else {
-        (t[1] == s[0] && edges.head(f) == e).then_some([t[0], t[1], s[1]])
-    };
-    let meet_there_alone = |[a, b, c]: [DVec2; 3]| {
-        let shared = SharedEnd { common: b, end_of_s: a, end_of_t: c };
-        shared.is_straight() || margins.are_steep([s, t], doubled_area(a, b, c))
-    };
-    if corner.is_some_and(meet_there_alone) {
-        return Meeting::Apart;
+    // Most neighbours along a ring meet in their common end alone.
+    if f == e + 1 {
+        if SharedEnd::at([true, false], s, t).is_clear([s, t], margins) {
+            return Meeting::Apart;
+        }
+    } else if t[1] == s[0] && SharedEnd::at([false, true], s, t).is_clear([s, t], margins) {
+        return Meeting::Sharing([false, true]);
     }
     let ends_of_f = [doubled_area(s[0], s[1], t[0]), doubled_area(s[0], s[1], t[1])];
+    // So it is where an end is shared.
+    if ends_of_f[0].value * ends_of_f[1].value == 0.0
+        && let Some(at_end) = clear_corner(s, t, margins)
+    {
+        return Meeting::Sharing(at_end);
+    }
     if margins.are_apart(s, ends_of_f) {
         return Meeting::Apart;
     }
@@ -75,6 +78,12 @@ pub(super) fn meeting(edges: &Edges, [e, f]: [u32; 2], margins: Margins) -> Meet
     }
 }
 
+/// Where each of two edges has their common end, if they meet there alone, whatever rounding does.
+#[inline(never)]
+fn clear_corner(s: Segment, t: Segment, margins: Margins) -> Option<[bool; 2]> {
+    SharedEnd::of(s, t).filter(|shared| shared.is_clear([s, t], margins)).map(|shared| shared.at_end)
+}
+
 /// Whether two edges whose boxes meet have more than a point in common.
 pub(super) fn overlap(edges: &Edges, pair: [u32; 2]) -> bool {
     let [s, t] = pair.map(|edge| edges.segment(edge));
@@ -83,28 +92,51 @@ pub(super) fn overlap(edges: &Edges, pair: [u32; 2]) -> bool {
 }
 
 /// Two edges with one end in common.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct SharedEnd {
-    pub(super) common: DVec2,
-    pub(super) end_of_s: DVec2,
-    pub(super) end_of_t: DVec2,
+    /// Whether it is where each edge ends, not where it starts.
+    pub(super) at_end: [bool; 2],
+    common: DVec2,
+    others: [DVec2; 2],
 }
 
 impl SharedEnd {
+    #[inline]
+    fn at(at_end: [bool; 2], s: Segment, t: Segment) -> SharedEnd {
+        let [i, j] = at_end.map(usize::from);
+        SharedEnd { at_end, common: s[i], others: [s[1 - i], t[1 - j]] }
+    }
+
+    /// Without branches but for whether there is any, as edges share ends in any order.
+    #[inline]
     pub(super) fn of(s: Segment, t: Segment) -> Option<SharedEnd> {
-        let shared = |i: usize, j: usize| SharedEnd { common: s[i], end_of_s: s[1 - i], end_of_t: t[1 - j] };
-        let mut corners = [(1, 0), (0, 1), (0, 0), (1, 1)]
-            .into_iter()
-            .filter(|&(i, j)| s[i] == t[j])
-            .map(|(i, j)| shared(i, j));
-        let first = corners.next()?;
-        corners.next().is_none().then_some(first)
+        let differ = |a: f64, b: f64| a.to_bits() ^ b.to_bits();
+        let same = |i: usize, j: usize| {
+            u32::from(differ(s[i].x, t[j].x) | differ(s[i].y, t[j].y) == 0) << (2 * i + j)
+        };
+        let ends = same(0, 0) | same(0, 1) | same(1, 0) | same(1, 1);
+        let first = ends.trailing_zeros();
+        ends.is_power_of_two().then(|| SharedEnd::at([first & 2 != 0, first & 1 != 0], s, t))
+    }
+
+    /// Whether the edges do not lead from the common end in nearly one direction.
+    #[inline]
+    fn is_clear(&self, edges: [Segment; 2], margins: Margins) -> bool {
+        let area = || doubled_area(self.common, self.others[0], self.others[1]);
+        self.is_straight() || margins.are_steep(edges, area())
+    }
+
+    /// Whether the edges do not lead from the common end in one direction.
+    pub(super) fn is_corner(&self) -> bool {
+        self.is_straight() || side(self.common, self.others[0], self.others[1]) != Side::On
     }
 
     /// Whether the other ends lie in opposite quadrants from the common one: then the edges do not overlap, and are
     /// not flat to one another.
+    #[inline]
     pub(super) fn is_straight(&self) -> bool {
-        let opposite = |a: f64, c: f64, b: f64| (a <= c && c <= b) || (b <= c && c <= a);
-        let (c, p, q) = (self.common, self.end_of_s, self.end_of_t);
-        opposite(p.x, c.x, q.x) && opposite(p.y, c.y, q.y)
+        let opposite = |a: f64, c: f64, b: f64| ((a <= c) & (c <= b)) | ((b <= c) & (c <= a));
+        let (c, [p, q]) = (self.common, self.others);
+        opposite(p.x, c.x, q.x) & opposite(p.y, c.y, q.y)
     }
 }

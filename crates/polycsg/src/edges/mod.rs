@@ -176,6 +176,13 @@ impl Edges {
         self.ring(edge).next(edge)
     }
 
+    /// The vertex that an edge runs to, if no edge starts there: the end of an open ring.
+    #[inline]
+    pub(crate) fn open_end(&self, edge: u32) -> Option<u32> {
+        let ring = self.ring(edge);
+        (ring.is_open && edge + 1 == ring.end).then_some(ring.end)
+    }
+
     #[inline]
     pub(crate) fn segment(&self, edge: u32) -> Segment {
         [self.points[edge as usize], self.points[edge as usize + 1]]

@@ -3,13 +3,35 @@
 use crate::predicates::{Segment, Side, is_inside, lexicographic, side};
 use glam::DVec2;
 
-/// Longer rings are not looked at: all edges are compared with all.
-const LONGEST: usize = 16;
+/// Longer rings are not looked at.
+const LONGEST: usize = 64;
+
+/// Of longer rings not all edges are compared with all; nor does it pay to share a counter among few.
+pub(crate) const SHORT: usize = 16;
 
 /// 1 for a simple ring that runs counter-clockwise, -1 for one that runs clockwise; none for a ring that touches or
 /// overlaps itself, or is long. The ring has its first point once more at the end.
 pub(crate) fn winds_once(closed: &[DVec2]) -> Option<i32> {
-    let mut edges = [[DVec2::ZERO; 2]; LONGEST];
+    winds_around_middle(closed, LONGEST).or_else(|| winds_once_compared(closed))
+}
+
+/// The same for rings that can be seen whole from their middle alone, as most small ones: all edges turn one way around it,
+/// once around, so that they cross the horizontal line through it twice.
+pub(crate) fn winds_around_middle(closed: &[DVec2], longest: usize) -> Option<i32> {
+    let count = closed.len().checked_sub(1).filter(|&count| count <= longest)?;
+    let middle = closed[..count].iter().fold(DVec2::ZERO, |sum, &p| sum + p / count as f64);
+    let is_above = |p: DVec2| p.y > middle.y;
+    let crossings = closed.windows(2).filter(|ends| is_above(ends[0]) != is_above(ends[1])).count();
+    if crossings != 2 || !middle.is_finite() {
+        return None;
+    }
+    let way = side(middle, closed[0], closed[1]);
+    let turns = closed.windows(2).all(|ends| side(middle, ends[0], ends[1]) == way);
+    direction_of(way).filter(|_| turns)
+}
+
+fn winds_once_compared(closed: &[DVec2]) -> Option<i32> {
+    let mut edges = [[DVec2::ZERO; 2]; SHORT];
     let mut count = 0;
     for ends in closed.windows(2).filter(|ends| ends[0] != ends[1]) {
         *edges.get_mut(count)? = [ends[0], ends[1]];
@@ -43,7 +65,11 @@ fn are_apart(s: Segment, t: Segment) -> bool {
 fn direction(edges: &[Segment]) -> Option<i32> {
     let smallest = (0..edges.len()).min_by(|&i, &j| lexicographic(edges[i][0], edges[j][0]))?;
     let before = edges[smallest.checked_sub(1).unwrap_or(edges.len() - 1)][0];
-    match side(before, edges[smallest][0], edges[smallest][1]) {
+    direction_of(side(before, edges[smallest][0], edges[smallest][1]))
+}
+
+fn direction_of(turn: Side) -> Option<i32> {
+    match turn {
         Side::Left => Some(1),
         Side::Right => Some(-1),
         Side::On => None,
@@ -87,7 +113,12 @@ mod tests {
         ] {
             assert_eq!(winds(ring), None, "{ring:?}");
         }
-        let long = |i: usize| DVec2::from_angle(i as f64 / 20.0 * std::f64::consts::TAU).to_array();
-        assert_eq!(winds(&(0..20).map(long).collect::<Vec<_>>()), None);
+        let around = |count: u32, turns: f64| {
+            let point =
+                |i| DVec2::from_angle(f64::from(i) * turns * std::f64::consts::TAU / f64::from(count));
+            winds(&(0..count).map(|i| point(i).to_array()).collect::<Vec<_>>())
+        };
+        assert_eq!(around(9, 2.0), None);
+        assert_eq!([around(64, 1.0), around(64, -1.0), around(65, 1.0)], [Some(1), Some(-1), None]);
     }
 }

@@ -1,13 +1,13 @@
 //! The state of a walk over the arrangement: the winding number of each operand at the walk's place, and whether the whole
 //! expression holds there.
 //!
-//! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions and, among many
-//! operands, simple rings) and stand under one union or symmetric difference share one counter: the number of operands that
-//! contain the place decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
+//! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions, and small simple
+//! rings) and stand under one union or symmetric difference share one counter: the number of operands that contain the place
+//! decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
 
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
-use super::simple_ring;
+use super::simple_ring::{SHORT, winds_around_middle, winds_once};
 use crate::{base::id::index, region::rings::Rings};
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
@@ -108,12 +108,10 @@ impl WindingNumbers {
                     self.open.push(gate);
                 }
                 Token::Region(_) | Token::Prepared(_) => self.add_once(1, gate),
-                Token::Rings(rings, rule) => {
-                    match is_among_many.then(|| winds_once(rings, *rule)).flatten() {
-                        Some(winds) => self.add_once(winds, gate),
-                        None => self.add_rings(*rule, gate),
-                    }
-                }
+                Token::Rings(rings, rule) => match self.winds_once(rings, *rule, gate, is_among_many) {
+                    Some(winds) => self.add_once(winds, gate),
+                    None => self.add_rings(*rule, gate),
+                },
                 Token::Edge(_) => self.operands.push(None),
             }
         }
@@ -169,6 +167,17 @@ impl WindingNumbers {
         };
         self.shared[gate as usize][direction] = Some(counter);
         self.operands.push(Some(counter));
+    }
+
+    /// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold; sought where they may share a counter, and
+    /// longer where that is among many.
+    fn winds_once(&self, rings: &Rings, rule: FillRule, gate: u32, is_among_many: bool) -> Option<i32> {
+        if rings.len() != 1 || self.gates.kind(gate) == Kind::All {
+            return None;
+        }
+        let ring = rings.closed(0);
+        let winds = if is_among_many { winds_once(ring) } else { winds_around_middle(ring, SHORT) };
+        winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)
     }
 
     fn add_rings(&mut self, rule: FillRule, gate: u32) {
@@ -239,10 +248,4 @@ fn kind_of(operator: Operator) -> Kind {
         Operator::Intersection | Operator::Difference => Kind::All,
         Operator::SymmetricDifference => Kind::Odd,
     }
-}
-
-/// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold.
-fn winds_once(rings: &Rings, rule: FillRule) -> Option<i32> {
-    let winds = if rings.len() == 1 { simple_ring::winds_once(rings.closed(0)) } else { None };
-    winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)
 }

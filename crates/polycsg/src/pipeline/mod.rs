@@ -33,7 +33,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) ->
     if let Some(region) = untouched(csg, winding, &edges.edges) {
         return Ok(region);
     }
-    let request = Request { meter, close_pairs: true, budget: *budget };
+    let request = Request { meter, rings: true, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
@@ -59,7 +59,7 @@ pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Bo
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
     let meter = Meter::default();
-    let request = Request { meter: &meter, close_pairs: false, budget: *budget };
+    let request = Request { meter: &meter, rings: false, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     Ok(Boundary::new(selection, arranged.edges, arranged.contacts))
@@ -73,7 +73,7 @@ pub(crate) fn memberships<'s>(
     let Scratch { expression, edges, spatial, contacts, arrangement, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
     let meter = Meter::default();
-    let request = Request { meter: &meter, close_pairs: false, budget: *budget };
+    let request = Request { meter: &meter, rings: false, budget: *budget };
     arrange(edges, winding, spatial, contacts, arrangement, request)
 }
 
@@ -100,7 +100,7 @@ fn arrange<'s>(
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
     request: Request<'_>,
 ) -> Result<LabelledArrangement<'s>, Error> {
-    coincident.unite(edges, winding);
+    coincident.unite(edges, winding, request.rings);
     let candidates = Candidates::index(edges, coincident, chains, strips, request)?;
     contacts.find(candidates, slabs, close_pairs, request)?;
     let (edges, chains, strips) = (&*edges, &*chains, &*strips);

@@ -16,7 +16,7 @@ use std::{cmp::Ordering, ops::Range};
 pub(crate) const LONGEST: u32 = 16;
 
 /// Of so few points each edge is a chain.
-const FEW: usize = 16;
+const FEW: usize = 12;
 
 /// So many edges are a run.
 const RUN: u32 = 8;

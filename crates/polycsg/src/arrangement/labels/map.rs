@@ -71,6 +71,9 @@ impl Map<'_> {
 
     /// The places of the half-edges that leave a junction together with the one at a place.
     pub(super) fn group(self, junction: u32, place: u32) -> std::ops::Range<u32> {
+        if !self.arrangement.overlaps() {
+            return place..place + 1;
+        }
         let span = self.arrangement.span(junction);
         let sub_edge = |place: u32| self.arrangement.around(place) >> 1;
         let representative = |place: u32| self.arrangement.representative(sub_edge(place));

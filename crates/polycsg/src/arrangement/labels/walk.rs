@@ -13,7 +13,7 @@ impl Labels {
             Step::Ahead { sub_edge, first } => self.walk_ahead(sub_edge, first, map, winding),
             Step::Back { sub_edge, first } => {
                 go_back(sub_edge, first, map, winding);
-                self.steps.push(Step::Behind { sub_edge: first, first });
+                self.walk_behind(first, first, map, winding);
             }
             Step::Behind { sub_edge, first } => self.walk_behind(sub_edge, first, map, winding),
             Step::Return { sub_edge, first } => go_forward(sub_edge, first, map, winding),
@@ -41,6 +41,10 @@ impl Labels {
         loop {
             let next = map.arrangement.following(map.edges, sub_edge);
             let other = match map.arrangement.met(next) {
+                Node::Junction(junction) if self.seen[junction as usize] => {
+                    go_back(sub_edge, first, map, winding);
+                    return self.walk_behind(first, first, map, winding);
+                }
                 Node::Junction(junction) => {
                     self.steps.push(Step::Back { sub_edge, first });
                     return self.enter_junction(junction, 2 * sub_edge + 1, map);
@@ -73,6 +77,9 @@ impl Labels {
     fn walk_behind(&mut self, mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
         loop {
             let other = match map.arrangement.met(sub_edge) {
+                Node::Junction(junction) if self.seen[junction as usize] => {
+                    return go_forward(sub_edge, first, map, winding);
+                }
                 Node::Junction(junction) => {
                     self.steps.push(Step::Return { sub_edge, first });
                     return self.enter_junction(junction, 2 * sub_edge, map);
@@ -113,12 +120,10 @@ impl Labels {
         self.take_nested(sub_edge, has_nested);
     }
 
-    /// Starts to go around a junction, unless that was done, from the right of a half-edge that leads away along the
-    /// walk's sub-edge against it, or from its left along it: both times the sub-edge's left.
+    /// Starts to go around a junction, from the right of a half-edge that leads away along the walk's sub-edge against it,
+    /// or from its left along it: both times the sub-edge's left.
     fn enter_junction(&mut self, junction: u32, half_edge: u32, map: Map<'_>) {
-        if std::mem::replace(&mut self.seen[junction as usize], true) {
-            return;
-        }
+        self.seen[junction as usize] = true;
         let span = map.arrangement.span(junction);
         let Some(mut place) = span.clone().find(|&place| map.arrangement.around(place) == half_edge) else {
             return;
@@ -129,31 +134,31 @@ impl Labels {
         self.steps.push(Step::Around { junction, place, left });
     }
 
-    /// Crosses the next group of half-edges around a junction and walks its sub-edge, unless it is known.
+    /// Crosses the groups of half-edges around a junction up to one whose sub-edge is not known, which is walked.
     fn go_around(
         &mut self,
         junction: u32,
-        place: u32,
-        left: u32,
+        mut place: u32,
+        mut left: u32,
         map: Map<'_>,
         winding: &mut WindingNumbers,
     ) {
-        if left == 0 {
-            return;
-        }
         let span = map.arrangement.span(junction);
-        let place = if place == span.end { span.start } else { place };
-        let group = map.group(junction, place);
-        let representative = map.arrangement.representative(map.arrangement.around(place) >> 1);
-        let along = group.clone().any(|place| map.arrangement.around(place) == 2 * representative);
-        cross_overlapping(representative, !along, map, winding);
-        self.steps.push(Step::Around { junction, place: group.end, left: left - (group.end - group.start) });
-        if !self.is_walked(representative) {
-            if !along {
-                cross_overlapping(representative, false, map, winding);
-                self.steps.push(Step::CrossBack { sub_edge: representative });
+        while left > 0 {
+            let group = map.group(junction, if place == span.end { span.start } else { place });
+            let representative = map.arrangement.representative(map.arrangement.around(group.start) >> 1);
+            let along = group.clone().any(|place| map.arrangement.around(place) == 2 * representative);
+            cross_overlapping(representative, !along, map, winding);
+            place = group.end;
+            left -= group.end - group.start;
+            if !self.is_walked(representative) {
+                self.steps.push(Step::Around { junction, place, left });
+                if !along {
+                    cross_overlapping(representative, false, map, winding);
+                    self.steps.push(Step::CrossBack { sub_edge: representative });
+                }
+                return self.enter(representative, map, winding);
             }
-            self.enter(representative, map, winding);
         }
     }
 

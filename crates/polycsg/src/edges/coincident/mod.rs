@@ -8,6 +8,8 @@
 //!     +--<--+--<--+         vertices count all the same: where they touch an edge, they become vertices of that.
 //! ```
 //!
+//! What is left of rings and changes the same is joined where it leads on: around a block of cells to one closed ring.
+//!
 //! A sample of the edges decides whether this pays.
 //!
 //! Edges that overlap in part are cut at all ends on their line, and one edge stands for all in each interval. So n edges on
@@ -17,6 +19,7 @@ mod cells;
 mod covered;
 mod intervals;
 mod lines;
+mod runs;
 mod sample;
 mod table;
 mod touched;
@@ -28,6 +31,7 @@ use crate::expression::winding::WindingNumbers;
 use covered::CoveredRings;
 use intervals::Intervals;
 use lines::Lines;
+use runs::{EdgeRun, EdgeRuns};
 use sample::EdgeSample;
 use std::ops::Range;
 use table::Table;
@@ -75,12 +79,17 @@ pub(crate) struct CoincidentEdges {
     before: Vec<Change>,
     lines: Lines,
     intervals: Intervals,
+    runs: EdgeRuns,
+    /// Whether runs are joined.
+    joins: bool,
     united: Edges,
 }
 
 impl CoincidentEdges {
-    /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide.
-    pub(crate) fn unite(&mut self, edges: &mut Edges, winding: &WindingNumbers) {
+    /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide. What
+    /// leads on is joined, which changes the order of edges, if asked for.
+    pub(crate) fn unite(&mut self, edges: &mut Edges, winding: &WindingNumbers, joins: bool) {
+        self.joins = joins;
         self.drop_covered(edges, winding);
         if self.sample.pays(edges) {
             self.table.group(edges, &mut self.fates);
@@ -187,13 +196,19 @@ impl CoincidentEdges {
         }
     }
 
-    /// Puts the rings that are whole, and of all others what is left as open rings.
+    /// Puts the rings that are whole, and of all others what is left, joined where it leads on.
     fn link(&mut self, edges: &Edges) {
         self.united.clear();
+        self.runs.all.clear();
         for &ring in edges.rings() {
             let fate = |edge: u32| self.fates[edge as usize];
             match (ring.start..ring.end).find(|&edge| fate(edge) == Fate::Starts) {
-                Some(first) => self.add_open_rings(edges, ring, first),
+                Some(first) => {
+                    self.add_runs(ring, first);
+                    if !self.joins {
+                        self.add_open_rings(edges);
+                    }
+                }
                 None if fate(ring.start) == Fate::GoesOn => {
                     self.add_edges(edges, ring.start..ring.end);
                     self.end_ring(edges, ring.start, None);
@@ -201,27 +216,40 @@ impl CoincidentEdges {
                 None => {}
             }
         }
+        self.add_open_rings(edges);
     }
 
-    /// Goes once round a ring, from an edge that starts an open one.
-    fn add_open_rings(&mut self, edges: &Edges, ring: EdgeRing, first: u32) {
-        let mut start = first;
-        for mut span in [first..ring.end, ring.start..first] {
-            while span.start < span.end {
-                let fate = |edge: u32| self.fates[edge as usize];
-                let run = span.start;
-                let end = (run + 1..span.end).find(|&edge| fate(edge) != Fate::GoesOn).unwrap_or(span.end);
-                span.start = end;
-                start = if fate(run) == Fate::Starts { run } else { start };
-                if fate(run).is_kept() {
-                    let goes_on = end == ring.end && !ring.is_open && fate(ring.start) == Fate::GoesOn;
-                    self.add_edges(edges, run..end);
-                    if !goes_on {
-                        self.end_ring(edges, start, Some(end));
-                    }
-                }
+    fn add_open_rings(&mut self, edges: &Edges) {
+        let mut runs = std::mem::take(&mut self.runs);
+        runs.join(edges);
+        for (ring, is_open) in runs.rings() {
+            ring.iter().flat_map(|run| run.spans(edges)).for_each(|span| self.add_edges(edges, span));
+            let end = ring.last().filter(|_| is_open).map(|run| run.end);
+            self.end_ring(edges, ring[0].start, end);
+        }
+        runs.all.clear();
+        self.runs = runs;
+    }
+
+    /// Goes once round a ring, from an edge that starts a run.
+    fn add_runs(&mut self, ring: EdgeRing, first: u32) {
+        let mut start = None;
+        for edge in [first..ring.end, ring.start..first].into_iter().flatten() {
+            let fate = self.fates[edge as usize];
+            if fate != Fate::GoesOn {
+                start.into_iter().for_each(|start| self.add_run(ring, start, edge));
+                start = (fate == Fate::Starts).then_some(edge);
             }
         }
+        start.into_iter().for_each(|start| self.add_run(ring, start, first));
+    }
+
+    /// Adds a run that ends where another edge starts.
+    fn add_run(&mut self, ring: EdgeRing, start: u32, end: u32) {
+        let is_simple = self.joins && ring.also == END && self.table.is_alone(start);
+        let change = ring.counter.map(|counter| Change { counter, winds: ring.winds });
+        let end = if end == ring.start { ring.end } else { end };
+        self.runs.all.push(EdgeRun { start, end, change: change.filter(|_| is_simple) });
     }
 
     /// Adds edges, cut at the vertices that touch them.

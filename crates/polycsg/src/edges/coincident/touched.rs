@@ -1,6 +1,7 @@
 //! Vertices of edges that are gone, where they touch edges that are left: they become vertices of one of these.
 
 use super::{Fate, cells::Cells};
+use crate::base::id::index;
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
@@ -16,6 +17,9 @@ const MORE: usize = 1000;
 /// So many pairs of a vertex and an edge in its cell are looked at for each edge: where one far point makes one cell of all
 /// others, they would be too many.
 const PAIRS_PER_EDGE: usize = 64;
+
+/// Of so few pairs of an edge that is left and a slot all are looked at, without cells.
+const FEW_PAIRS: usize = if cfg!(any(test, fuzzing)) { 64 } else { 1024 };
 
 /// So many consecutive slots are passed over at once where no edge is left nearby.
 const TOGETHER: usize = 32;
@@ -38,6 +42,10 @@ impl Touched {
     pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate]) -> bool {
         self.left.clear();
         self.left.extend((0..).zip(fates).filter(|(_, fate)| fate.is_kept()).map(|(edge, _)| edge));
+        if self.left.len() * fates.len() <= FEW_PAIRS {
+            self.look_at_all(edges, fates);
+            return true;
+        }
         let cells = Cells::over(edges.points(), (CELLS_PER_LEFT * self.left.len()).min(fates.len() / 2));
         self.list(edges, cells) && {
             self.count(cells.columns());
@@ -114,22 +122,35 @@ impl Touched {
         }
     }
 
-    /// Looks at the vertices between two gone edges.
+    /// Looks at all edges that are left, for each vertex between gone edges.
+    fn look_at_all(&mut self, edges: &Edges, fates: &[Fate]) {
+        self.inside.clear();
+        let left = std::mem::take(&mut self.left);
+        for slot in (0..index(fates.len())).filter(|&slot| is_between_gone(edges, fates, slot)) {
+            self.look_at(edges, &left, edges.point(slot));
+        }
+        self.left = left;
+        self.sort(edges);
+    }
+
+    /// Looks at those in the cells of these vertices.
     fn look(&mut self, edges: &Edges, cells: Cells, fates: &[Fate]) -> bool {
         self.inside.clear();
         let mut room = MORE + PAIRS_PER_EDGE * fates.len();
+        let near = std::mem::take(&mut self.near);
         for (start, points) in (0..).step_by(TOGETHER).zip(edges.points().chunks(TOGETHER)) {
             if !self.are_near(cells, points) {
                 continue;
             }
-            for (slot, &p) in (start..).zip(points).filter(|(slot, _)| edges.is_vertex(*slot)) {
-                if !edges.at(slot).iter().any(|&edge| fates[edge as usize].is_kept()) {
-                    let looked_at = self.look_at(edges, cells.at(p) as usize, p);
-                    let Some(left) = room.checked_sub(looked_at) else { return false };
-                    room = left;
-                }
+            for (_, &p) in (start..).zip(points).filter(|(slot, _)| is_between_gone(edges, fates, *slot)) {
+                let cell = cells.at(p) as usize;
+                let near = &near[self.starts[cell] as usize..self.starts[cell + 1] as usize];
+                let Some(left) = room.checked_sub(near.len()) else { return false };
+                self.look_at(edges, near, p);
+                room = left;
             }
         }
+        self.near = near;
         self.sort(edges);
         true
     }
@@ -152,11 +173,10 @@ impl Touched {
         self.inside.dedup();
     }
 
-    /// Notes one of the edges that a point lies in: from there the others meet it. Returns at how many edges there are to look.
+    /// Notes one of some edges that a point lies in: from there the others meet it.
     #[inline]
-    fn look_at(&mut self, edges: &Edges, cell: usize, p: DVec2) -> usize {
-        let [start, end] = [self.starts[cell] as usize, self.starts[cell + 1] as usize];
-        for &edge in &self.near[start..end] {
+    fn look_at(&mut self, edges: &Edges, near: &[u32], p: DVec2) {
+        for &edge in near {
             let [a, b] = edges.segment(edge);
             // Most are neither: one comparison of all four sides is quicker than one after the other.
             let is_in_box = a.min(b).cmple(p) & a.max(b).cmpge(p) == BVec2::TRUE;
@@ -165,7 +185,15 @@ impl Touched {
                 break;
             }
         }
-        end - start
+    }
+}
+
+/// Whether a slot is a vertex between edges that are gone; one of them stands for itself, so that few are named twice.
+#[inline]
+fn is_between_gone(edges: &Edges, fates: &[Fate], slot: u32) -> bool {
+    edges.is_vertex(slot) && {
+        let [a, b] = edges.at(slot).map(|edge| fates[edge as usize]);
+        (a == Fate::Gone || b == Fate::Gone) && !a.is_kept() && !b.is_kept()
     }
 }
 
