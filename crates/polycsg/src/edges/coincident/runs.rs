@@ -1,4 +1,4 @@
-//! EdgeRuns of edges that change the same. Those that lead on from one another become one ring: what is left of neighbours whose
+//! Runs of edges that change the same. Those that lead on from one another become one ring: what is left of neighbours whose
 //! common border is gone is a closed one, which meets nothing in the corners of the border.
 
 use crate::base::id::index;
