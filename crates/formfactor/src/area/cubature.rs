@@ -158,21 +158,19 @@ impl<'p> Cubature<'p> {
         true
     }
 
-    /// How far a cell is at least from what it looks at, by half of its longest side.
-    fn apart(&self, cell: &Cell) -> f64 {
+    /// How far a cell is at least from what it looks at.
+    fn away(&self, cell: &Cell) -> f64 {
         let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
         let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
-        let away = |at: DVec3, size: f64| middle.distance(at) - size - radius;
+        let from_ball = |at: DVec3, size: f64| middle.distance(at) - size - radius;
         let above =
             |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
-        let to_target = away(self.to.middle, self.to.radius).max(above(&self.to.face));
+        let to_target = from_ball(self.to.middle, self.to.radius).max(above(&self.to.face));
         let to_occluder = |o: &Near| {
             let plane = o.faces.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
-            away(o.middle, o.radius).max(plane)
+            from_ball(o.middle, o.radius).max(plane)
         };
-        let nearest = self.occluders.iter().map(to_occluder).fold(to_target, f64::min);
-        let sides = cell.iter().zip(cell.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b));
-        2.0 * nearest.max(0.0) / sides.fold(0.0, f64::max)
+        self.occluders.iter().map(to_occluder).fold(to_target, f64::min).max(0.0)
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
@@ -199,12 +197,14 @@ impl<'p> Cubature<'p> {
 
     /// How a cell sees the target, all events on it cut or not.
     fn view(&mut self, cell: &Cell, is_cut: bool) -> CellView {
-        let is_triangle = cell[2] == cell[3];
         if !is_cut {
-            return CellView { focus: Focus::Part, is_cut, is_triangle, apart: 0.0 };
+            return CellView { focus: Focus::Part, is_cut, skewness: 1.0, apart: 0.0 };
         }
         let focus = self.eye.focus(cell, &self.target, self.occluders);
-        CellView { focus, is_cut, is_triangle, apart: self.apart(cell) }
+        let [a, b, c, d] = *cell;
+        let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
+        let skewness = (a - b + c - d).length() / longest;
+        CellView { focus, is_cut, skewness, apart: 2.0 * self.away(cell) / longest }
     }
 
     /// What a cell must see to add nothing.
