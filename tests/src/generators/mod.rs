@@ -1,11 +1,13 @@
 //! Inputs for the suites, each a function of its seed alone.
 mod crowd;
 mod lattice;
+mod layers;
 mod nasty;
 mod small;
 
 pub use crowd::crowd;
 pub use lattice::lattice;
+pub use layers::{LAYERS, layer};
 pub use nasty::{KINDS, nasty};
 pub use small::{FAMILIES, Small, small};
 
