@@ -1,6 +1,6 @@
 //! Pairs that are hidden in part: cubature on cells that are cut where the view changes its shape.
 use super::clip::before;
-use super::estimate::{CellView, FINE, RULES, Smoothness, a_priori, left};
+use super::estimate::{CellView, FINE, RULES, SURE, Smoothness, a_priori};
 use super::events::{are_skew, cut, events};
 use super::integral::{Allowed, Integral, least_whole, most};
 use super::patch::Patch;
@@ -174,19 +174,24 @@ impl<'p> Cubature<'p> {
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
-    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<[f64; 2]>) {
+    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<(f64, [f64; 3])>) {
         if area(&cell) == 0.0 {
             return;
         }
         let view = self.view(&cell, left_out.is_some());
-        let mut open = Open { cell, value: 0.0, error: 0.0, left_out, order: 0, values: [0.0; 2], last: 0.0 };
+        let mut open =
+            Open { cell, value: 0.0, error: 0.0, left_out, order: 0, constants: [0.0; 3], last: 0.0 };
         if view.focus != self.adds_nothing() {
             let share = area(&cell) / self.size;
             let allowed = self.tolerance * (share / 2.0).max(START);
             let a_priori = |order| share * self.scale * a_priori(&view, order);
             open.order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
             open.error = a_priori(open.order);
-            let is_dark = self.by_rule(&mut open, &view, known);
+            let is_dark = if open.order < FINE {
+                self.by_few(&mut open, &view)
+            } else {
+                self.by_many(&mut open, &view, known)
+            };
             if is_dark && (self.is_skew || !view.is_cut) {
                 open.error = open.error.max(self.unseen(&cell));
             }
@@ -212,24 +217,36 @@ impl<'p> Cubature<'p> {
         if self.unhidden.is_some() { Focus::All } else { Focus::Nothing }
     }
 
-    /// The integral over a cell by its rule, and what that leaves, which where the rule has few nodes is known already but for
-    /// what one more node a side changes; whether no node sees anything.
-    fn by_rule(&mut self, open: &mut Open, view: &CellView, known: Option<[f64; 2]>) -> bool {
-        let Open { cell, order, .. } = *open;
-        let (value, seen) = self.product(&cell, order, view);
-        (open.value, open.values[1]) = (value, value);
-        if order >= FINE {
-            let [coarse, middle] =
-                known.unwrap_or_else(|| [2, 1].map(|back| self.product(&cell, order - back, view).0));
-            let smoothness = self.smoothness(&cell, view);
-            open.values[0] = middle;
-            open.error = left([coarse, middle, value], order, smoothness);
-            open.last = open.error * smoothness.rate(order, RULES.len() - 1);
-        } else if seen.is_joint || view.apart < CLOSE {
-            open.value = self.product(&cell, order + 1, view).0;
+    /// The integral over a cell by a rule of few nodes, to whose error belongs what one more node a side changes nearby or where
+    /// shadows overlap; whether no node sees anything.
+    fn by_few(&mut self, open: &mut Open, view: &CellView) -> bool {
+        let (value, seen) = self.product(&open.cell, open.order, view);
+        open.value = value;
+        if seen.is_joint || view.apart < CLOSE {
+            open.value = self.product(&open.cell, open.order + 1, view).0;
             open.error = open.error.max((open.value - value).abs());
         }
-        view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
+        is_dark(view, &seen)
+    }
+
+    /// The integral over a cell by a fine rule, after three before it or after the one that is known with its constants; whether no
+    /// node sees anything.
+    fn by_many(&mut self, open: &mut Open, view: &CellView, known: Option<(f64, [f64; 3])>) -> bool {
+        let smoothness = self.smoothness(&open.cell, view);
+        let first = if known.is_some() { open.order } else { open.order - 2 };
+        (open.value, open.constants) =
+            known.unwrap_or_else(|| (self.product(&open.cell, first - 1, view).0, [0.0; 3]));
+        let mut last = Seen::default();
+        for order in first..=open.order {
+            let (value, seen) = self.product(&open.cell, order, view);
+            open.constants.rotate_left(1);
+            open.constants[2] = (value - open.value).abs() / smoothness.rate(order - 1);
+            (open.value, last) = (value, seen);
+        }
+        let constant = SURE * open.constants.into_iter().fold(0.0, f64::max);
+        open.error = constant * smoothness.rate(open.order);
+        open.last = constant * smoothness.rate(RULES.len() - 1);
+        is_dark(view, &last)
     }
 
     fn smoothness(&self, cell: &Cell, view: &CellView) -> Smoothness {
@@ -287,7 +304,7 @@ impl<'p> Cubature<'p> {
         }
         let is_near = worst.last <= self.tolerance * (area(&worst.cell) / self.size).max(START);
         if worst.order < FINE || (worst.order + 1 < RULES.len() && is_near) {
-            let known = (worst.order >= FINE).then_some(worst.values);
+            let known = (worst.order >= FINE).then_some((worst.value, worst.constants));
             self.add(worst.cell, Some(left_out), worst.order + 1, known);
             return;
         }
@@ -296,4 +313,9 @@ impl<'p> Cubature<'p> {
             self.add(half, Some(left_out * share), 2, None);
         }
     }
+}
+
+/// Whether a part of nothing is seen, as far as nodes say.
+fn is_dark(view: &CellView, seen: &Seen) -> bool {
+    view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
 }

@@ -56,28 +56,25 @@ pub(super) enum Smoothness {
 }
 
 impl Smoothness {
-    /// What a rule leaves of the error of one before.
+    /// By how much errors fall with a rule's nodes, up to a constant of the integrand.
     ///
     /// Where the integrand is analytic at all points of an ellipse around the foci -1 and 1 with semiaxes that add to r, n nodes
     /// err by less than C r^(-2n) [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3]. Where its second derivative
     /// jumps, by C n^(-3) [Xiang and Bornemann 2012].
-    pub(super) fn rate(self, before: usize, order: usize) -> f64 {
-        let [few, many] = [before, order].map(|order| i32::try_from(RULES[order].len()).unwrap_or(i32::MAX));
+    ///
+    /// The difference of two rules says what C is, as that of the coarser one's error. One alone may be small by chance, as may two: the
+    /// largest of the last three counts. Distances are lower bounds, so that earlier ones exaggerate.
+    pub(super) fn rate(self, order: usize) -> f64 {
+        let nodes = i32::try_from(RULES[order].len()).unwrap_or(i32::MAX);
         match self {
-            Self::Analytic { apart } => (apart + apart.hypot(1.0)).powi(2 * (few - many)),
-            Self::Bends => (f64::from(few) / f64::from(many)).powi(3),
+            Self::Analytic { apart } => (apart + apart.hypot(1.0)).min(FAST).powi(-2 * nodes),
+            Self::Bends => f64::from(nodes).powi(-3),
         }
     }
 }
 
-/// What a fine rule leaves, by the values of the two rules before and its own.
-///
-/// Each difference says what C of [`Smoothness::rate`] is, as that of the coarser one's error. The larger counts, as one alone
-/// may be small by chance.
-pub(super) fn left([coarse, middle, fine]: [f64; 3], order: usize, smoothness: Smoothness) -> f64 {
-    let [first, second] = [(middle - coarse).abs(), (fine - middle).abs()];
-    SURE * (first * smoothness.rate(order - 2, order)).max(second * smoothness.rate(order - 1, order))
-}
+/// Faster rates than this need no telling apart.
+const FAST: f64 = 1e6;
 
-/// By so much what differences say is raised.
-const SURE: f64 = 8.0;
+/// By so much the constant that differences say is raised.
+pub(super) const SURE: f64 = 8.0;
