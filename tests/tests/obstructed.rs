@@ -84,16 +84,16 @@ fn named_cases_are_within_their_tolerances() {
     assert!(failures.is_empty(), "{} of them:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Edges of three boxes seem to meet along a curve on the source, where an estimate by rates of analytic integrands fails.
+/// Found wrong by seed: edges of three boxes seem to meet along a curve, where errors do not fall as those of analytic integrands; two
+/// differences between rules small by chance; a grille close to the source, where rules of few nodes say nothing.
 #[test]
-fn where_three_edges_meet_rules_are_not_trusted_too_far() {
-    for seed in [20055, 20271] {
-        let pair = pair(seed);
-        let exact = pair.form_factor();
-        let failures: Vec<String> =
-            [1e-8, 1e-9, 1e-10].into_iter().filter_map(|t| complaint(&pair, exact, t)).collect();
-        assert!(failures.is_empty(), "{}", failures.join("\n"));
-    }
+fn seeds_that_were_wrong_are_within_their_tolerances() {
+    let cases = [(20055, 1e-8), (20055, 1e-10), (20271, 1e-8), (20271, 1e-10), (70089, 1e-6), (60251, 1e-2)];
+    let failures: Vec<String> = cases
+        .into_iter()
+        .filter_map(|(seed, tolerance)| complaint(&pair(seed), pair(seed).form_factor(), tolerance))
+        .collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
 /// The references of the named cases are by product quadrature; those of fuzzed ones are the closed form itself.

@@ -1,6 +1,6 @@
 //! Pairs that are hidden in part: cubature on cells that are cut where the view changes its shape.
 use super::clip::before;
-use super::estimate::{CellView, FINE, RULES, Smoothness, a_priori, left};
+use super::estimate::{CellView, FINE, RULES, SURE, Smoothness, a_priori};
 use super::events::{are_skew, cut, events};
 use super::integral::{Allowed, Integral, least_whole, most};
 use super::patch::Patch;
@@ -158,37 +158,40 @@ impl<'p> Cubature<'p> {
         true
     }
 
-    /// How far a cell is at least from what it looks at, by half of its longest side.
-    fn apart(&self, cell: &Cell) -> f64 {
+    /// How far a cell is at least from what it looks at.
+    fn away(&self, cell: &Cell) -> f64 {
         let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
         let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
-        let away = |at: DVec3, size: f64| middle.distance(at) - size - radius;
+        let from_ball = |at: DVec3, size: f64| middle.distance(at) - size - radius;
         let above =
             |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
-        let to_target = away(self.to.middle, self.to.radius).max(above(&self.to.face));
+        let to_target = from_ball(self.to.middle, self.to.radius).max(above(&self.to.face));
         let to_occluder = |o: &Near| {
             let plane = o.faces.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
-            away(o.middle, o.radius).max(plane)
+            from_ball(o.middle, o.radius).max(plane)
         };
-        let nearest = self.occluders.iter().map(to_occluder).fold(to_target, f64::min);
-        let sides = cell.iter().zip(cell.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b));
-        2.0 * nearest.max(0.0) / sides.fold(0.0, f64::max)
+        self.occluders.iter().map(to_occluder).fold(to_target, f64::min).max(0.0)
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
-    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<[f64; 2]>) {
+    fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<(f64, [f64; 3])>) {
         if area(&cell) == 0.0 {
             return;
         }
         let view = self.view(&cell, left_out.is_some());
-        let mut open = Open { cell, value: 0.0, error: 0.0, left_out, order: 0, values: [0.0; 2], last: 0.0 };
+        let mut open =
+            Open { cell, value: 0.0, error: 0.0, left_out, order: 0, constants: [0.0; 3], last: 0.0 };
         if view.focus != self.adds_nothing() {
             let share = area(&cell) / self.size;
             let allowed = self.tolerance * (share / 2.0).max(START);
             let a_priori = |order| share * self.scale * a_priori(&view, order);
             open.order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
             open.error = a_priori(open.order);
-            let is_dark = self.by_rule(&mut open, &view, known);
+            let is_dark = if open.order < FINE {
+                self.by_few(&mut open, &view)
+            } else {
+                self.by_many(&mut open, &view, known)
+            };
             if is_dark && (self.is_skew || !view.is_cut) {
                 open.error = open.error.max(self.unseen(&cell));
             }
@@ -199,12 +202,14 @@ impl<'p> Cubature<'p> {
 
     /// How a cell sees the target, all events on it cut or not.
     fn view(&mut self, cell: &Cell, is_cut: bool) -> CellView {
-        let is_triangle = cell[2] == cell[3];
         if !is_cut {
-            return CellView { focus: Focus::Part, is_cut, is_triangle, apart: 0.0 };
+            return CellView { focus: Focus::Part, is_cut, skewness: 1.0, apart: 0.0 };
         }
         let focus = self.eye.focus(cell, &self.target, self.occluders);
-        CellView { focus, is_cut, is_triangle, apart: self.apart(cell) }
+        let [a, b, c, d] = *cell;
+        let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
+        let skewness = (a - b + c - d).length() / longest;
+        CellView { focus, is_cut, skewness, apart: 2.0 * self.away(cell) / longest }
     }
 
     /// What a cell must see to add nothing.
@@ -212,24 +217,36 @@ impl<'p> Cubature<'p> {
         if self.unhidden.is_some() { Focus::All } else { Focus::Nothing }
     }
 
-    /// The integral over a cell by its rule, and what that leaves, which where the rule has few nodes is known already but for
-    /// what one more node a side changes; whether no node sees anything.
-    fn by_rule(&mut self, open: &mut Open, view: &CellView, known: Option<[f64; 2]>) -> bool {
-        let Open { cell, order, .. } = *open;
-        let (value, seen) = self.product(&cell, order, view);
-        (open.value, open.values[1]) = (value, value);
-        if order >= FINE {
-            let [coarse, middle] =
-                known.unwrap_or_else(|| [2, 1].map(|back| self.product(&cell, order - back, view).0));
-            let smoothness = self.smoothness(&cell, view);
-            open.values[0] = middle;
-            open.error = left([coarse, middle, value], order, smoothness);
-            open.last = open.error * smoothness.rate(order, RULES.len() - 1);
-        } else if seen.is_joint || view.apart < CLOSE {
-            open.value = self.product(&cell, order + 1, view).0;
+    /// The integral over a cell by a rule of few nodes, to whose error belongs what one more node a side changes nearby or where
+    /// shadows overlap; whether no node sees anything.
+    fn by_few(&mut self, open: &mut Open, view: &CellView) -> bool {
+        let (value, seen) = self.product(&open.cell, open.order, view);
+        open.value = value;
+        if seen.is_joint || view.apart < CLOSE {
+            open.value = self.product(&open.cell, open.order + 1, view).0;
             open.error = open.error.max((open.value - value).abs());
         }
-        view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
+        is_dark(view, &seen)
+    }
+
+    /// The integral over a cell by a fine rule, after three before it or after the one that is known with its constants; whether no
+    /// node sees anything.
+    fn by_many(&mut self, open: &mut Open, view: &CellView, known: Option<(f64, [f64; 3])>) -> bool {
+        let smoothness = self.smoothness(&open.cell, view);
+        let first = if known.is_some() { open.order } else { open.order - 2 };
+        (open.value, open.constants) =
+            known.unwrap_or_else(|| (self.product(&open.cell, first - 1, view).0, [0.0; 3]));
+        let mut last = Seen::default();
+        for order in first..=open.order {
+            let (value, seen) = self.product(&open.cell, order, view);
+            open.constants.rotate_left(1);
+            open.constants[2] = (value - open.value).abs() / smoothness.rate(order - 1);
+            (open.value, last) = (value, seen);
+        }
+        let constant = SURE * open.constants.into_iter().fold(0.0, f64::max);
+        open.error = constant * smoothness.rate(open.order);
+        open.last = constant * smoothness.rate(RULES.len() - 1);
+        is_dark(view, &last)
     }
 
     fn smoothness(&self, cell: &Cell, view: &CellView) -> Smoothness {
@@ -287,7 +304,7 @@ impl<'p> Cubature<'p> {
         }
         let is_near = worst.last <= self.tolerance * (area(&worst.cell) / self.size).max(START);
         if worst.order < FINE || (worst.order + 1 < RULES.len() && is_near) {
-            let known = (worst.order >= FINE).then_some(worst.values);
+            let known = (worst.order >= FINE).then_some((worst.value, worst.constants));
             self.add(worst.cell, Some(left_out), worst.order + 1, known);
             return;
         }
@@ -296,4 +313,9 @@ impl<'p> Cubature<'p> {
             self.add(half, Some(left_out * share), 2, None);
         }
     }
+}
+
+/// Whether a part of nothing is seen, as far as nodes say.
+fn is_dark(view: &CellView, seen: &Seen) -> bool {
+    view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
 }

@@ -12,8 +12,8 @@ pub(super) struct Open {
     pub(super) left_out: Option<f64>,
     /// Its rule's place in the list.
     pub(super) order: usize,
-    /// The values by the rule before and by this one, where this one is fine.
-    pub(super) values: [f64; 2],
+    /// The constants of what fine rules err by that the last differences say.
+    pub(super) constants: [f64; 3],
     /// What the finest rule may leave.
     pub(super) last: f64,
 }
