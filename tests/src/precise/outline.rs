@@ -36,6 +36,9 @@ pub(super) struct Outline {
     outside: Vec<Vector>,
 }
 
+/// An axis with the lowest and the highest coordinate on it, as numerators and denominators.
+type AxisRange = (usize, (BigInt, BigInt), (BigInt, BigInt));
+
 impl Outline {
     /// The outline of a target, and before which plane: at `depth` . p = `height`.
     pub(super) fn of(target: Vec<Vec<Vector>>, depth: &Vector, height: &BigInt) -> Outline {
@@ -67,14 +70,8 @@ impl Outline {
     }
 
     /// A direction beyond a corner of the rectangle around the target, by three times its sides.
-    fn corner(
-        &self,
-        ranges: &[(usize, (BigInt, BigInt), (BigInt, BigInt))],
-        upper: (bool, bool),
-        dropped: usize,
-        height: &BigInt,
-    ) -> Vector {
-        let beyond = |(_, low, high): &(usize, (BigInt, BigInt), (BigInt, BigInt)), is_upper: bool| {
+    fn corner(&self, ranges: &[AxisRange], upper: (bool, bool), dropped: usize, height: &BigInt) -> Vector {
+        let beyond = |(_, low, high): &AxisRange, is_upper: bool| {
             let (low, high) = (&low.0 * &high.1, (&high.0 * &low.1, &low.1 * &high.1));
             let (high, bottom) = high;
             let size = &high - &low + BigInt::from(1);

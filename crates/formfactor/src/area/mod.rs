@@ -49,6 +49,9 @@ pub struct AreaFormFactor {
     pub evaluations: u64,
 }
 
+/// What a polygon exchanges with others: their ids, the integrals over both, and the estimates of their errors.
+pub(crate) type Exchanges = Vec<(usize, f64, f64)>;
+
 /// A row of a matrix of form factors: the id of each polygon that is seen and the factor to it, in the order of the ids.
 pub type Row = Vec<(usize, AreaFormFactor)>;
 
@@ -168,7 +171,7 @@ impl Enclosure {
         from: usize,
         tolerance: &Tolerance,
         limits: &Limits,
-    ) -> Result<Option<Vec<(usize, f64, f64)>>, Error> {
+    ) -> Result<Option<Exchanges>, Error> {
         tolerance.check()?;
         let found = self.later(from, tolerance, limits, &mut Eye::default());
         Ok(found.map(|found| found.into_iter().map(|(to, f)| (to, f.value, f.error)).collect()))

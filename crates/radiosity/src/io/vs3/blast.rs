@@ -46,7 +46,7 @@ fn numbers(
         let fields = lines.get(*at).filter(is_number).ok_or((surface.line, fault))?;
         *at += 1;
         let is_comment = |word: &&str| word.starts_with(['!', '/']);
-        let said = fields.words.iter().position(|word| is_comment(&word)).unwrap_or(fields.words.len());
+        let said = fields.words.iter().position(is_comment).unwrap_or(fields.words.len());
         for word in 0..said.min(count - numbers.len()) {
             numbers.push(fields.number(word)?);
         }
