@@ -6,9 +6,9 @@
 //!
 //! Perpendicular edges add nothing, and for parallel ones at a distance h the integral has a closed form by
 //! G(z) = (z^2 - h^2) ln(z^2 + h^2) / 4 - 3 z^2 / 4 + h z atan(z / h), the second integral of ln sqrt(z^2 + h^2).
-//! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's rule,
-//! halved until it agrees with itself.
-use crate::numeric::gauss::RULE_8;
+//! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's
+//! rules on stretches that are halved where rules differ.
+use crate::numeric::gauss::{RULE_3, RULE_5, RULE_8};
 use crate::scene::surfaces::Surface;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -44,8 +44,16 @@ fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2]
         return [value * cosine.signum(), error];
     }
     let inner = |s: f64| along(a + way * s, [c, d], size);
-    let [value, error] = adaptive(&inner, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
+    let away = |s: f64| to_segment(a + way * s, [c, d]) / length;
+    let [value, error] = adaptive(&inner, &away, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
     [value * length * cosine, error * length * cosine.abs()]
+}
+
+/// How far a point is from a segment.
+pub(super) fn to_segment(point: DVec3, [a, b]: Segment) -> f64 {
+    let way = b - a;
+    let share = ((point - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+    point.distance(a + way * share)
 }
 
 /// The double integral for parallel edges, and its rounding.
@@ -95,32 +103,42 @@ fn along(point: DVec3, [c, d]: Segment, size: f64) -> [f64; 2] {
     [size * (upper - lower), size * (rounded + rounded_too)]
 }
 
-/// Halvings of one stretch before its difference counts as error.
+/// By so much differences are raised.
+const SURE: f64 = 8.0;
+
+/// Halvings of one stretch before what its differences say counts as error.
 const DEEPEST: u32 = 40;
 
-/// The integral over [0, 1], and the differences that were left.
-fn adaptive(f: &impl Fn(f64) -> [f64; 2], tolerance: f64) -> [f64; 2] {
-    let rule = |low: f64, high: f64| -> [f64; 2] {
-        let width = high - low;
-        RULE_8.iter().fold([0.0; 2], |[value, rounded], [x, weight]| {
-            let [own, own_rounded] = f(low + width * x);
-            [value + width * weight * own, rounded + width * weight * own_rounded]
-        })
-    };
+/// The integral over [0, 1] by rules of three, five and eight nodes, and what the last leaves.
+///
+/// The integrand is analytic at all points that are nearer to a stretch than the other edge is. So errors fall as r^(-2n) with n nodes, r
+/// from the distance over half the stretch, and two differences say by which constant.
+fn adaptive(f: &impl Fn(f64) -> [f64; 2], away: &impl Fn(f64) -> f64, tolerance: f64) -> [f64; 2] {
     let (mut value, mut error) = (0.0, 0.0);
-    let mut open = vec![(0.0, 1.0, rule(0.0, 1.0), 0)];
-    while let Some((low, high, coarse, depth)) = open.pop() {
-        let middle = f64::midpoint(low, high);
-        let parts = [rule(low, middle), rule(middle, high)];
-        let difference = (parts[0][0] + parts[1][0] - coarse[0]).abs();
-        let rounding = parts[0][1] + parts[1][1];
-        if difference <= (tolerance * (high - low)).max(rounding) || depth == DEEPEST {
-            value += parts[0][0] + parts[1][0];
-            error += difference.max(rounding);
+    let mut open = vec![(0.0, 1.0, 0)];
+    while let Some((low, high, depth)) = open.pop() {
+        let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
+        let [[few, _], [more, _], [many, rounding]] =
+            [&RULE_3[..], &RULE_5, &RULE_8].map(|rule| by_rule(f, rule, low, high));
+        let apart = (away(middle) / half - 1.0).max(0.0);
+        let falls = |nodes: i32| (apart + apart.hypot(1.0)).powi(-2 * nodes);
+        let left = SURE * ((more - few).abs() * falls(5)).max((many - more).abs() * falls(3));
+        if left <= (tolerance * (high - low)).max(rounding) || depth == DEEPEST {
+            value += many;
+            error += left.max(rounding);
         } else {
-            open.push((middle, high, parts[1], depth + 1));
-            open.push((low, middle, parts[0], depth + 1));
+            open.push((middle, high, depth + 1));
+            open.push((low, middle, depth + 1));
         }
     }
     [value, error]
+}
+
+/// The integral from one number to another, and the roundings.
+fn by_rule(f: &impl Fn(f64) -> [f64; 2], rule: &[[f64; 2]], low: f64, high: f64) -> [f64; 2] {
+    let width = high - low;
+    rule.iter().fold([0.0; 2], |[value, rounded], [x, weight]| {
+        let [own, own_rounded] = f(low + width * x);
+        [value + width * weight * own, rounded + width * weight * own_rounded]
+    })
 }

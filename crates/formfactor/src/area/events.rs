@@ -3,6 +3,7 @@
 //! There a vertex of the target lies behind an edge of an occluder's silhouette, or an edge of the target behind a vertex of one,
 //! or a vertex of one occluder behind or before an edge of another; or an occluder's face that the target reaches across is
 //! seen edge-on. Kinks that three edges make together are curved, and weaker: they are left to the cubature.
+use super::contour::to_segment;
 use super::patch::{MOST_CORNERS, Patch};
 use super::point::Near;
 use crate::scene::occluder::{CAP, Face, Occluder, Ridge};
@@ -28,13 +29,6 @@ pub(super) struct Event {
     line: Option<(DVec3, [DVec3; 2])>,
     /// How far what moves there is away from the patch at least.
     away: f64,
-}
-
-/// How far a point is from a segment.
-fn distance(point: DVec3, [a, b]: [DVec3; 2]) -> f64 {
-    let way = b - a;
-    let share = ((point - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-    point.distance(a + way * share)
 }
 
 impl Event {
@@ -159,7 +153,7 @@ impl<'p> Found<'p> {
     fn add(&mut self, mut event: Event, nearest: f64) {
         let Some(chord) = event.chord(self.patch).filter(|chord| event.is_met(*chord)) else { return };
         let to_line =
-            |(vertex, edge): (DVec3, _)| self.middle.distance(vertex).min(distance(self.middle, edge));
+            |(vertex, edge): (DVec3, _)| self.middle.distance(vertex).min(to_segment(self.middle, edge));
         event.away = (event.line.map_or(nearest, to_line) - self.radius).max(0.0);
         let near = self.near;
         let alike = |[a, b]: [DVec3; 2]| a.abs_diff_eq(chord[0], near) && b.abs_diff_eq(chord[1], near);

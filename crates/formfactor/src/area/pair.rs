@@ -130,31 +130,28 @@ fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Int
 
 /// By nodes on both, or on the smaller one alone.
 fn far_apart(one: &Surface, other: &Surface, rough: f64, tolerance: f64) -> Option<Integral> {
-    let square = one.middle.distance_squared(other.middle);
     let found = |value: f64, error: f64| Some(Integral { value, error, evaluations: 0 });
-    // The largest that the kernel may be.
-    let most = one.area * other.area / (PI * square);
-    let ratio = (one.radius + other.radius) / square.sqrt();
-    let error = kernel::ERROR * ratio.powi(4) * most;
+    let areas = one.area * other.area;
+    let error = kernel::error(one, other, 2) * areas;
     if error <= tolerance {
         return found(rough, error);
     }
-    // A triangle's rule has a degree less.
-    let is_triangular = one.cells.iter().chain(&other.cells).any(|cell| cell[2] == cell[3]);
-    let lost = i32::from(is_triangular);
-    for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4)] {
-        let error = kernel::ERROR * ratio.powi(2 * power - lost) * most;
+    for (rule, nodes) in [(&RULE_3[..], 3), (&RULE_4[..], 4)] {
+        let error = kernel::error(one, other, nodes) * areas;
         if error <= tolerance {
             return found(kernel::exchange_by(one, other, rule), error);
         }
     }
+    let square = one.middle.distance_squared(other.middle);
+    // The largest that the kernel may be.
+    let most = areas / (PI * square);
     let (near, far) = if one.radius <= other.radius { (one, other) } else { (other, one) };
     let away = square.sqrt() - far.radius;
     let ratio = near.radius / away.max(near.radius);
     // An edge's part is its angle at most, and they cancel where the view is flat.
     let rounding = 4.0 * f64::EPSILON * far.edges.len() as f64 * (far.radius / away).min(1.0) * near.area;
     for (rule, power) in [(&RULE_3[..], 3), (&RULE_4[..], 4), (&RULE_6[..], 6)] {
-        let error = ratio.powi(2 * power) * most + rounding;
+        let error = 10.0 * ratio.powi(2 * power - i32::from(near.is_triangular)) * most + rounding;
         if error <= tolerance {
             return found(points(near, far, rule), error);
         }

@@ -27,6 +27,10 @@ pub(crate) struct Surface {
     /// The boundary, with the surface to the left.
     pub(crate) edges: Vec<[DVec3; 2]>,
     pub(crate) cells: Vec<Cell>,
+    /// Halves of the sides of its cells, the fourth root of the sum of both ways' fourth powers: the largest.
+    pub(crate) side: f64,
+    /// Whether some cell is a triangle.
+    pub(crate) is_triangular: bool,
     /// Four nodes of each cell.
     pub(crate) nodes: Vec<Nodes>,
 }
@@ -92,7 +96,11 @@ impl Surface {
         let area = pieces.iter().map(|piece| area(piece)).sum();
         let cells: Vec<Cell> = pieces.iter().flat_map(|piece| fan(piece)).collect();
         let nodes = cells.iter().map(Nodes::of).collect();
+        let side = cells.iter().map(half_side).fold(0.0, f64::max);
+        let is_triangular = cells.iter().any(|cell| cell[2] == cell[3]);
         Self {
+            side,
+            is_triangular,
             face: [points[0], polygon.normal()],
             middle,
             radius,
@@ -113,6 +121,11 @@ impl Surface {
             Origin::Plane(plane) => self.plane == plane,
         }
     }
+}
+
+fn half_side([a, b, c, d]: &Cell) -> f64 {
+    let ways = [a.distance(*b).max(c.distance(*d)), b.distance(*c).max(d.distance(*a))];
+    ways.map(|way| (way / 2.0).powi(4)).iter().sum::<f64>().sqrt().sqrt()
 }
 
 /// The edges of a polygon's rings, outer ones counter-clockwise and holes clockwise.
