@@ -19,18 +19,21 @@ pub(super) struct Allowed {
     pub(super) relative: f64,
     /// Of its value were nothing in between.
     pub(super) of_whole: f64,
+    /// Of the integral over both, whatever it were: an equal share of what is left of a row's tolerance.
+    pub(super) equal: f64,
     pub(super) evaluations: u64,
 }
 
 impl Allowed {
     /// A part of it.
     pub(super) fn part(&self, share: f64) -> Self {
-        let [absolute, relative, of_whole] = [self.absolute, self.relative, self.of_whole].map(|x| x * share);
-        Self { absolute, relative, of_whole, ..*self }
+        let parts = [self.absolute, self.relative, self.of_whole, self.equal].map(|x| x * share);
+        let [absolute, relative, of_whole, equal] = parts;
+        Self { absolute, relative, of_whole, equal, ..*self }
     }
 
     pub(super) fn error(&self, value: f64, whole: f64) -> f64 {
-        self.absolute.max(self.relative * value).min(self.of_whole * whole)
+        self.absolute.max(self.relative * value).min(self.of_whole * whole + self.equal)
     }
 }
 

@@ -215,6 +215,7 @@ impl Enclosure {
             absolute: tolerance.absolute * areas[0].min(areas[1]),
             relative: tolerance.relative,
             of_whole: tolerance.row / 2.0,
+            equal: tolerance.row / 2.0 * areas[0].min(areas[1]) / self.polygons().len() as f64,
             evaluations: limits.per_pair,
         };
         let found = outlook.exchange(second, &allowed, eye, limits.stop)?;

@@ -4,9 +4,9 @@ use crate::error::Error;
 /// What form factors between areas may err by.
 ///
 /// An entry is refined until its estimated error is within `absolute`, or within `relative` of its value. In rows and matrices
-/// the estimated errors of a row's entries also add to `row` at most. Each entry gets a part of that in proportion to what it
-/// were with nothing in between, so that large factors, which cost as much to know to a digit as small ones, may err by more.
-/// The looser, the cheaper.
+/// the estimated errors of a row's entries also add to `row` at most: half of it goes to all in equal shares, half in proportion to what
+/// they were with nothing in between, so that large factors, which cost as much to know to a digit as small ones, may err by more and
+/// faint ones cost next to nothing. The looser, the cheaper.
 ///
 /// A plain number is a tolerance for each entry and for each row.
 #[derive(Clone, Copy, Debug, PartialEq)]
