@@ -14,7 +14,7 @@ const ORDER: [&str; 89] = [
     "approx/visibility_index", "approx/pietrek", "approx/wallace", "approx/exact", "approx/gather", "approx/disk",
     "approx/screen", "approx/ray", "approx/frame", "approx/parts", "approx/contour", "approx/delta", "approx/random",
     "approx/method",
-    "area", "area/pair", "area/cubature", "area/queue", "area/contour", "area/kernel", "area/events", "area/patch", "area/estimate", "area/point",
+    "area", "area/pair", "area/cubature", "area/queue", "area/events", "area/contour", "area/kernel", "area/patch", "area/estimate", "area/point",
     "area/clip", "area/lambert", "area/integral", "area/tolerance",
     "scene", "scene/enclosure", "scene/surfaces", "scene/coplanar", "scene/occluder", "scene/apart", "scene/pool", "scene/shaft",
     "scene/body", "scene/tree",
