@@ -15,7 +15,7 @@ const ORDER: [&str; 97] = [
     "approx/screen", "approx/ray", "approx/frame", "approx/parts", "approx/contour", "approx/delta", "approx/random",
     "approx/method",
     "matrix", "matrix/closure", "matrix/gray", "matrix/group", "matrix/threshold", "matrix/rows", "matrix/sparse",
-    "area", "area/pair", "area/cubature", "area/queue", "area/contour", "area/kernel", "area/events", "area/patch", "area/estimate", "area/point",
+    "area", "area/pair", "area/cubature", "area/queue", "area/events", "area/contour", "area/kernel", "area/patch", "area/estimate", "area/point",
     "area/clip", "area/lambert", "area/integral", "area/tolerance",
     "scene", "scene/enclosure", "scene/surfaces", "scene/coplanar", "scene/occluder", "scene/apart", "scene/pool", "scene/shaft",
     "scene/body", "scene/tree",
