@@ -410,7 +410,7 @@ fn a_killed_run_goes_on_and_ends_with_the_same_bits() {
     let [whole, killed] = ["whole.csv", "killed.csv"].map(|name| folder.path().join(name));
     assert!(killed_at(scene, &whole, u64::MAX, "1"));
     assert!(!folder.path().join("whole.csv.rows").exists(), "a run that ends needs no journal");
-    assert!(!killed_at(scene, &killed, 8, "2"), "it ended before it was killed");
+    assert!(!killed_at(scene, &killed, 1000, "2"), "it ended before it was killed");
     let rows = folder.path().join("killed.csv.rows");
     // A kill may cut a row short.
     let cut = std::fs::read(&rows).unwrap();
@@ -432,4 +432,21 @@ fn a_run_that_takes_too_long_stops_and_says_so() {
     assert_eq!(code, Some(4), "{stderr}");
     assert!(stderr.contains("stopped: ") && stderr.contains("the same command goes on"), "{stderr}");
     assert!(!out.exists(), "a file is whole or not there");
+}
+
+#[test]
+fn files_that_are_no_journals_stay() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, out, notes] = ["room.vs3", "out.csv", "out.csv.rows"].map(|name| folder.path().join(name));
+    std::fs::write(&scene, ROOM).unwrap();
+    std::fs::write(&notes, "my notes").unwrap();
+    let run = |more: &[&str]| {
+        let named = [&scene, &out].map(|path| path.to_str().unwrap());
+        radiosity(&[&["factors", named[0], "-o", named[1]], more].concat())
+    };
+    assert_eq!(run(&[]).0, Some(0), "rows from middles need no journal");
+    let (code, _, stderr) = run(&["--area", "1e-3"]);
+    assert_eq!(code, Some(1));
+    assert!(stderr.contains("out.csv.rows: no journal of rows"), "{stderr}");
+    assert_eq!(std::fs::read(&notes).unwrap(), b"my notes");
 }

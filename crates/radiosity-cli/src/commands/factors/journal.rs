@@ -1,6 +1,6 @@
 //! Rows found so far, in a file: a run that was killed goes on from there.
 //!
-//! The file starts with a fingerprint of what was asked. Each row is its length in bytes, its numbers, and a hash of these, all
+//! The file starts with a line that says what it is and a fingerprint of what was asked. Each row is its length in bytes, its numbers, and a hash of these, all
 //! little-endian: what a kill cut short is not taken for a row.
 use crate::failure::Failure;
 use fnv::FnvHasher;
@@ -10,6 +10,9 @@ use std::hash::Hasher;
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+/// What every journal starts with, so that no other file is taken for one.
+const MAGIC: &[u8] = b"radiosity factors: rows 1\n";
+
 #[derive(Debug)]
 pub(super) struct Journal {
     file: File,
@@ -18,7 +21,8 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens a journal, or starts one; reads the rows in it. One of another scene, tolerance or version is started anew.
+    /// Opens a journal, or starts one; reads the rows in it. One of another scene, tolerance or version is started anew; a file that is no
+    /// journal is left alone.
     pub(super) fn open(path: &Path, enclosure: &Enclosure, tolerance: f64) -> Result<Journal, Failure> {
         let refused = |error: std::io::Error| {
             Failure::internal(format!("{}: cannot be written: {error}", path.display()))
@@ -32,15 +36,20 @@ impl Journal {
             .map_err(refused)?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(refused)?;
-        let fingerprint = fingerprint(enclosure, tolerance).to_le_bytes();
-        let (mut rows, mut end) = (Vec::new(), fingerprint.len());
-        if bytes.starts_with(&fingerprint) {
+        if !bytes.is_empty() && !bytes.starts_with(MAGIC) {
+            let message =
+                format!("{}: no journal of rows; move it away or name another output", path.display());
+            return Err(Failure::internal(message));
+        }
+        let start = [MAGIC, &fingerprint(enclosure, tolerance).to_le_bytes()].concat();
+        let (mut rows, mut end) = (Vec::new(), start.len());
+        if bytes.starts_with(&start) {
             while let Some((row, next)) = read(&bytes, end, enclosure.polygons().len()) {
                 rows.push(row);
                 end = next;
             }
         } else {
-            file.seek(SeekFrom::Start(0)).and_then(|_| file.write_all(&fingerprint)).map_err(refused)?;
+            file.seek(SeekFrom::Start(0)).and_then(|_| file.write_all(&start)).map_err(refused)?;
         }
         // What is cut short is overwritten.
         file.set_len(end as u64).and_then(|()| file.seek(SeekFrom::Start(end as u64))).map_err(refused)?;

@@ -121,7 +121,9 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
         Some(path) => io::save(path, &bytes)?,
         None => print(&String::from_utf8_lossy(&bytes))?,
     }
-    pairs::forget(arguments.output.as_deref());
+    if arguments.area.is_some() && is_whole(arguments) {
+        pairs::forget(arguments.output.as_deref());
+    }
     Ok(ExitCode::SUCCESS)
 }
 

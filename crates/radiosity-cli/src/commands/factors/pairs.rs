@@ -19,7 +19,8 @@ pub(super) fn find(
     patience: &Patience,
 ) -> Result<Option<Vec<ExchangeRow>>, Failure> {
     let count = enclosure.polygons().len();
-    let mut journal = output.map(|path| Journal::open(&beside(path), enclosure, tolerance)).transpose()?;
+    let mut journal =
+        output.and_then(beside).map(|path| Journal::open(&path, enclosure, tolerance)).transpose()?;
     let mut rows = journal.as_mut().map(Journal::take_rows).unwrap_or_default();
     let mut tally = Tally::new(count, rows.iter().map(|row| row.from));
     let mut is_known = vec![false; count];
@@ -43,16 +44,16 @@ pub(super) fn find(
     Ok(Some(rows))
 }
 
-/// The journal's place.
-fn beside(output: &Path) -> PathBuf {
+/// The journal's place; none beside what is no file (`/dev/stdout`, a pipe).
+fn beside(output: &Path) -> Option<PathBuf> {
     let mut name = output.to_owned().into_os_string();
     name.push(".rows");
-    name.into()
+    (!output.exists() || output.is_file()).then(|| name.into())
 }
 
 /// Removes the journal: the output holds all. One that cannot be removed does no harm.
 pub(super) fn forget(output: Option<&Path>) {
-    if let Some(output) = output {
-        let _ = std::fs::remove_file(beside(output));
+    if let Some(journal) = output.and_then(beside) {
+        let _ = std::fs::remove_file(journal);
     }
 }
