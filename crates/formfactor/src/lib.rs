@@ -140,7 +140,7 @@ mod shapes;
 mod stats;
 mod visible_part;
 
-pub use area::{AreaFormFactor, Limits, Row, Tolerance};
+pub use area::{AreaFormFactor, BoundedFormFactor, Limits, Row, Tolerance};
 pub use complement::unoccluded_complement;
 pub use error::Error;
 pub use form_factor::FormFactor;

@@ -32,6 +32,13 @@ pub(super) fn exchange(one: &Surface, other: &Surface, tolerance: f64) -> [f64; 
     [sum / TAU, error / TAU]
 }
 
+/// Whether the integral has a closed form: edges are parallel or perpendicular.
+pub(super) fn is_closed(one: &Surface, other: &Surface) -> bool {
+    let way = |[a, b]: &Segment| *b - *a;
+    let is_plain = |p: DVec3, q: DVec3| p.dot(q) == 0.0 || p.cross(q) == DVec3::ZERO;
+    one.edges.iter().all(|p| other.edges.iter().all(|q| is_plain(way(p), way(q))))
+}
+
 /// (p . q) times the integral of ln(r / size), which in sum over closed loops is that of ln r.
 fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2] {
     let (way, other) = (b - a, d - c);

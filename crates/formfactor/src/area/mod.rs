@@ -2,6 +2,7 @@
 //!
 //! F(i -> j) is the mean over polygon i of the exact point form factors to polygon j. Where nothing stands in between it
 //! has a closed form; elsewhere it is taken by adaptive cubature, whose cells are cut where the view changes its shape.
+mod bounded;
 mod clip;
 mod contour;
 mod cubature;
@@ -13,6 +14,7 @@ mod lambert;
 mod pair;
 mod patch;
 mod point;
+mod proven;
 mod queue;
 mod tolerance;
 
@@ -23,6 +25,7 @@ use pair::Outlook;
 use point::Eye;
 use std::cmp::Ordering;
 
+pub use bounded::BoundedFormFactor;
 pub use tolerance::{Limits, Tolerance};
 
 /// A form factor from a polygon to a polygon, with an estimate of its error.

@@ -3,6 +3,7 @@ use super::cubature::Cubature;
 use super::integral::{Allowed, Integral, least_whole};
 use super::lambert::lambert;
 use super::point::{Eye, Near};
+use super::proven::Proof;
 use super::{contour, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
@@ -58,6 +59,27 @@ impl<'e> Outlook<'e> {
         Cubature::new(one, other, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
     }
 
+    /// The same as an interval that holds. What is given may lie `deviation` from where it stands.
+    pub(super) fn proven(
+        &self,
+        target: usize,
+        allowed: &Allowed,
+        deviation: f64,
+        is_cancelled: &(impl Fn() -> bool + ?Sized),
+    ) -> Option<Integral> {
+        let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
+        let occluders = self.between(other);
+        let (one, other) = in_order(one, other, &occluders);
+        let deviation = deviation + rounded([one, other], &occluders);
+        let swept = SWEPT * deviation * edges([one, other], &occluders);
+        if occluders.is_empty() && contour::is_closed(one, other) && are_before([one, other]) {
+            let [value, error] = contour::exchange(one, other, 0.0);
+            return Some(Integral { value, error: SURE * error + swept, evaluations: 0 });
+        }
+        let found = Proof::new(one, other, &occluders, deviation).integrate(allowed, is_cancelled)?;
+        Some(Integral { error: found.error + swept, ..found })
+    }
+
     /// What can stand between this polygon and another one.
     fn between(&self, other: &Surface) -> Vec<Near<'_>> {
         let one = &self.surfaces.surfaces[self.id];
@@ -101,6 +123,36 @@ fn in_order<'s>(one: &'s Surface, other: &'s Surface, occluders: &[Near]) -> (&'
     }
 }
 
+/// Roundings of a closed form are raised by so much.
+const SURE: f64 = 8.0;
+
+/// A deviation moves what edges seem to meet by no more than twice as much, to either side.
+const SWEPT: f64 = 4.0;
+
+/// How far roundings of clipped corners and of what side they are on may move them.
+fn rounded(pair: [&Surface; 2], occluders: &[Near]) -> f64 {
+    let own = pair.iter().flat_map(|surface| surface.pieces.iter().flatten());
+    let points = own.chain(occluders.iter().flat_map(|occluder| &occluder.corners));
+    let (middle, mut extent, mut largest) = (pair[0].middle, 0.0_f64, 0.0_f64);
+    for point in points {
+        extent = extent.max(point.distance(middle));
+        largest = largest.max(point.abs().max_element());
+    }
+    1e-12 * extent + 8.0 * f64::EPSILON * largest
+}
+
+/// The length of all edges. What passes the strip that an edge sweeps is no more than the strip's area.
+fn edges(pair: [&Surface; 2], occluders: &[Near]) -> f64 {
+    let own = pair.iter().flat_map(|surface| &surface.edges).map(|[a, b]| a.distance(*b));
+    let ridges = occluders.iter().flat_map(|occluder| &occluder.ridges);
+    own.chain(ridges.map(|ridge| ridge.ends[0].distance(ridge.ends[1]))).sum()
+}
+
+/// Whether each of two is wholly before the other's plane.
+fn are_before([one, other]: [&Surface; 2]) -> bool {
+    is_wholly_before(one, other.face) && is_wholly_before(other, one.face)
+}
+
 /// Whether all of a surface is before a plane.
 fn is_wholly_before(surface: &Surface, [on, normal]: Face) -> bool {
     let middle = surface.middle - on;
@@ -111,7 +163,7 @@ fn is_wholly_before(surface: &Surface, [on, normal]: Face) -> bool {
 
 /// With nothing in between and each wholly before the other's plane: the cheapest rule that is good enough.
 fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Integral> {
-    if !(is_wholly_before(one, other.face) && is_wholly_before(other, one.face)) {
+    if !are_before([one, other]) {
         return None;
     }
     let square = one.middle.distance_squared(other.middle);

@@ -3,3 +3,4 @@ pub(crate) mod gauss;
 pub(crate) mod offset;
 pub(crate) mod predicates;
 pub(crate) mod rounding;
+pub(crate) mod taylor;

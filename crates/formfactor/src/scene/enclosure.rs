@@ -66,6 +66,11 @@ impl Enclosure {
         &self.tree
     }
 
+    /// How far a vertex may lie from where it stands.
+    pub(crate) fn deviation(&self) -> f64 {
+        self.deviation
+    }
+
     pub(crate) fn surfaces(&self) -> &Surfaces {
         &self.surfaces
     }

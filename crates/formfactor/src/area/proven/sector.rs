@@ -1,0 +1,136 @@
+//! What a point that moves in a cell sees within curtains: a convex polygon of directions, cut by others.
+use super::chart::Chart;
+use super::curtain::{Bearing, Curtain, Divide, Sign, linear_sign};
+use crate::scene::occluder::{CAP, Occluder};
+use glam::DVec3;
+
+/// Corners, each with the curtain to the next, counter-clockwise as the point sees them.
+#[derive(Clone, Debug)]
+pub(super) struct Sector {
+    pub(super) corners: Vec<(Bearing, Curtain)>,
+}
+
+/// What of a sector is inside of others, and the share of the cell on which that is not so.
+#[derive(Debug)]
+pub(super) enum Common {
+    Nothing(f64),
+    Part(Sector, f64),
+    All(f64),
+}
+
+/// The curtains of an occluder's silhouette.
+pub(super) type Cast = Vec<Curtain>;
+
+/// The silhouette of an occluder, seen from all of a cell.
+///
+/// # Errors
+/// What parts the cell, where some of it sees a face and some does not.
+pub(super) fn cast(chart: &Chart, occluder: &Occluder, deviation: f64) -> Result<Cast, Divide> {
+    let mut facing = Vec::with_capacity(occluder.faces.len());
+    for [on, normal] in &occluder.faces {
+        let [c, a, b] = chart.toward(*on).map(|way| -normal.dot(way));
+        match linear_sign(chart, [c, a, b], 2.0 * deviation) {
+            Sign::Inside(0.0) => facing.push(true),
+            Sign::Outside(0.0) | Sign::On => facing.push(false),
+            Sign::Unclear(divide) => return Err(divide),
+            Sign::Inside(_) | Sign::Outside(_) => return Err(Divide::Line([c, a, b])),
+        }
+    }
+    debug_assert!(occluder.ridges.iter().flat_map(|r| r.sides).all(|s| s == CAP || s < facing.len()));
+    Ok(occluder.silhouette(&facing).map(|ends| Curtain { ends }).collect())
+}
+
+impl Sector {
+    /// A convex polygon, counter-clockwise seen from its front.
+    pub(super) fn of(points: &[DVec3]) -> Self {
+        let next = points.iter().cycle().skip(1);
+        let corner = |(a, b): (&DVec3, &DVec3)| (Bearing::Point(*a), Curtain { ends: [*a, *b] });
+        Self { corners: points.iter().zip(next).filter(|(a, b)| a != b).map(corner).collect() }
+    }
+
+    /// What of it is inside of all curtains.
+    ///
+    /// # Errors
+    /// What parts the cell, where that has one shape from some points and another one from others.
+    pub(super) fn within(&self, cast: &Cast, chart: &Chart, deviation: f64) -> Result<Common, Divide> {
+        let sides = |curtain: &Curtain, of: &Self| -> Vec<Sign> {
+            of.corners.iter().map(|(bearing, _)| curtain.side_of(chart, bearing, deviation)).collect()
+        };
+        let mut order: Vec<(bool, &Curtain)> = Vec::with_capacity(cast.len());
+        for curtain in cast {
+            let signs = sides(curtain, self);
+            if signs.iter().all(|sign| matches!(sign, Sign::Outside(_) | Sign::On)) {
+                return Ok(Common::Nothing(doubt(&signs)));
+            }
+            order.push((signs.iter().any(|sign| matches!(sign, Sign::Unclear(_))), curtain));
+        }
+        // What is cut off by curtains that are clear need not be asked of others.
+        order.sort_by_key(|(is_unclear, _)| *is_unclear);
+        let (mut left, mut share, mut is_cut) = (self.clone(), 0.0, false);
+        for (_, curtain) in order {
+            let signs = sides(curtain, &left);
+            if let Some(divide) = signs.iter().find_map(|sign| sign.divide()) {
+                return Err(divide);
+            }
+            share += doubt(&signs);
+            if !signs.iter().any(|sign| matches!(sign, Sign::Outside(_))) {
+                continue;
+            }
+            if !signs.iter().any(|sign| matches!(sign, Sign::Inside(_))) {
+                return Ok(Common::Nothing(share));
+            }
+            left = left.cut(curtain, &signs);
+            is_cut = true;
+        }
+        Ok(if is_cut { Common::Part(left, share) } else { Common::All(share) })
+    }
+
+    /// What is inside of a curtain, some being inside and some outside.
+    fn cut(&self, curtain: &Curtain, signs: &[Sign]) -> Self {
+        let count = self.corners.len();
+        let is_outside = |i: usize| matches!(signs[i % count], Sign::Outside(_));
+        let is_inside = |i: usize| matches!(signs[i % count], Sign::Inside(_));
+        let mut corners = Vec::with_capacity(count + 1);
+        for (i, (bearing, along)) in self.corners.iter().enumerate() {
+            let before = self.corners[(i + count - 1) % count].1;
+            if is_inside(i) {
+                corners.push((*bearing, *along));
+            } else if !is_outside(i) {
+                // On it: a corner that is left by another curtain, or entered by it.
+                let [enters, leaves] = [is_outside(i + count - 1), is_outside(i + 1)];
+                let both = [if enters { *curtain } else { before }, if leaves { *curtain } else { *along }];
+                corners.push((on(bearing, both), both[1]));
+            }
+            if is_inside(i) && is_outside(i + 1) {
+                corners.push((meeting([*along, *curtain]), *curtain));
+            } else if is_outside(i) && is_inside(i + 1) {
+                corners.push((meeting([*curtain, *along]), *along));
+            }
+        }
+        Self { corners }
+    }
+}
+
+impl Sign {
+    fn divide(self) -> Option<Divide> {
+        if let Self::Unclear(divide) = self { Some(divide) } else { None }
+    }
+}
+
+fn doubt(signs: &[Sign]) -> f64 {
+    signs.iter().map(|sign| sign.doubt()).sum()
+}
+
+/// A corner that lies on both of two curtains.
+fn on(bearing: &Bearing, both: [Curtain; 2]) -> Bearing {
+    match bearing {
+        Bearing::Point(_) => *bearing,
+        Bearing::Crossing(_) => meeting(both),
+    }
+}
+
+/// Where one curtain comes to the next: at a vertex that both have, or where they cross.
+fn meeting([inward, outward]: [Curtain; 2]) -> Bearing {
+    let shared = inward.ends.into_iter().find(|end| outward.ends.contains(end));
+    shared.map_or(Bearing::Crossing([inward, outward]), Bearing::Point)
+}
