@@ -87,11 +87,22 @@ fn report(tolerance: f64, found: &[Outcome]) -> Result<(), Box<dyn Error>> {
         quantiles(found.iter().map(|o| o.seconds[0] / o.seconds[1]).collect()),
     )?;
     for outcome in found.iter().filter(|outcome| outcome.beyond > 0.0) {
-        writeln!(out, "wrong: {}, by {:.1e} more than {:.1e}", pair(outcome.seed).name, outcome.beyond, outcome.width / 2.0)?;
+        writeln!(
+            out,
+            "wrong: {}, by {:.1e} more than {:.1e}",
+            pair(outcome.seed).name,
+            outcome.beyond,
+            outcome.width / 2.0
+        )?;
     }
     for outcome in found.iter().filter(wide) {
         let [own, estimate] = outcome.evaluations;
-        writeln!(out, "wide: {}, {:.1e} after {own} evaluations of {estimate}", pair(outcome.seed).name, outcome.width)?;
+        writeln!(
+            out,
+            "wide: {}, {:.1e} after {own} evaluations of {estimate}",
+            pair(outcome.seed).name,
+            outcome.width
+        )?;
     }
     Ok(())
 }

@@ -1,6 +1,9 @@
 //! A cell of the source as part of a square, in which all that is seen from it is a function of two variables.
 use crate::area::patch::Patch;
-use crate::numeric::{gauss::RULE_3, taylor::{TERMS, Taylor}};
+use crate::numeric::{
+    gauss::RULE_3,
+    taylor::{TERMS, Taylor},
+};
 use crate::shapes::cell::{fan, nodes};
 use glam::{DVec2, DVec3};
 
@@ -28,7 +31,8 @@ impl Chart {
         });
         let along = longest.normalize_or(DVec3::X);
         let off = points.iter().map(|p| (*p - points[0]).reject_from_normalized(along));
-        let across = off.fold(DVec3::ZERO, |most, p| if p.length_squared() > most.length_squared() { p } else { most });
+        let across = off
+            .fold(DVec3::ZERO, |most, p| if p.length_squared() > most.length_squared() { p } else { most });
         let across = across.normalize_or(along.any_orthonormal_vector());
         let flat: Vec<DVec2> =
             points.iter().map(|p| *p - points[0]).map(|p| DVec2::new(p.dot(along), p.dot(across))).collect();
@@ -85,7 +89,8 @@ impl Chart {
         let turn = |axis: DVec3, way: DVec3| axis.cross(way).length() / way.length_squared();
         let most = points.fold([0.0_f64; 2], |[u, v], point| {
             let nearest = self.patch.corners().iter().map(|corner| point - *corner);
-            nearest.fold([u, v], |[u, v], way| [u.max(turn(self.axes[0], way)), v.max(turn(self.axes[1], way))])
+            nearest
+                .fold([u, v], |[u, v], way| [u.max(turn(self.axes[0], way)), v.max(turn(self.axes[1], way))])
         });
         let most = if most.iter().all(|x| x.is_finite()) { most } else { self.axes.map(DVec3::length) };
         usize::from(most[1] > most[0])

@@ -1,6 +1,6 @@
 //! Planes through a point that moves in a cell and a fixed edge, where they meet, and on which side of others that is.
 use super::chart::{Chart, Varying};
-use crate::numeric::taylor::Taylor;
+use crate::numeric::taylor::{TERMS, Taylor};
 use glam::DVec3;
 
 /// The plane through the point and an edge; inside is to the left as the point sees the edge run.
@@ -16,6 +16,8 @@ pub(super) enum Bearing {
     Point(DVec3),
     /// To where an edge seems to cross the next one.
     Crossing([Curtain; 2]),
+    /// Away from where an edge seems to cross the next one.
+    Opposite([Curtain; 2]),
 }
 
 /// On which side of a curtain a corner is, for all points of a cell.
@@ -45,6 +47,18 @@ const TOUCH: f64 = 1e-6;
 
 /// A sign of higher degree that may be wrong on no more than this share of the cell counts.
 const CURVED: f64 = 0.5;
+
+impl Bearing {
+    /// The direction from the middle of a cell.
+    pub(super) fn middle(&self, chart: &Chart) -> DVec3 {
+        let normals = |both: &[Curtain; 2]| both.map(|curtain| curtain.normal(chart)[0]);
+        match self {
+            Self::Point(point) => chart.toward(*point)[0],
+            Self::Crossing(both) => normals(both)[1].cross(normals(both)[0]),
+            Self::Opposite(both) => normals(both)[0].cross(normals(both)[1]),
+        }
+    }
+}
 
 impl Sign {
     /// Of a product.
@@ -85,16 +99,18 @@ pub(super) fn linear_sign(chart: &Chart, line: [f64; 3], least: f64) -> Sign {
     }
     let below = chart.share_below(line);
     if below <= TOUCH {
-        Sign::Inside(below + ROUNDED)
+        Sign::Inside(doubt(below))
     } else if below >= 1.0 - TOUCH {
-        Sign::Outside(1.0 - below + ROUNDED)
+        Sign::Outside(doubt(1.0 - below))
     } else {
         Sign::Unclear(Divide::Line(line))
     }
 }
 
-/// What a share of a cell may be off by.
-const ROUNDED: f64 = 1e-12;
+/// A share of a cell, raised by what roundings may change; none is none.
+fn doubt(share: f64) -> f64 {
+    if share > 0.0 { share + 1e-12 } else { 0.0 }
+}
 
 impl Curtain {
     /// Its normal inward, as long as the edge's line is away from the point.
@@ -134,11 +150,32 @@ impl Curtain {
     ///
     /// With normals N = b x a the crossing of I and O is along O x I, and W . (O x I) = I . (W x O). Where W and O run from
     /// q to w and to o, W x O is -[w, q, o] q.
-    fn side_by_end(&self, chart: &Chart, near: &Self, far: &Self, end: DVec3, deviation: f64) -> Option<Sign> {
+    fn side_by_end(
+        &self,
+        chart: &Chart,
+        near: &Self,
+        far: &Self,
+        end: DVec3,
+        deviation: f64,
+    ) -> Option<Sign> {
         let ((other, is_first), (near_other, near_is_first)) = (self.from_end(end)?, near.from_end(end)?);
         let volume = Self { ends: [end, other] }.side(chart, near_other, deviation);
         let sign = volume.times(far.side(chart, end, deviation));
         Some(if is_first == near_is_first { sign.turned() } else { sign })
+    }
+
+    /// The same where this one and `near` run along parallel edges: where W runs along w and O along w or -w, W x O is [w, a, b] w or
+    /// its opposite, for a and b the ways to a point of each, and [w, a, b] is W . b.
+    fn side_by_way(&self, chart: &Chart, near: &Self, far: &Self, deviation: f64) -> Option<Sign> {
+        let [way, near_way] = [self, near].map(|curtain| curtain.ends[1] - curtain.ends[0]);
+        if way.cross(near_way).length() > deviation * way.length() {
+            return None;
+        }
+        let along = way.normalize_or_zero();
+        let normal = far.normal(chart);
+        let across = linear_sign(chart, normal.map(|n| n.dot(along)), 2.0 * deviation);
+        let sign = self.side(chart, near.ends[0], deviation).times(across);
+        Some(if way.dot(near_way) > 0.0 { sign } else { sign.turned() })
     }
 
     /// On which side of this one the crossing of two others is.
@@ -153,6 +190,12 @@ impl Curtain {
         if let Some(sign) = by_end(&inward, &outward) {
             return sign.turned();
         }
+        if let Some(sign) = self.side_by_way(chart, &outward, &inward, deviation) {
+            return sign;
+        }
+        if let Some(sign) = self.side_by_way(chart, &inward, &outward, deviation) {
+            return sign.turned();
+        }
         let normals = [self, &outward, &inward].map(|curtain| curtain.normal(chart));
         let least = deviation * normals.map(reach).iter().product::<f64>() / chart_size(chart, self);
         sign_of(chart, &determinant(normals), least)
@@ -162,8 +205,9 @@ impl Curtain {
     pub(super) fn side_of(&self, chart: &Chart, bearing: &Bearing, deviation: f64) -> Sign {
         match bearing {
             Bearing::Point(point) => self.side(chart, *point, deviation),
-            Bearing::Crossing(both) if both.contains(self) => Sign::On,
+            Bearing::Crossing(both) | Bearing::Opposite(both) if both.contains(self) => Sign::On,
             Bearing::Crossing(both) => self.side_of_crossing(chart, *both, deviation),
+            Bearing::Opposite(both) => self.side_of_crossing(chart, *both, deviation).turned(),
         }
     }
 }
@@ -189,9 +233,9 @@ fn sign_of(chart: &Chart, model: &Taylor, least: f64) -> Sign {
     let outside = chart.share_below([c - bend, a, b]);
     let inside = chart.share_below([-c - bend, -a, -b]);
     if outside <= CURVED && outside <= inside {
-        Sign::Inside(outside + ROUNDED)
+        Sign::Inside(doubt(outside))
     } else if inside <= CURVED {
-        Sign::Outside(inside + ROUNDED)
+        Sign::Outside(doubt(inside))
     } else {
         Sign::Unclear(Divide::Curve)
     }
@@ -208,11 +252,46 @@ pub(super) fn dot(a: &Vector, b: &Vector) -> Taylor {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
-    [[1, 2], [2, 0], [0, 1]].map(|[i, j]| a[i] * b[j] - a[j] * b[i])
+/// The terms of a product of two, of degree 2.
+fn product([p, pu, pv]: Varying, [q, qu, qv]: Varying) -> [DVec3; 6] {
+    [
+        p.cross(q),
+        p.cross(qu) + pu.cross(q),
+        p.cross(qv) + pv.cross(q),
+        pu.cross(qu),
+        pu.cross(qv) + pv.cross(qu),
+        pv.cross(qv),
+    ]
 }
 
-/// Of three vectors.
-pub(super) fn determinant([a, b, c]: [Varying; 3]) -> Taylor {
-    dot(&models(a), &cross(&models(b), &models(c)))
+/// The cross product of two, `scale` times as long.
+pub(super) fn cross(p: Varying, q: Varying) -> (Vector, f64) {
+    let terms = product(p, q);
+    let scale = terms[0].length().recip();
+    let size = reach(p) * reach(q) * scale;
+    let component = |i: usize| {
+        let mut all = [0.0; TERMS];
+        all.iter_mut().zip(terms).for_each(|(term, vector)| *term = vector[i] * scale);
+        Taylor::polynomial(all, size)
+    };
+    ([0, 1, 2].map(component), scale)
+}
+
+/// p . (q x r)
+pub(super) fn determinant([p, q, r]: [Varying; 3]) -> Taylor {
+    let [c, u, v, uu, uv, vv] = product(q, r);
+    let [p, pu, pv] = p;
+    let terms = [
+        p.dot(c),
+        p.dot(u) + pu.dot(c),
+        p.dot(v) + pv.dot(c),
+        p.dot(uu) + pu.dot(u),
+        p.dot(uv) + pu.dot(v) + pv.dot(u),
+        p.dot(vv) + pv.dot(v),
+        pu.dot(uu),
+        pu.dot(uv) + pv.dot(uu),
+        pu.dot(vv) + pv.dot(uv),
+        pv.dot(vv),
+    ];
+    Taylor::polynomial(terms, reach([p, pu, pv]) * reach(q) * reach(r))
 }

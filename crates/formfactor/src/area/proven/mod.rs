@@ -14,15 +14,16 @@ use super::clip::before;
 use super::integral::{Allowed, Integral, most};
 use super::patch::{MOST_CORNERS, Patch};
 use super::point::Near;
+use crate::numeric::taylor::Taylor;
 use crate::scene::apart::are_apart;
 use crate::scene::surfaces::Surface;
 use crate::shapes::cell::fan;
 use chart::Chart;
 use curtain::Divide;
+use factor::Sight;
 use glam::DVec3;
 use sector::{Cast, Sector, cast};
-use crate::numeric::taylor::Taylor;
-use sight::{Sight, Sum};
+use sight::Sum;
 use std::{cmp::Ordering, collections::BinaryHeap, rc::Rc};
 
 /// A cell and what is known of it.
@@ -138,7 +139,15 @@ impl<'p> Proof<'p> {
             return;
         }
         let half = most * patch.area() / 2.0;
-        self.add(Known { patch, value: half, error: half, most, near: near.clone(), is_seen: false, number: 0 });
+        self.add(Known {
+            patch,
+            value: half,
+            error: half,
+            most,
+            near: near.clone(),
+            is_seen: false,
+            number: 0,
+        });
     }
 
     fn add(&mut self, mut cell: Known) {
@@ -160,7 +169,8 @@ impl<'p> Proof<'p> {
         let near = self.near(&chart, &cell.near);
         let sight = Sight { chart: &chart, normal: self.normal, deviation: self.deviation };
         let sectors: Vec<Sector> = self.target.iter().map(|piece| Sector::of(piece)).collect();
-        let wholes: Option<Vec<Taylor>> = sectors.iter().map(|sector| sight.factor(sector)).collect();
+        let wholes: Option<Vec<Taylor>> =
+            sectors.iter().map(|sector| sight.factor(&sector.corners)).collect();
         let Some(wholes) = wholes else {
             self.part(&chart, Divide::Curve, cell.most, &near);
             return;

@@ -1,6 +1,7 @@
 //! What a point that moves in a cell sees within curtains: a convex polygon of directions, cut by others.
 use super::chart::Chart;
 use super::curtain::{Bearing, Curtain, Divide, Sign, linear_sign};
+use super::factor::Sight;
 use crate::scene::occluder::{CAP, Occluder};
 use glam::DVec3;
 
@@ -10,12 +11,21 @@ pub(super) struct Sector {
     pub(super) corners: Vec<(Bearing, Curtain)>,
 }
 
-/// What of a sector is inside of others, and the share of the cell on which that is not so.
+/// What of a sector is inside of others.
 #[derive(Debug)]
 pub(super) enum Common {
-    Nothing(f64),
-    Part(Sector, f64),
-    All(f64),
+    Nothing,
+    Part(Sector),
+    All,
+}
+
+/// What a sector that was cut may be off by, where some corners are on the other side from points of some of the cell.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Doubt {
+    /// What triangles at corners add to the mean at most.
+    pub(super) stray: f64,
+    /// The share of the cell on which it may be anything.
+    pub(super) share: f64,
 }
 
 /// The curtains of an occluder's silhouette.
@@ -48,41 +58,87 @@ impl Sector {
         Self { corners: points.iter().zip(next).filter(|(a, b)| a != b).map(corner).collect() }
     }
 
-    /// What of it is inside of all curtains.
+    /// What of it is inside of all curtains, and what that may be off by.
     ///
     /// # Errors
     /// What parts the cell, where that has one shape from some points and another one from others.
-    pub(super) fn within(&self, cast: &Cast, chart: &Chart, deviation: f64) -> Result<Common, Divide> {
-        let sides = |curtain: &Curtain, of: &Self| -> Vec<Sign> {
-            of.corners.iter().map(|(bearing, _)| curtain.side_of(chart, bearing, deviation)).collect()
-        };
+    pub(super) fn within(&self, cast: &Cast, sight: &Sight) -> Result<(Common, Doubt), Divide> {
         let mut order: Vec<(bool, &Curtain)> = Vec::with_capacity(cast.len());
         for curtain in cast {
-            let signs = sides(curtain, self);
+            let signs = self.signs(curtain, sight);
             if signs.iter().all(|sign| matches!(sign, Sign::Outside(_) | Sign::On)) {
-                return Ok(Common::Nothing(doubt(&signs)));
+                return Ok((Common::Nothing, self.doubt(curtain, &signs, sight)));
             }
             order.push((signs.iter().any(|sign| matches!(sign, Sign::Unclear(_))), curtain));
         }
         // What is cut off by curtains that are clear need not be asked of others.
         order.sort_by_key(|(is_unclear, _)| *is_unclear);
-        let (mut left, mut share, mut is_cut) = (self.clone(), 0.0, false);
+        let (mut left, mut doubt, mut is_cut) = (self.clone(), Doubt::default(), false);
         for (_, curtain) in order {
-            let signs = sides(curtain, &left);
+            let signs = left.signs(curtain, sight);
             if let Some(divide) = signs.iter().find_map(|sign| sign.divide()) {
                 return Err(divide);
             }
-            share += doubt(&signs);
+            let own = left.doubt(curtain, &signs, sight);
+            doubt = Doubt { stray: doubt.stray + own.stray, share: doubt.share + own.share };
             if !signs.iter().any(|sign| matches!(sign, Sign::Outside(_))) {
                 continue;
             }
             if !signs.iter().any(|sign| matches!(sign, Sign::Inside(_))) {
-                return Ok(Common::Nothing(share));
+                return Ok((Common::Nothing, doubt));
             }
             left = left.cut(curtain, &signs);
             is_cut = true;
         }
-        Ok(if is_cut { Common::Part(left, share) } else { Common::All(share) })
+        Ok((if is_cut { Common::Part(left) } else { Common::All }, doubt))
+    }
+
+    fn signs(&self, curtain: &Curtain, sight: &Sight) -> Vec<Sign> {
+        let side = |(bearing, _): &(Bearing, Curtain)| curtain.side_of(sight.chart, bearing, sight.deviation);
+        self.corners.iter().map(side).collect()
+    }
+
+    /// What cutting by a curtain may be off by.
+    ///
+    /// Cut with a wrong sign of one corner, the sector gains or loses the triangle between that corner and the curtain, which is small where
+    /// the sign is in doubt; with several wrong signs, one after the other, as many triangles. Lambert's sum over what then may turn
+    /// around itself counts each direction as often as it is wound around, and what is cut from it later takes parts of the
+    /// triangles away at most.
+    fn doubt(&self, curtain: &Curtain, signs: &[Sign], sight: &Sight) -> Doubt {
+        let mut doubt = Doubt::default();
+        for (i, sign) in signs.iter().enumerate().filter(|(_, sign)| sign.doubt() > 0.0) {
+            let triangle = self.triangle(i, curtain, signs, sight);
+            match triangle.and_then(|corners| sight.factor(&corners)) {
+                Some(factor) => doubt.stray += sign.doubt() * factor.reach(),
+                None => doubt.share += sign.doubt(),
+            }
+        }
+        doubt
+    }
+
+    /// The triangle between a corner and a curtain, where the corners beside it are not in doubt.
+    fn triangle(
+        &self,
+        i: usize,
+        curtain: &Curtain,
+        signs: &[Sign],
+        sight: &Sight,
+    ) -> Option<[(Bearing, Curtain); 3]> {
+        let count = self.corners.len();
+        let (before, after) = ((i + count - 1) % count, (i + 1) % count);
+        let (inward, outward) = (self.corners[before].1, self.corners[i].1);
+        let beside = |k: usize, both: [Curtain; 2]| {
+            let corner = meeting(both);
+            let is_turned = match signs[k] {
+                Sign::Inside(0.0) => true,
+                Sign::Outside(0.0) => false,
+                Sign::On => corner.middle(sight.chart).dot(self.corners[k].0.middle(sight.chart)) < 0.0,
+                _ => return None,
+            };
+            Some(if is_turned { opposite(corner) } else { corner })
+        };
+        let (first, last) = (beside(before, [*curtain, inward])?, beside(after, [outward, *curtain])?);
+        Some([(first, inward), (self.corners[i].0, outward), (last, *curtain)])
     }
 
     /// What is inside of a curtain, some being inside and some outside.
@@ -117,15 +173,20 @@ impl Sign {
     }
 }
 
-fn doubt(signs: &[Sign]) -> f64 {
-    signs.iter().map(|sign| sign.doubt()).sum()
+/// The other way along the line on which two curtains meet.
+fn opposite(bearing: Bearing) -> Bearing {
+    match bearing {
+        Bearing::Point(_) => bearing,
+        Bearing::Crossing(both) => Bearing::Opposite(both),
+        Bearing::Opposite(both) => Bearing::Crossing(both),
+    }
 }
 
 /// A corner that lies on both of two curtains.
 fn on(bearing: &Bearing, both: [Curtain; 2]) -> Bearing {
     match bearing {
         Bearing::Point(_) => *bearing,
-        Bearing::Crossing(_) => meeting(both),
+        Bearing::Crossing(_) | Bearing::Opposite(_) => meeting(both),
     }
 }
 
