@@ -19,15 +19,18 @@ pub(crate) fn winds_once(closed: &[DVec2]) -> Option<i32> {
 /// once around, so that they cross the horizontal line through it twice.
 pub(crate) fn winds_around_middle(closed: &[DVec2], longest: usize) -> Option<i32> {
     let count = closed.len().checked_sub(1).filter(|&count| count <= longest)?;
-    let middle = closed[..count].iter().fold(DVec2::ZERO, |sum, &p| sum + p / count as f64);
-    let is_above = |p: DVec2| p.y > middle.y;
-    let crossings = closed.windows(2).filter(|ends| is_above(ends[0]) != is_above(ends[1])).count();
-    if crossings != 2 || !middle.is_finite() {
+    let middle = closed[..count].iter().sum::<DVec2>() / count as f64;
+    if !middle.is_finite() {
         return None;
     }
-    let way = side(middle, closed[0], closed[1]);
-    let turns = closed.windows(2).all(|ends| side(middle, ends[0], ends[1]) == way);
-    direction_of(way).filter(|_| turns)
+    let way = side(closed[0], closed[1], middle);
+    let (mut is_above, mut crossings) = (closed[0].y > middle.y, 0);
+    let turns = closed.windows(2).all(|ends| {
+        let was_above = std::mem::replace(&mut is_above, ends[1].y > middle.y);
+        crossings += u32::from(was_above != is_above);
+        side(ends[0], ends[1], middle) == way
+    });
+    direction_of(way).filter(|_| turns && crossings == 2)
 }
 
 fn winds_once_compared(closed: &[DVec2]) -> Option<i32> {

@@ -24,10 +24,24 @@ impl Rings {
         P: Copy + Into<DVec2>,
     {
         let mut read = Rings::default();
-        for (ring, points) in rings.into_iter().enumerate() {
-            read.read_ring(ring, points.as_ref().iter().map(|&point| point.into()))?;
+        let rings = rings.into_iter();
+        let (least, _) = rings.size_hint();
+        read.starts.reserve_exact(least.saturating_sub(1));
+        for (ring, points) in rings.enumerate() {
+            let points = points.as_ref();
+            read.make_room(points.len() + 1, least.saturating_sub(ring));
+            read.read_ring(ring, points.iter().map(|&point| point.into()))?;
         }
         Ok(read)
+    }
+
+    /// Makes room for the points of a ring and, where that takes a new allocation, of more rings like those so far: of
+    /// `left` in all, but no more than four times as many points as there are.
+    fn make_room(&mut self, points: usize, left: usize) {
+        if self.end > 0 && self.points.capacity() - self.end < points {
+            let mean = self.end / self.len() + 1;
+            self.points.reserve(points.max(mean.saturating_mul(left).min(4 * self.end)));
+        }
     }
 
     /// Reads one more ring; an error names it by its number.

@@ -201,6 +201,9 @@ impl MonotoneChains {
     }
 
     fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
+        if longest == 1 {
+            return self.add_edges(points, slots);
+        }
         let (mut start, last) = (slots.start, slots.end - 1);
         let mut leftmost = start;
         while start < last {
@@ -213,6 +216,20 @@ impl MonotoneChains {
         }
         let is_repeated = leftmost == last && points[last as usize] == points[slots.start as usize];
         self.leftmost.push(if is_repeated { slots.start } else { leftmost });
+    }
+
+    /// Adds each edge of a ring as a chain of its own, which asks for no ways.
+    fn add_edges(&mut self, points: &[DVec2], slots: Range<u32>) {
+        let (mut leftmost, mut smallest) = (slots.start, points[slots.start as usize]);
+        let ends = points[slots.start as usize..slots.end as usize].windows(2);
+        self.chains.extend((slots.start..).zip(ends).map(|(first, ends)| {
+            let [low, high] = bounds(ends[0], ends[1]);
+            if lexicographic(ends[1], smallest) == Ordering::Less {
+                (leftmost, smallest) = (first + 1, ends[1]);
+            }
+            MonotoneChain { first, last: first + 1, ways: [None; 2], low, high }
+        }));
+        self.leftmost.push(leftmost);
     }
 }
 

@@ -3,6 +3,8 @@
 use super::Fate;
 use crate::base::hash::mixed;
 use crate::edges::Edges;
+use crate::predicates::Segment;
+use glam::DVec2;
 
 /// No edge.
 const NONE: u32 = u32::MAX;
@@ -47,36 +49,40 @@ impl Table {
         self.firsts.clear();
         self.firsts.resize(2 * edges.len(), NONE);
         for ring in edges.rings() {
+            let slots = ring.start as usize..ring.end as usize + 1;
             let mut key = mixed(edges.point(ring.start));
-            for edge in ring.start..ring.end {
-                let next_key = mixed(edges.point(edge + 1));
-                if ring.counter.is_some() && !self.is_first(edges, edge, key.wrapping_add(next_key)) {
+            for (edge, ends) in (ring.start..).zip(edges.points()[slots].windows(2)) {
+                let next_key = mixed(ends[1]);
+                let key = std::mem::replace(&mut key, next_key).wrapping_add(next_key);
+                if ring.counter.is_some() && !self.is_first(edges.points(), edge, [ends[0], ends[1]], key) {
                     fates[edge as usize] = Fate::Represented;
                 }
-                key = next_key;
             }
         }
     }
 
     /// Whether an edge is the first with its ends; else it joins the list of the first.
-    fn is_first(&mut self, edges: &Edges, edge: u32, key: u64) -> bool {
+    #[inline]
+    fn is_first(&mut self, points: &[DVec2], edge: u32, ends: Segment, key: u64) -> bool {
         let fraction = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
         let mut place = ((fraction * self.firsts.len() as u64) >> 32) as usize;
-        while self.firsts[place] != NONE && !have_same_ends(edges, self.firsts[place], edge) {
-            place = if place + 1 == self.firsts.len() { 0 } else { place + 1 };
+        loop {
+            match self.firsts[place] {
+                NONE => {
+                    self.firsts[place] = edge;
+                    return true;
+                }
+                first if have_same_ends(&points[first as usize..first as usize + 2], ends) => {
+                    self.next[edge as usize] = std::mem::replace(&mut self.next[first as usize], edge);
+                    return false;
+                }
+                _ => place = if place + 1 == self.firsts.len() { 0 } else { place + 1 },
+            }
         }
-        let first = self.firsts[place];
-        if first == NONE {
-            self.firsts[place] = edge;
-            return true;
-        }
-        self.next[edge as usize] = std::mem::replace(&mut self.next[first as usize], edge);
-        false
     }
 }
 
 #[inline]
-fn have_same_ends(edges: &Edges, e: u32, f: u32) -> bool {
-    let ([a, b], [c, d]) = (edges.segment(e), edges.segment(f));
-    (a == d && b == c) || (a == c && b == d)
+fn have_same_ends(one: &[DVec2], [c, d]: Segment) -> bool {
+    (one[0] == d && one[1] == c) || (one[0] == c && one[1] == d)
 }
