@@ -76,8 +76,7 @@ impl<'e> Outlook<'e> {
             let [value, error] = contour::exchange(one, other, 0.0);
             return Some(Integral { value, error: SURE * error + swept, evaluations: 0 });
         }
-        let found = Proof::new(one, other, &occluders, deviation).integrate(allowed, is_cancelled)?;
-        Some(Integral { error: found.error + swept, ..found })
+        Proof::new(one, other, &occluders, deviation).integrate(swept, allowed, is_cancelled)
     }
 
     /// What can stand between this polygon and another one.

@@ -107,9 +107,11 @@ impl<'p> Proof<'p> {
         proof
     }
 
-    /// Refines until the error is within what is allowed or the evaluations end; `None` when stopped.
+    /// Refines until the error is within what is allowed or the evaluations end; `None` when stopped. The error has `known` in it,
+    /// and what is small beside that is not refined.
     pub(super) fn integrate(
         mut self,
+        known: f64,
         allowed: &Allowed,
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
@@ -117,7 +119,8 @@ impl<'p> Proof<'p> {
             if is_cancelled() {
                 return None;
             }
-            if self.error <= allowed.error(self.value, self.value) {
+            let tolerance = allowed.error(self.value, self.value) * (1.0 - SUMMED) - known;
+            if self.error <= tolerance.max(known / 16.0) {
                 break;
             }
             let Some(worst) = self.cells.pop().filter(|worst| worst.error > 0.0) else { break };
@@ -128,7 +131,7 @@ impl<'p> Proof<'p> {
         let mut cells = self.cells.into_vec();
         cells.sort_unstable_by_key(|cell| cell.number);
         let value = cells.iter().map(|cell| cell.value).sum();
-        let error = cells.iter().map(|cell| cell.error).sum();
+        let error = cells.iter().map(|cell| cell.error).sum::<f64>() * (1.0 + SUMMED) + known;
         Some(Integral { value, error, evaluations: self.evaluations })
     }
 
@@ -223,6 +226,9 @@ impl<'p> Proof<'p> {
         parts.into_iter().filter(|part| part.count > 2).for_each(|part| self.open(part, most, near));
     }
 }
+
+/// What sums over cells may be off by, as a share of the sum.
+const SUMMED: f64 = 1e-9;
 
 /// A cell that sees one shape.
 fn known(cell: &Known, chart: &Chart, sum: &Sum, most: f64, near: Rc<[usize]>) -> Known {
