@@ -1,7 +1,10 @@
 //! Many expressions, and many regions clipped by one, on many threads.
 
+use crate::base::meter::Meter;
+use crate::error::Error;
 use crate::expression::csg::Csg;
-use crate::pipeline::scratch::Scratch;
+use crate::limits::Limits;
+use crate::pipeline::{self, scratch::Scratch};
 use crate::region::{Location, Region, prepared::PreparedRegion};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
@@ -48,25 +51,50 @@ impl PreparedRegion {
     /// ```
     #[must_use]
     pub fn clip_all(&self, regions: &[Region]) -> Vec<Region> {
+        self.clip_each(regions, &Meter::default()).expect("no limit was given")
+    }
+
+    /// Like [`clip_all`](PreparedRegion::clip_all), within limits: on the work of all clips together, and on the contacts of each.
+    ///
+    /// # Errors
+    /// Those of [`Csg::try_evaluate_with`]; where several limits are exceeded, any of these.
+    ///
+    /// ```
+    /// use polycsg::{Error, FillRule, Limits, PreparedRegion, Region};
+    /// let square = |x: f64| Region::from_rings([[[x, x], [x + 2.0, x], [x + 2.0, x + 2.0], [x, x + 2.0]]], FillRule::NonZero);
+    /// let (clip, squares) = (PreparedRegion::from(square(0.0)?), [square(1.0)?, square(-1.0)?]);
+    /// assert_eq!(clip.try_clip_all(&squares, 3), Err(Error::TooManyContacts { limit: 3 }));
+    /// assert_eq!(clip.try_clip_all(&squares, Limits::default().work(10)), Err(Error::TooMuchWork { limit: 10 }));
+    /// assert_eq!(clip.try_clip_all(&squares, Limits::default().contacts(4).work(1000))?, clip.clip_all(&squares));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn try_clip_all<'l>(
+        &self,
+        regions: &[Region],
+        limits: impl Into<Limits<'l>>,
+    ) -> Result<Vec<Region>, Error> {
+        self.clip_each(regions, &Meter::new(limits.into()))
+    }
+
+    fn clip_each(&self, regions: &[Region], meter: &Meter<'_>) -> Result<Vec<Region>, Error> {
         #[cfg(feature = "rayon")]
         {
-            regions
-                .par_iter()
-                .map_init(Scratch::default, |scratch, region| self.clip(region, scratch))
-                .collect()
+            let clip = |scratch: &mut Scratch, region| self.clip(region, scratch, meter);
+            regions.par_iter().map_init(Scratch::default, clip).collect()
         }
         #[cfg(not(feature = "rayon"))]
         {
             let mut scratch = Scratch::default();
-            regions.iter().map(|region| self.clip(region, &mut scratch)).collect()
+            regions.iter().map(|region| self.clip(region, &mut scratch, meter)).collect()
         }
     }
 
-    fn clip(&self, region: &Region, scratch: &mut Scratch) -> Region {
+    fn clip(&self, region: &Region, scratch: &mut Scratch, meter: &Meter<'_>) -> Result<Region, Error> {
+        meter.spend(1)?;
         match self.locate_window(&region.window()) {
-            Location::Inside => region.clone(),
-            Location::Outside => Region::default(),
-            Location::Boundary => (Csg::from(region) & Csg::from(self)).evaluate_with(scratch),
+            Location::Inside => Ok(region.clone()),
+            Location::Outside => Ok(Region::default()),
+            Location::Boundary => pipeline::region(&(Csg::from(region) & Csg::from(self)), scratch, meter),
         }
     }
 }

@@ -69,7 +69,30 @@ impl Csg<'_> {
     /// # Ok::<(), polycsg::Error>(())
     /// ```
     pub fn boundary<'s>(&self, scratch: &'s mut Scratch) -> Boundary<'s> {
-        pipeline::boundary(self, scratch).expect("no limit was given")
+        pipeline::boundary(self, scratch, &Meter::default()).expect("no limit was given")
+    }
+
+    /// Like [`boundary`](Csg::boundary), within limits.
+    ///
+    /// # Errors
+    /// Those of [`try_evaluate_with`](Csg::try_evaluate_with). The scratch can be used again.
+    ///
+    /// ```
+    /// use polycsg::{Csg, Error, FillRule, Limits, Scratch};
+    /// let star = [(0.0, 3.0), (-1.8, -2.4), (2.9, 0.9), (-2.9, 0.9), (1.8, -2.4)];
+    /// let star = Csg::from_rings([star], FillRule::NonZero)?;
+    /// let mut scratch = Scratch::default();
+    /// let refused = star.try_boundary(&mut scratch, 9).map(|boundary| boundary.area());
+    /// assert_eq!(refused, Err(Error::TooManyContacts { limit: 9 })); // five crossings, each a contact of two edges
+    /// assert_eq!(star.try_boundary(&mut scratch, Limits::default().work(1000))?.edges().count(), 10);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn try_boundary<'s, 'l>(
+        &self,
+        scratch: &'s mut Scratch,
+        limits: impl Into<Limits<'l>>,
+    ) -> Result<Boundary<'s>, Error> {
+        pipeline::boundary(self, scratch, &Meter::new(limits.into()))
     }
 }
 

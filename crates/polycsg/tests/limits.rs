@@ -1,6 +1,6 @@
 //! Limits refuse or change nothing, and leave the scratch as good as new.
 
-use polycsg::{Csg, Error, FillRule, Limits, Scratch};
+use polycsg::{Csg, Error, FillRule, Limits, PreparedRegion, Region, Scratch};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 type Ring = Vec<[f64; 2]>;
@@ -114,4 +114,46 @@ fn a_number_limits_contacts() {
     assert_eq!(csg.try_evaluate_with(&mut scratch, 4).map(|region| region.area()), Ok(7.0));
     let limits = Limits::default().contacts(4).work(1);
     assert_eq!(csg.try_evaluate_with(&mut scratch, limits), Err(Error::TooMuchWork { limit: 1 }));
+}
+
+#[test]
+fn boundaries_are_limited_alike() {
+    for (name, csg) in inputs() {
+        let mut scratch = Scratch::default();
+        let edges = csg.boundary(&mut scratch).edges().count();
+        let mut refused = 0;
+        let allowed = (0..40).map(|i| 1_u64 << (i / 2) << (i / 2)).find(|&limit| {
+            match csg.try_boundary(&mut scratch, Limits::default().work(limit)) {
+                Ok(boundary) => assert_eq!(boundary.edges().count(), edges, "{name}"),
+                Err(error) => {
+                    assert_eq!(error, Error::TooMuchWork { limit }, "{name}");
+                    refused += 1;
+                    return false;
+                }
+            }
+            true
+        });
+        assert!(refused > 5 && allowed.is_some(), "{name}: {refused}");
+        let stop = || true;
+        let stopped = csg.try_boundary(&mut scratch, Limits::default().stop(&stop)).map(|_| ());
+        assert!(stopped == Err(Error::Stopped) || name == "board" || name == "needles", "{name}");
+    }
+}
+
+/// The work of all clips counts together, the contacts of each by itself.
+#[test]
+fn clips_are_limited_together() {
+    let square =
+        |x: f64| Region::from_rings([quad([x, x], [x + 2.0, x + 2.0])], FillRule::NonZero).expect("finite");
+    let clip = PreparedRegion::from(square(0.0));
+    let many: Vec<Region> = (0..5000).map(|i| square(f64::from(i % 30) * 0.1 - 1.5)).collect();
+    let whole = clip.clip_all(&many);
+    assert_eq!(clip.try_clip_all(&many, 16), Ok(whole.clone()));
+    assert_eq!(clip.try_clip_all(&many, 3), Err(Error::TooManyContacts { limit: 3 }));
+    let first = clip.try_clip_all(&many[..1], Limits::default().work(100));
+    assert_eq!(first.as_deref(), Ok(&whole[..1]));
+    let limits = Limits::default().work(100);
+    assert_eq!(clip.try_clip_all(&many, limits), Err(Error::TooMuchWork { limit: 100 }));
+    let stop = || true;
+    assert_eq!(clip.try_clip_all(&many, Limits::default().stop(&stop)), Err(Error::Stopped));
 }

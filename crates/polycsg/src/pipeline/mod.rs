@@ -55,11 +55,18 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) ->
 }
 
 /// The pieces of edges whose two sides differ, rounded: not checked, and without rings.
-pub(crate) fn boundary<'s>(csg: &Csg<'_>, scratch: &'s mut Scratch) -> Result<Boundary<'s>, Error> {
+///
+/// # Errors
+/// Those of the limits that the meter has.
+pub(crate) fn boundary<'s>(
+    csg: &Csg<'_>,
+    scratch: &'s mut Scratch,
+    meter: &Meter<'_>,
+) -> Result<Boundary<'s>, Error> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
     let winding = collect(csg, expression, edges);
-    let meter = Meter::default();
-    let request = Request { meter: &meter, rings: false, budget: *budget };
+    meter.spend(edges.edges.len())?;
+    let request = Request { meter, rings: false, budget: *budget };
     let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     Ok(Boundary::new(selection, arranged.edges, arranged.contacts))

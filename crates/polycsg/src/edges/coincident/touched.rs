@@ -191,7 +191,7 @@ impl Touched {
 /// Whether a slot is a vertex between edges that are gone; one of them stands for itself, so that few are named twice.
 #[inline]
 fn is_between_gone(edges: &Edges, fates: &[Fate], slot: u32) -> bool {
-    edges.is_vertex(slot) && {
+    !fates[slot as usize].is_kept() && edges.is_vertex(slot) && {
         let [a, b] = edges.at(slot).map(|edge| fates[edge as usize]);
         (a == Fate::Gone || b == Fate::Gone) && !a.is_kept() && !b.is_kept()
     }
