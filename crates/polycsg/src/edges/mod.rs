@@ -105,6 +105,11 @@ impl Edges {
         self.rings.iter().all(|ring| ring.origin.operand == first).then_some(first)
     }
 
+    /// Gives the rings, each of one operand's, the counters that these have now.
+    pub(crate) fn count_by(&mut self, winding: &WindingNumbers) {
+        self.rings.iter_mut().for_each(|ring| ring.counter = winding.counter(ring.origin.operand as usize));
+    }
+
     pub(crate) fn clear(&mut self) {
         self.points.clear();
         self.ring.clear();

@@ -3,22 +3,19 @@
 use crate::predicates::{Segment, Side, is_inside, lexicographic, side};
 use glam::DVec2;
 
-/// Longer rings are not looked at.
-const LONGEST: usize = 64;
-
-/// Of longer rings not all edges are compared with all; nor does it pay to share a counter among few.
-pub(crate) const SHORT: usize = 16;
+/// Of longer rings not all edges are compared with all.
+const SHORT: usize = 16;
 
 /// 1 for a simple ring that runs counter-clockwise, -1 for one that runs clockwise; none for a ring that touches or
-/// overlaps itself, or is long. The ring has its first point once more at the end.
+/// overlaps itself, or is long and winding. The ring has its first point once more at the end.
 pub(crate) fn winds_once(closed: &[DVec2]) -> Option<i32> {
-    winds_around_middle(closed, LONGEST).or_else(|| winds_once_compared(closed))
+    winds_around_middle(closed).or_else(|| winds_once_compared(closed))
 }
 
 /// The same for rings that can be seen whole from their middle alone, as most small ones: all edges turn one way around it,
 /// once around, so that they cross the horizontal line through it twice.
-pub(crate) fn winds_around_middle(closed: &[DVec2], longest: usize) -> Option<i32> {
-    let count = closed.len().checked_sub(1).filter(|&count| count <= longest)?;
+fn winds_around_middle(closed: &[DVec2]) -> Option<i32> {
+    let count = closed.len().checked_sub(1).filter(|&count| count > 0)?;
     let middle = closed[..count].iter().sum::<DVec2>() / count as f64;
     if !middle.is_finite() {
         return None;
@@ -122,6 +119,6 @@ mod tests {
             winds(&(0..count).map(|i| point(i).to_array()).collect::<Vec<_>>())
         };
         assert_eq!(around(9, 2.0), None);
-        assert_eq!([around(64, 1.0), around(64, -1.0), around(65, 1.0)], [Some(1), Some(-1), None]);
+        assert_eq!([around(64, 1.0), around(100, -1.0)], [Some(1), Some(-1)]);
     }
 }

@@ -3,11 +3,12 @@
 //!
 //! Winding numbers are kept in counters, the members of [`Circuit`]. Operands that wind once at most (regions, and small simple
 //! rings) and stand under one union or symmetric difference share one counter: the number of operands that contain the place
-//! decides. Opposite edges of one counter cancel, so that such operands dissolve quickly.
+//! decides. Opposite edges of one counter cancel, so that such operands dissolve quickly. Whether raw rings wind so is asked where
+//! they are many, and of few only where edges coincide.
 
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
-use super::simple_ring::{SHORT, winds_around_middle, winds_once};
+use super::simple_ring::winds_once;
 use crate::{base::id::index, region::rings::Rings};
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
@@ -69,6 +70,8 @@ pub(crate) struct WindingNumbers {
     shared: Vec<[Option<u32>; 2]>,
     /// The counter of each operand; an open edge has none.
     operands: Vec<Option<u32>>,
+    /// Whether raw rings share counters, too.
+    raw_share: bool,
     open: Vec<Open>,
 }
 
@@ -83,6 +86,18 @@ struct Open {
 impl WindingNumbers {
     /// Compiles an expression; the state is that of a place outside of everything.
     pub(crate) fn compile(&mut self, csg: &Csg<'_>) {
+        self.raw_share = csg.len() > 2 * FEW;
+        self.compile_shared(csg);
+    }
+
+    /// Compiles it anew where raw rings that wind once do not share counters yet: their operands may have other counters then.
+    pub(crate) fn share(&mut self, csg: &Csg<'_>) {
+        if !std::mem::replace(&mut self.raw_share, true) {
+            self.compile_shared(csg);
+        }
+    }
+
+    fn compile_shared(&mut self, csg: &Csg<'_>) {
         self.counters.clear();
         self.gates.clear();
         self.shared.clear();
@@ -92,7 +107,6 @@ impl WindingNumbers {
             _ => Kind::Any,
         };
         self.add_gate(root, None);
-        let is_among_many = csg.len() > 2 * FEW;
         self.open.clear();
         self.open.push(Open { remaining: 1, first: 0, rest: 0 });
         for token in csg.postfix().rev() {
@@ -108,7 +122,7 @@ impl WindingNumbers {
                     self.open.push(gate);
                 }
                 Token::Region(_) | Token::Prepared(_) => self.add_once(1, gate),
-                Token::Rings(rings, rule) => match self.winds_once(rings, *rule, gate, is_among_many) {
+                Token::Rings(rings, rule) => match self.winds_once(rings, *rule, gate) {
                     Some(winds) => self.add_once(winds, gate),
                     None => self.add_rings(*rule, gate),
                 },
@@ -169,15 +183,12 @@ impl WindingNumbers {
         self.operands.push(Some(counter));
     }
 
-    /// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold; sought where they may share a counter, and
-    /// longer where that is among many.
-    fn winds_once(&self, rings: &Rings, rule: FillRule, gate: u32, is_among_many: bool) -> Option<i32> {
-        if rings.len() != 1 || self.gates.kind(gate) == Kind::All {
+    /// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold; sought where they may share a counter.
+    fn winds_once(&self, rings: &Rings, rule: FillRule, gate: u32) -> Option<i32> {
+        if !self.raw_share || rings.len() != 1 || self.gates.kind(gate) == Kind::All {
             return None;
         }
-        let ring = rings.closed(0);
-        let winds = if is_among_many { winds_once(ring) } else { winds_around_middle(ring, SHORT) };
-        winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)
+        winds_once(rings.closed(0)).filter(|&winds| winds > 0 || rule != FillRule::Positive)
     }
 
     fn add_rings(&mut self, rule: FillRule, gate: u32) {

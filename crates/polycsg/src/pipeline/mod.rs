@@ -34,7 +34,7 @@ pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) ->
         return Ok(region);
     }
     let request = Request { meter, rings: true, budget: *budget };
-    let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
+    let arranged = arrange(csg, edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
     let index = Index { strips: &mut spatial.strips, slabs: &mut spatial.slabs, budget: *budget, meter };
@@ -67,7 +67,7 @@ pub(crate) fn boundary<'s>(
     let winding = collect(csg, expression, edges);
     meter.spend(edges.edges.len())?;
     let request = Request { meter, rings: false, budget: *budget };
-    let arranged = arrange(edges, winding, spatial, contacts, arrangement, request)?;
+    let arranged = arrange(csg, edges, winding, spatial, contacts, arrangement, request)?;
     let selection = boundary.selection.select(arranged);
     Ok(Boundary::new(selection, arranged.edges, arranged.contacts))
 }
@@ -81,7 +81,7 @@ pub(crate) fn memberships<'s>(
     let winding = collect(csg, expression, edges);
     let meter = Meter::default();
     let request = Request { meter: &meter, rings: false, budget: *budget };
-    arrange(edges, winding, spatial, contacts, arrangement, request)
+    arrange(csg, edges, winding, spatial, contacts, arrangement, request)
 }
 
 /// Stage 1: the state of a walk, outside of everything, and the edges that matter.
@@ -100,6 +100,7 @@ fn collect<'s>(
 ///
 /// All stages behind the contacts take memory in proportion to these.
 fn arrange<'s>(
+    csg: &Csg<'_>,
     EdgeBuffers { edges, coincident, .. }: &'s mut EdgeBuffers,
     winding: &mut WindingNumbers,
     SpatialBuffers { chains, strips, slabs }: &mut SpatialBuffers,
@@ -107,7 +108,7 @@ fn arrange<'s>(
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
     request: Request<'_>,
 ) -> Result<LabelledArrangement<'s>, Error> {
-    coincident.unite(edges, winding, request.rings);
+    coincident.unite(edges, csg, winding, request.rings);
     let candidates = Candidates::index(edges, coincident, chains, strips, request)?;
     contacts.find(candidates, slabs, close_pairs, request)?;
     let (edges, chains, strips) = (&*edges, &*chains, &*strips);

@@ -12,9 +12,13 @@ use std::cmp::Ordering;
 /// By x, then by y. Both points finite.
 #[inline]
 pub(crate) fn lexicographic(a: DVec2, b: DVec2) -> Ordering {
-    match a.x.partial_cmp(&b.x) {
-        Some(Ordering::Equal) => a.y.partial_cmp(&b.y).unwrap_or(Ordering::Equal),
-        order => order.unwrap_or(Ordering::Equal),
+    // Not by `partial_cmp`, which also asks whether any is NaN.
+    if a.x < b.x || (a.x == b.x && a.y < b.y) {
+        Ordering::Less
+    } else if a == b {
+        Ordering::Equal
+    } else {
+        Ordering::Greater
     }
 }
 

@@ -233,11 +233,11 @@ impl MonotoneChains {
     }
 }
 
-/// Whether an edge leads to the right rather than the left, and upward rather than downward.
+/// In bits whether an edge leads to the right rather than the left, and upward rather than downward.
 #[inline]
-fn ways(step: DVec2) -> [bool; 2] {
+fn ways(step: DVec2) -> u8 {
     let DVec2 { x, y } = step;
-    [(x > 0.0) | ((x == 0.0) & (y > 0.0)), (y > 0.0) | ((y == 0.0) & (x > 0.0))]
+    u8::from((x > 0.0) | ((x == 0.0) & (y > 0.0))) | u8::from((y > 0.0) | ((y == 0.0) & (x > 0.0))) << 1
 }
 
 /// The longest chain from a slot on that does not go beyond another slot, and its lexicographically smallest slot.
@@ -245,29 +245,28 @@ fn ways(step: DVec2) -> [bool; 2] {
 fn longest_chain(points: &[DVec2], first: u32, end: u32) -> (MonotoneChain, u32) {
     let (a, mut b) = (points[first as usize], points[first as usize + 1]);
     // The sign of a difference of doubles is that of the exact one.
-    let [rightward, upward] = ways(b - a);
-    let mut turned = [false; 2];
+    let way = ways(b - a);
+    let mut turned = 0;
     let [mut low, mut high] = bounds(a, b);
     let area = |sides: DVec2| (sides.x * sides.y).abs();
     let mut areas = area(b - a);
     let mut last = first + 1;
     for &c in &points[first as usize + 2..=end as usize] {
-        let way = ways(c - b);
-        let turns = [turned[0] | (way[0] != rightward), turned[1] | (way[1] != upward)];
+        let turns = turned | (ways(c - b) ^ way);
         let around = [low.min(c), high.max(c)];
         areas += area(c - b);
-        if turns == [true; 2] || area(around[1] - around[0]) > WIDEST * areas {
+        if turns == 0b11 || area(around[1] - around[0]) > WIDEST * areas {
             break;
         }
         ([low, high], b, turned) = (around, c, turns);
         last += 1;
     }
     let by_place = |v: &u32, w: &u32| lexicographic(points[*v as usize], points[*w as usize]);
-    let left = match (turned[0], rightward) {
-        (true, _) => (first..=last).min_by(by_place).unwrap_or(first),
-        (false, true) => first,
-        (false, false) => last,
+    let ways = [1, 2].map(|bit| (turned & bit == 0).then_some(way & bit != 0));
+    let left = match ways[0] {
+        None => (first..=last).min_by(by_place).unwrap_or(first),
+        Some(true) => first,
+        Some(false) => last,
     };
-    let ways = [(!turned[0]).then_some(rightward), (!turned[1]).then_some(upward)];
     (MonotoneChain { first, last, ways, low, high }, left)
 }

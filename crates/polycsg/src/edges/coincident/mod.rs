@@ -27,7 +27,7 @@ mod touched;
 use crate::base::meter::Meter;
 use crate::edges::{Change, END, EdgeRing, Edges};
 use crate::error::Error;
-use crate::expression::winding::WindingNumbers;
+use crate::expression::{csg::Csg, winding::WindingNumbers};
 use covered::CoveredRings;
 use intervals::Intervals;
 use lines::Lines;
@@ -88,10 +88,18 @@ pub(crate) struct CoincidentEdges {
 impl CoincidentEdges {
     /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide. What
     /// leads on is joined, which changes the order of edges, if asked for.
-    pub(crate) fn unite(&mut self, edges: &mut Edges, winding: &WindingNumbers, joins: bool) {
+    pub(crate) fn unite(
+        &mut self,
+        edges: &mut Edges,
+        csg: &Csg<'_>,
+        winding: &mut WindingNumbers,
+        joins: bool,
+    ) {
         self.joins = joins;
         self.drop_covered(edges, winding);
         if self.sample.pays(edges) {
+            winding.share(csg);
+            edges.count_by(winding);
             self.table.group(edges, &mut self.fates);
             self.decide(edges);
             self.find_touched(edges);

@@ -18,8 +18,11 @@ const MORE: usize = 1000;
 /// others, they would be too many.
 const PAIRS_PER_EDGE: usize = 64;
 
-/// Of so few pairs of an edge that is left and a slot all are looked at, without cells.
+/// Of so few pairs of an edge that is left and a vertex between gone ones all are looked at, without cells.
 const FEW_PAIRS: usize = if cfg!(any(test, fuzzing)) { 64 } else { 1024 };
+
+/// Of so few slots those between gone edges are listed first.
+const FEW_SLOTS: usize = if cfg!(any(test, fuzzing)) { 64 } else { 4096 };
 
 /// So many consecutive slots are passed over at once where no edge is left nearby.
 const TOGETHER: usize = 32;
@@ -30,6 +33,8 @@ pub(super) struct Touched {
     /// Edges that are left and points inside them, in order along each.
     inside: Vec<(u32, DVec2)>,
     left: Vec<u32>,
+    /// The vertices between gone edges, where slots are few.
+    between: Vec<DVec2>,
     /// Per cell where its edges start in `near`: those that are left and whose boxes touch it.
     starts: Vec<u32>,
     near: Vec<u32>,
@@ -42,9 +47,12 @@ impl Touched {
     pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate]) -> bool {
         self.left.clear();
         self.left.extend((0..).zip(fates).filter(|(_, fate)| fate.is_kept()).map(|(edge, _)| edge));
-        if self.left.len() * fates.len() <= FEW_PAIRS {
-            self.look_at_all(edges, fates);
-            return true;
+        if fates.len() <= FEW_SLOTS {
+            self.list_between(edges, fates);
+            if self.left.len() * self.between.len() <= FEW_PAIRS {
+                self.look_at_all(edges);
+                return true;
+            }
         }
         let cells = Cells::over(edges.points(), (CELLS_PER_LEFT * self.left.len()).min(fates.len() / 2));
         self.list(edges, cells) && {
@@ -122,14 +130,27 @@ impl Touched {
         }
     }
 
+    /// Lists the vertices between gone edges, and keeps the edges that are left whose boxes meet that of these: along a common
+    /// border few do.
+    fn list_between(&mut self, edges: &Edges, fates: &[Fate]) {
+        let Touched { left, between, .. } = self;
+        between.clear();
+        let slots = (0..index(fates.len())).filter(|&slot| is_between_gone(edges, fates, slot));
+        between.extend(slots.map(|slot| edges.point(slot)));
+        let around = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
+        let (low, high) = between.iter().fold((DVec2::MAX, DVec2::MIN), around);
+        left.retain(|&edge| {
+            let [a, b] = edges.segment(edge);
+            a.min(b).cmple(high) & a.max(b).cmpge(low) == BVec2::TRUE
+        });
+    }
+
     /// Looks at all edges that are left, for each vertex between gone edges.
-    fn look_at_all(&mut self, edges: &Edges, fates: &[Fate]) {
+    fn look_at_all(&mut self, edges: &Edges) {
         self.inside.clear();
-        let left = std::mem::take(&mut self.left);
-        for slot in (0..index(fates.len())).filter(|&slot| is_between_gone(edges, fates, slot)) {
-            self.look_at(edges, &left, edges.point(slot));
-        }
-        self.left = left;
+        let (left, between) = (std::mem::take(&mut self.left), std::mem::take(&mut self.between));
+        between.iter().for_each(|&p| self.look_at(edges, &left, p));
+        (self.left, self.between) = (left, between);
         self.sort(edges);
     }
 
