@@ -35,14 +35,16 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
+    #[inline]
     pub(super) fn new(
         edges: [u32; 2],
         ends_of_f: [Area; 2],
         ends_of_e: [Area; 2],
         from_left: bool,
     ) -> Crossing {
-        let at = [ends_of_e, ends_of_f].map(|ends| Parameter::of_crossing(ends[0], ends[1]));
-        Crossing { edges, at, from_left }
+        let at_e = Parameter::of_crossing(ends_of_e[0], ends_of_e[1]);
+        let at_f = Parameter::of_crossing(ends_of_f[0], ends_of_f[1]);
+        Crossing { edges, at: [at_e, at_f], from_left }
     }
 }
 

@@ -101,8 +101,9 @@ impl MonotoneChain {
     /// The edges whose boxes meet a box, as bits in the order of the ring.
     #[inline]
     fn edges_within(&self, points: &[DVec2], low: DVec2, high: DVec2) -> u32 {
-        if self.len() == 1 {
-            return 1;
+        // Looking at two takes as long as comparing them.
+        if self.len() <= 2 {
+            return (1 << self.len()) - 1;
         }
         let ends = points[self.first as usize..=self.last as usize].windows(2);
         let meets = |ends: &[DVec2]| u32::from(boxes_meet(bounds(ends[0], ends[1]), [low, high]));

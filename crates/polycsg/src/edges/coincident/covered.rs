@@ -20,6 +20,9 @@ const FEW: usize = 64;
 /// Where the rings' boxes cover the plane so often on the average, it pays to look.
 const DEEP: f64 = 8.0;
 
+/// So many rings tell how deep all lie.
+const SAMPLE: usize = 512;
+
 /// So many of the largest rings are kept in mind for each cell, and noted in so many cells for each edge.
 const LARGEST: usize = 4;
 const CELLS_PER_EDGE: usize = 16;
@@ -122,13 +125,14 @@ impl CoveredRings {
         }
         let is_united = |ring: &&EdgeRing| ring.counter.is_some_and(|counter| winding.is_union(counter));
         let united = edges.rings().iter().filter(is_united);
+        let step = edges.rings().len().div_ceil(SAMPLE);
         let (mut low, mut high, mut area) = (DVec2::MAX, DVec2::MIN, 0.0);
-        for [ring_low, ring_high] in united.clone().map(|&ring| bounds(edges, ring)) {
+        for [ring_low, ring_high] in united.clone().step_by(step).map(|&ring| bounds(edges, ring)) {
             low = low.min(ring_low);
             high = high.max(ring_high);
             area += quarter(ring_low, ring_high);
         }
-        let is_deep = area > DEEP * quarter(low, high);
+        let is_deep = area * step as f64 > DEEP * quarter(low, high);
         if is_deep {
             self.sheets.clear();
             self.sheets.extend(united.map(|&ring| Sheet::of(edges, ring)));
