@@ -26,6 +26,14 @@ impl Rule {
     const POSITIVE: Rule = Rule { mask: !0, low: 1, width: i32::MAX.unsigned_abs() };
     const ODD: Rule = Rule { mask: 1, low: 1, width: 1 };
 
+    fn of(rule: FillRule) -> Rule {
+        match rule {
+            FillRule::EvenOdd => Rule::ODD,
+            FillRule::NonZero => Rule::NON_ZERO,
+            FillRule::Positive => Rule::POSITIVE,
+        }
+    }
+
     #[inline]
     fn holds(self, winding: i32) -> bool {
         ((winding & self.mask).wrapping_sub(self.low) as u32) < self.width
@@ -87,7 +95,37 @@ impl WindingNumbers {
     /// Compiles an expression; the state is that of a place outside of everything.
     pub(crate) fn compile(&mut self, csg: &Csg<'_>) {
         self.raw_share = csg.len() > 2 * FEW;
-        self.compile_shared(csg);
+        if !self.compile_pair(csg) {
+            self.compile_shared(csg);
+        }
+    }
+
+    /// Two operands of raw rings, by far the most frequent, need no circuit: they have two counters and one of four tables.
+    fn compile_pair(&mut self, csg: &Csg<'_>) -> bool {
+        if csg.len() != 3 {
+            return false;
+        }
+        let tokens = (csg.token(0), csg.token(1), csg.token(2));
+        let (Token::Rings(_, first), Token::Rings(_, second), Token::Operator(operator, 2)) = tokens else {
+            return false;
+        };
+        let of = |rule: Rule| {
+            let is_union = rule == Rule::NON_ZERO && *operator == Operator::Union;
+            Counter { winding: 0, rule, holds: false, gate: ROOT, is_union }
+        };
+        self.counters.clear();
+        self.counters.extend([of(Rule::of(*second)), of(Rule::of(*first))]);
+        self.operands.clear();
+        self.operands.extend([Some(1), Some(0)]);
+        let [second, first, ..] = COLUMNS;
+        self.holding = 0;
+        self.table = Some(match operator {
+            Operator::Union => first | second,
+            Operator::Intersection => first & second,
+            Operator::Difference => first & !second,
+            Operator::SymmetricDifference => first ^ second,
+        });
+        true
     }
 
     /// Compiles it anew where raw rings that wind once do not share counters yet: their operands may have other counters then.
@@ -192,11 +230,7 @@ impl WindingNumbers {
     }
 
     fn add_rings(&mut self, rule: FillRule, gate: u32) {
-        let rule = match rule {
-            FillRule::EvenOdd => Rule::ODD,
-            FillRule::NonZero => Rule::NON_ZERO,
-            FillRule::Positive => Rule::POSITIVE,
-        };
+        let rule = Rule::of(rule);
         let is_union = rule == Rule::NON_ZERO && gate == ROOT && self.gates.kind(gate) == Kind::Any;
         let counter = self.add_counter(rule, gate, is_union);
         self.operands.push(Some(counter));

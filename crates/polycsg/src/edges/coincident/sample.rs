@@ -6,7 +6,7 @@ use crate::edges::Edges;
 use glam::DVec2;
 
 /// Fewer edges are not worth a look.
-const FEW: usize = 12;
+const FEW: usize = 16;
 
 /// So many edges are all looked at.
 const MANY: usize = 1024;
