@@ -6,7 +6,7 @@ use super::integral::{Allowed, Integral, least_whole, most};
 use super::patch::Patch;
 use super::point::{Eye, Focus, Near, Seen};
 use super::queue::{Open, Queue};
-use crate::scene::occluder::Face;
+use super::uncut::{self, away_from, away_from_surface, fair_share, slopes};
 use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves, nodes};
 use glam::DVec3;
@@ -36,6 +36,15 @@ pub(super) struct Cubature<'p> {
     tolerance: f64,
     open: Queue,
     evaluations: u64,
+}
+
+/// What a rule says about a cell.
+struct OnCell {
+    value: f64,
+    /// Whether shadows overlap.
+    is_joint: bool,
+    /// Whether no node sees anything.
+    is_dark: bool,
 }
 
 /// The share of the tolerance that any cut which is not made may take.
@@ -126,6 +135,9 @@ impl<'p> Cubature<'p> {
 
     /// Cuts a piece of the source at events, and integrates over what comes of it.
     fn begin(&mut self, piece: &[DVec3]) {
+        if !self.occluders.is_empty() && self.is_done_uncut(piece) {
+            return;
+        }
         let least = self.tolerance * UNCUT;
         let mut coarse: Vec<(Cell, u32)> = Vec::new();
         let patch = Patch::of(piece);
@@ -144,6 +156,36 @@ impl<'p> Cubature<'p> {
         }
     }
 
+    /// Integrates over a piece of the source without cuts, if some rule is good enough for that and sees something.
+    fn is_done_uncut(&mut self, piece: &[DVec3]) -> bool {
+        let cells = fan(piece);
+        let rules: Option<Vec<(usize, f64)>> = cells.iter().map(|cell| self.rule_uncut(cell)).collect();
+        let Some(rules) = rules else { return false };
+        let mut is_dark = true;
+        let mut found = Vec::with_capacity(cells.len());
+        for (cell, (order, error)) in cells.into_iter().zip(rules) {
+            let view = self.view(&cell, false);
+            let sum = self.product(&cell, order, &view);
+            is_dark &= sum.is_dark;
+            found.push(Open { order, value: sum.value, error, ..Open::over(cell, None) });
+        }
+        if !is_dark {
+            found.into_iter().for_each(|open| self.open.push(open));
+        }
+        !is_dark
+    }
+
+    /// The cheapest rule that is good enough on a cell without cuts, if any, and what it may err by.
+    fn rule_uncut(&self, cell: &Cell) -> Option<(usize, f64)> {
+        let share = area(cell) / self.size;
+        let [skewness, apart] = self.shape(cell);
+        let view = CellView { focus: Focus::Part, is_cut: false, skewness, apart };
+        let slopes = slopes(cell, self.to, self.occluders);
+        let rules =
+            (0..RULES.len()).map(|order| (order, share * self.scale * uncut::error(&view, slopes, order)));
+        rules.into_iter().find(|(order, error)| *error <= self.tolerance * share * fair_share(*order))
+    }
+
     /// Integrates over a patch cut at all events, but for those that change less than `least` there; whether they are few enough.
     fn cut(&mut self, patch: Patch, least: f64) -> bool {
         let (events, are_all) = events(&patch, &self.target, self.occluders);
@@ -160,17 +202,8 @@ impl<'p> Cubature<'p> {
 
     /// How far a cell is at least from what it looks at.
     fn away(&self, cell: &Cell) -> f64 {
-        let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
-        let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
-        let from_ball = |at: DVec3, size: f64| middle.distance(at) - size - radius;
-        let above =
-            |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
-        let to_target = from_ball(self.to.middle, self.to.radius).max(above(&self.to.face));
-        let to_occluder = |o: &Near| {
-            let plane = o.faces.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
-            from_ball(o.middle, o.radius).max(plane)
-        };
-        self.occluders.iter().map(to_occluder).fold(to_target, f64::min).max(0.0)
+        let to_occluders = self.occluders.iter().map(|occluder| away_from(occluder, cell));
+        to_occluders.fold(away_from_surface(self.to, cell), f64::min)
     }
 
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
@@ -179,8 +212,7 @@ impl<'p> Cubature<'p> {
             return;
         }
         let view = self.view(&cell, left_out.is_some());
-        let mut open =
-            Open { cell, value: 0.0, error: 0.0, left_out, order: 0, constants: [0.0; 3], last: 0.0 };
+        let mut open = Open::over(cell, left_out);
         if view.focus != self.adds_nothing() {
             let share = area(&cell) / self.size;
             let allowed = self.tolerance * (share / 2.0).max(START);
@@ -203,13 +235,19 @@ impl<'p> Cubature<'p> {
     /// How a cell sees the target, all events on it cut or not.
     fn view(&mut self, cell: &Cell, is_cut: bool) -> CellView {
         if !is_cut {
+            self.eye.face(cell, self.occluders);
             return CellView { focus: Focus::Part, is_cut, skewness: 1.0, apart: 0.0 };
         }
         let focus = self.eye.focus(cell, &self.target, self.occluders);
+        let [skewness, apart] = self.shape(cell);
+        CellView { focus, is_cut, skewness, apart }
+    }
+
+    /// How far a cell is from a parallelogram, and from what it looks at.
+    fn shape(&self, cell: &Cell) -> [f64; 2] {
         let [a, b, c, d] = *cell;
         let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
-        let skewness = (a - b + c - d).length() / longest;
-        CellView { focus, is_cut, skewness, apart: 2.0 * self.away(cell) / longest }
+        [(a - b + c - d).length() / longest, 2.0 * self.away(cell) / longest]
     }
 
     /// What a cell must see to add nothing.
@@ -220,13 +258,13 @@ impl<'p> Cubature<'p> {
     /// The integral over a cell by a rule of few nodes, to whose error belongs what one more node a side changes nearby or where
     /// shadows overlap; whether no node sees anything.
     fn by_few(&mut self, open: &mut Open, view: &CellView) -> bool {
-        let (value, seen) = self.product(&open.cell, open.order, view);
-        open.value = value;
-        if seen.is_joint || view.apart < CLOSE {
-            open.value = self.product(&open.cell, open.order + 1, view).0;
-            open.error = open.error.max((open.value - value).abs());
+        let sum = self.product(&open.cell, open.order, view);
+        open.value = sum.value;
+        if sum.is_joint || view.apart < CLOSE {
+            open.value = self.product(&open.cell, open.order + 1, view).value;
+            open.error = open.error.max((open.value - sum.value).abs());
         }
-        is_dark(view, &seen)
+        sum.is_dark
     }
 
     /// The integral over a cell by a fine rule, after three before it or after the one that is known with its constants; whether no
@@ -235,18 +273,18 @@ impl<'p> Cubature<'p> {
         let smoothness = self.smoothness(&open.cell, view);
         let first = if known.is_some() { open.order } else { open.order - 2 };
         (open.value, open.constants) =
-            known.unwrap_or_else(|| (self.product(&open.cell, first - 1, view).0, [0.0; 3]));
-        let mut last = Seen::default();
+            known.unwrap_or_else(|| (self.product(&open.cell, first - 1, view).value, [0.0; 3]));
+        let mut is_dark = false;
         for order in first..=open.order {
-            let (value, seen) = self.product(&open.cell, order, view);
+            let sum = self.product(&open.cell, order, view);
             open.constants.rotate_left(1);
-            open.constants[2] = (value - open.value).abs() / smoothness.rate(order - 1);
-            (open.value, last) = (value, seen);
+            open.constants[2] = (sum.value - open.value).abs() / smoothness.rate(order - 1);
+            (open.value, is_dark) = (sum.value, sum.is_dark);
         }
         let constant = SURE * open.constants.into_iter().fold(0.0, f64::max);
         open.error = constant * smoothness.rate(open.order);
         open.last = constant * smoothness.rate(RULES.len() - 1);
-        is_dark(view, &last)
+        is_dark
     }
 
     fn smoothness(&self, cell: &Cell, view: &CellView) -> Smoothness {
@@ -264,20 +302,18 @@ impl<'p> Cubature<'p> {
     }
 
     /// The integral by a rule: of what is hidden where the rest is known, else of what is seen.
-    fn product(&mut self, cell: &Cell, order: usize, view: &CellView) -> (f64, Seen) {
-        let mut all = Seen::default();
-        let mut value = 0.0;
+    fn product(&mut self, cell: &Cell, order: usize, view: &CellView) -> OnCell {
+        let is_part = view.focus == Focus::Part;
+        let mut sum = OnCell { value: 0.0, is_joint: false, is_dark: is_part };
         for (point, weight) in nodes(cell, RULES[order]) {
-            let seen = if view.is_cut {
-                self.eye.look_past(point, self.normal, &self.target, self.occluders)
-            } else {
-                self.eye.look(point, self.normal, &self.target, self.occluders)
-            };
-            value += weight * self.part(seen, view.focus);
-            all.add(&seen);
+            let is_whole_asked = sum.is_dark || !is_part || self.unhidden.is_none();
+            let seen = self.eye.look_past(point, self.normal, &self.target, self.occluders, is_whole_asked);
+            sum.value += weight * self.part(seen, view.focus);
+            sum.is_joint |= seen.is_joint;
+            sum.is_dark &= seen.whole - seen.hidden <= DARK * seen.whole;
             self.evaluations += 1;
         }
-        (value, all)
+        sum
     }
 
     /// What of the factor from a node counts.
@@ -313,9 +349,4 @@ impl<'p> Cubature<'p> {
             self.add(half, Some(left_out * share), 2, None);
         }
     }
-}
-
-/// Whether a part of nothing is seen, as far as nodes say.
-fn is_dark(view: &CellView, seen: &Seen) -> bool {
-    view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
 }

@@ -15,6 +15,7 @@ mod patch;
 mod point;
 mod queue;
 mod tolerance;
+mod uncut;
 
 use crate::error::Error;
 use crate::scene::{enclosure::Enclosure, surfaces::Surface};
@@ -35,7 +36,8 @@ pub struct AreaFormFactor {
     /// An estimate of the error; it is not a bound.
     ///
     /// Where nothing stands in between, it is what Gauss's rules of the kernel err by, from the surfaces' sizes and their
-    /// distance, or the differences and roundings of contour integrals. Elsewhere one polygon is cut along the lines on which
+    /// distance, or the differences and roundings of contour integrals. Elsewhere, where that is good enough, it is what rules err by as
+    /// shadows sweep over the edges of what is seen, by their pace and length. Else one polygon is cut along the lines on which
     /// edges and vertices seem to meet, so that the integrand is analytic on each cell but where three edges seem to meet. Rules of few
     /// nodes take an a-priori share of what is hidden at most; finer ones take the differences between three rules, times what theory
     /// says is left of them: r^(-2n) for n nodes a side, r from the distance to what is looked at, or n^(-3) where three edges may

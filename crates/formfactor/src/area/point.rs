@@ -45,18 +45,11 @@ pub(super) enum Focus {
 /// What a point sees: the form factor of the target with nothing in between, and of what is hidden of it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Seen {
+    /// More than that where it was not asked for.
     pub(super) whole: f64,
     pub(super) hidden: f64,
     /// Whether shadows overlap.
     pub(super) is_joint: bool,
-}
-
-impl Seen {
-    pub(super) fn add(&mut self, other: &Self) {
-        self.whole += other.whole;
-        self.hidden += other.hidden;
-        self.is_joint |= other.is_joint;
-    }
 }
 
 impl Eye {
@@ -70,7 +63,7 @@ impl Eye {
         occluders: &[Near],
     ) -> Seen {
         self.cones(&[from], occluders);
-        self.sum(from, normal, pieces)
+        self.sum(from, normal, pieces, true)
     }
 
     /// Finds which of the occluders the middle of a cell sees before the pieces, and their silhouettes; whether one hides all.
@@ -98,6 +91,24 @@ impl Eye {
             }
         }
         if self.edges.is_empty() && self.turning.is_empty() { Focus::All } else { Focus::Part }
+    }
+
+    /// Finds the silhouettes of all occluders as all points of a cell see them, where they see the same.
+    pub(super) fn face(&mut self, cell: &[DVec3], occluders: &[Near]) {
+        self.unfocus();
+        let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
+        for (index, occluder) in occluders.iter().enumerate() {
+            if occluder.turns_alike(cell) {
+                occluder.facing(from, &mut self.facing);
+                let start = self.edges.len();
+                self.edges.extend(occluder.silhouette(&self.facing));
+                if self.edges.len() > start || !occluder.is_plate {
+                    self.edge_ends.push(self.edges.len());
+                }
+            } else {
+                self.turning.push(index);
+            }
+        }
     }
 
     fn unfocus(&mut self) {
@@ -140,13 +151,14 @@ impl Eye {
             || pairs.any(|[one, other]| !is_beside(one, other, from) && !is_beside(other, one, from))
     }
 
-    /// [`Self::look`] past the silhouettes in focus.
+    /// [`Self::look`] past the silhouettes in focus; the whole only if asked for or if it is hidden.
     pub(super) fn look_past(
         &mut self,
         from: DVec3,
         normal: DVec3,
         pieces: &[Vec<DVec3>],
         occluders: &[Near],
+        is_whole_asked: bool,
     ) -> Seen {
         self.walls.clear();
         self.walls.extend(self.edges.iter().map(|edge| Bound::through(*edge, from)));
@@ -154,23 +166,20 @@ impl Eye {
         for index in 0..self.turning.len() {
             self.cone(&[from], &occluders[self.turning[index]]);
         }
-        self.sum(from, normal, pieces)
+        self.sum(from, normal, pieces, is_whole_asked)
     }
 
-    fn sum(&mut self, from: DVec3, normal: DVec3, pieces: &[Vec<DVec3>]) -> Seen {
+    fn sum(&mut self, from: DVec3, normal: DVec3, pieces: &[Vec<DVec3>], is_whole_asked: bool) -> Seen {
         let mut seen = Seen::default();
         for piece in pieces {
             self.target.clear();
             self.target.extend(piece.iter().map(|p| *p - from));
-            let whole = lambert(normal, &self.target);
+            let found = self.hidden(normal);
+            let whole = if is_whole_asked || found.is_none() { lambert(normal, &self.target) } else { 1.0 };
+            let (hidden, is_joint) = found.unwrap_or((whole, false));
             seen.whole += whole;
-            match self.hidden(normal) {
-                Some((hidden, is_joint)) => {
-                    seen.hidden += hidden.min(whole);
-                    seen.is_joint |= is_joint;
-                }
-                None => seen.hidden += whole,
-            }
+            seen.hidden += hidden.min(whole);
+            seen.is_joint |= is_joint;
         }
         seen
     }
