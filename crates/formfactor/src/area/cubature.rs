@@ -56,6 +56,12 @@ const START: f64 = 0.1;
 /// A rule of few nodes is checked by the next where a cell is so close to what it looks at, in halves of its longest side.
 const CLOSE: f64 = 2.0;
 
+/// Past one occluder cuts are not made where rules take so few nodes without; past more so many times the square of their number.
+const FEW_NODES: usize = 64;
+
+/// Into so many cells a piece is halved where it is not cut.
+const MOST_CELLS: usize = 16;
+
 /// What no node sees more of than this share counts as nothing: roundings of what is hidden.
 const DARK: f64 = 1e-13;
 
@@ -156,14 +162,12 @@ impl<'p> Cubature<'p> {
         }
     }
 
-    /// Integrates over a piece of the source without cuts, if some rule is good enough for that and sees something.
+    /// Integrates over a piece of the source without cuts, if rules of few nodes are good enough for that and see something.
     fn is_done_uncut(&mut self, piece: &[DVec3]) -> bool {
-        let cells = fan(piece);
-        let rules: Option<Vec<(usize, f64)>> = cells.iter().map(|cell| self.rule_uncut(cell)).collect();
-        let Some(rules) = rules else { return false };
+        let Some(cells) = self.uncut(piece) else { return false };
         let mut is_dark = true;
         let mut found = Vec::with_capacity(cells.len());
-        for (cell, (order, error)) in cells.into_iter().zip(rules) {
+        for (cell, order, error) in cells {
             let view = self.view(&cell, false);
             let sum = self.product(&cell, order, &view);
             is_dark &= sum.is_dark;
@@ -175,15 +179,34 @@ impl<'p> Cubature<'p> {
         !is_dark
     }
 
+    /// Cells of a piece with rules that are good enough without cuts, and what they may err by, if they take few nodes.
+    fn uncut(&self, piece: &[DVec3]) -> Option<Vec<(Cell, usize, f64)>> {
+        let mut left = FEW_NODES * self.occluders.len().pow(2);
+        let mut coarse = fan(piece);
+        let mut found = Vec::with_capacity(coarse.len());
+        while let Some(cell) = coarse.pop() {
+            if let Some((order, error)) = self.rule_uncut(&cell) {
+                left = left.checked_sub(RULES[order].len().pow(2))?;
+                found.push((cell, order, error));
+            } else if coarse.len() + found.len() < MOST_CELLS {
+                coarse.extend(halves(cell));
+            } else {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
     /// The cheapest rule that is good enough on a cell without cuts, if any, and what it may err by.
     fn rule_uncut(&self, cell: &Cell) -> Option<(usize, f64)> {
         let share = area(cell) / self.size;
         let [skewness, apart] = self.shape(cell);
         let view = CellView { focus: Focus::Part, is_cut: false, skewness, apart };
         let slopes = slopes(cell, self.to, self.occluders);
-        let rules =
-            (0..RULES.len()).map(|order| (order, share * self.scale * uncut::error(&view, slopes, order)));
-        rules.into_iter().find(|(order, error)| *error <= self.tolerance * share * fair_share(*order))
+        let errors = (0..RULES.len()).map(|order| self.scale * uncut::error(&view, slopes, order));
+        let mut rules = errors.enumerate();
+        let (order, error) = rules.find(|(order, error)| *error <= self.tolerance * fair_share(*order))?;
+        Some((order, share * error))
     }
 
     /// Integrates over a patch cut at all events, but for those that change less than `least` there; whether they are few enough.

@@ -6,7 +6,7 @@ use super::point::{Eye, Near};
 use super::{contour, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
-use crate::scene::occluder::{Before, Face};
+use crate::scene::occluder::{Before, Face, Occluder};
 use crate::scene::surfaces::{Origin, Surface, Surfaces};
 use crate::shapes::cell::nodes;
 use glam::DVec3;
@@ -68,13 +68,7 @@ impl<'e> Outlook<'e> {
         let mut hull: Vec<DVec3> = Vec::new();
         let mut found = Vec::new();
         for (_, occluder) in self.near.iter().filter(|(owner, _)| !other.is_of(*owner)) {
-            let axis = other.middle - one.middle;
-            let share = ((occluder.middle - one.middle).dot(axis) / axis.length_squared()).clamp(0.0, 1.0);
-            let away = occluder.middle - (one.middle + axis * share);
-            let reach = occluder.radius + one.radius + other.radius;
-            if away.length_squared() > reach * reach {
-                continue;
-            }
+            let Some(away) = to_hull(one, other, occluder) else { continue };
             if hull.is_empty() {
                 hull.extend(one.pieces.iter().chain(&other.pieces).flatten());
             }
@@ -89,6 +83,22 @@ impl<'e> Outlook<'e> {
         }
         found
     }
+}
+
+/// The way from the axis of two surfaces to an occluder, unless the balls around all three show that it is not in between.
+///
+/// The convex hull of two balls is in the cone around them, of half the angle with the sine (r2 - r1) / d.
+fn to_hull(one: &Surface, other: &Surface, occluder: &Occluder) -> Option<DVec3> {
+    let (axis, way) = (other.middle - one.middle, occluder.middle - one.middle);
+    let square = axis.length_squared();
+    let share = way.dot(axis) / square;
+    let growth = other.radius - one.radius;
+    let width = one.radius + growth * share + occluder.radius;
+    let across = (way - axis * share).length_squared() * (1.0 - growth * growth / square);
+    let is_in_cone = width > 0.0 && across <= width * width || growth * growth >= square;
+    let away = way - axis * share.clamp(0.0, 1.0);
+    let reach = occluder.radius + one.radius.max(other.radius);
+    (is_in_cone && away.length_squared() <= reach * reach).then_some(away)
 }
 
 /// The two with the one first that is small as the occluders see it: its points see them alike.
