@@ -10,6 +10,7 @@ use super::uncut::{self, away_from, away_from_surface, fair_share, slopes};
 use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves, nodes};
 use glam::DVec3;
+use std::cell::OnceCell;
 
 /// The form factor from the points of a source to a target.
 #[derive(Debug)]
@@ -21,7 +22,7 @@ pub(super) struct Cubature<'p> {
     to: &'p Surface,
     occluders: &'p [Near<'p>],
     /// Whether three edges in three directions may open a gap where no vertex is.
-    is_skew: bool,
+    is_skew: OnceCell<bool>,
     /// No point of the source has a larger factor to the target.
     most: f64,
     eye: &'p mut Eye,
@@ -78,7 +79,7 @@ impl<'p> Cubature<'p> {
             target: before(&to.pieces, from.face),
             to,
             occluders,
-            is_skew: are_skew(to, occluders),
+            is_skew: OnceCell::new(),
             most: most(from, to),
             eye,
             size,
@@ -132,6 +133,10 @@ impl<'p> Cubature<'p> {
         self.unhidden.map_or(sum, |unhidden| unhidden.value - sum).max(0.0)
     }
 
+    fn is_skew(&self) -> bool {
+        *self.is_skew.get_or_init(|| are_skew(self.to, self.occluders))
+    }
+
     /// The form factor to the target with nothing in between, from a point of the source.
     fn middling(&mut self) -> f64 {
         let corners = &self.source[0];
@@ -162,21 +167,24 @@ impl<'p> Cubature<'p> {
         }
     }
 
-    /// Integrates over a piece of the source without cuts, if rules of few nodes are good enough for that and see something.
+    /// Integrates over a piece of the source without cuts, if rules of few nodes are good enough for that.
     fn is_done_uncut(&mut self, piece: &[DVec3]) -> bool {
         let Some(cells) = self.uncut(piece) else { return false };
-        let mut is_dark = true;
         let mut found = Vec::with_capacity(cells.len());
         for (cell, order, error) in cells {
             let view = self.view(&cell, false);
             let sum = self.product(&cell, order, &view);
-            is_dark &= sum.is_dark;
-            found.push(Open { order, value: sum.value, error, ..Open::over(cell, None) });
+            // Gaps between several occluders may open in between nodes; past one, what is dark is convex.
+            let may_gap = sum.is_dark && self.occluders.len() > 1;
+            let unseen = if may_gap { self.unseen(&cell) } else { 0.0 };
+            found.push(Open { order, value: sum.value, error: error.max(unseen), ..Open::over(cell, None) });
         }
-        if !is_dark {
+        let error: f64 = found.iter().map(|open| open.error).sum();
+        let is_good = error <= self.tolerance * area_of(piece) / self.size;
+        if is_good {
             found.into_iter().for_each(|open| self.open.push(open));
         }
-        !is_dark
+        is_good
     }
 
     /// Cells of a piece with rules that are good enough without cuts, and what they may err by, if they take few nodes.
@@ -247,7 +255,7 @@ impl<'p> Cubature<'p> {
             } else {
                 self.by_many(&mut open, &view, known)
             };
-            if is_dark && (self.is_skew || !view.is_cut) {
+            if is_dark && (self.is_skew() || !view.is_cut) {
                 open.error = open.error.max(self.unseen(&cell));
             }
         }
@@ -311,7 +319,7 @@ impl<'p> Cubature<'p> {
     }
 
     fn smoothness(&self, cell: &Cell, view: &CellView) -> Smoothness {
-        if view.is_cut && self.is_skew && self.eye.shadows_cross(cell) {
+        if view.is_cut && self.is_skew() && self.eye.shadows_cross(cell) {
             Smoothness::Bends
         } else {
             Smoothness::Analytic { apart: view.apart }

@@ -3,11 +3,11 @@
 //! From a point an occluder is a cone, the half-spaces inside its silhouette. A target's part in that cone is clipped out of it, and Lambert's sum
 //! over it subtracted. Where shadows overlap, each counts less what is in the cones before it. Clipping is continuous: a wrong
 //! sign near zero changes areas by roundings only.
-use super::clip::{Bound, Clipped, Rest, Soup, inside, subtract};
+use super::clip::{Bound, Clipped, Shears, Soup};
 use super::lambert::lambert;
 use crate::scene::occluder::Occluder;
 use glam::DVec3;
-use std::borrow::Cow;
+use std::{borrow::Cow, ops::Range};
 
 /// An occluder, or a part of one.
 pub(super) type Near<'e> = Cow<'e, Occluder>;
@@ -27,11 +27,11 @@ pub(super) struct Eye {
     target: Vec<DVec3>,
     shadow: Vec<DVec3>,
     spare: Vec<DVec3>,
-    /// Shadows that are not empty.
-    casting: Vec<usize>,
+    /// The half-spaces of cones whose shadows are not empty.
+    casting: Vec<Range<usize>>,
     parts: Soup,
     next: Soup,
-    rest: Rest,
+    shears: Shears,
 }
 
 /// What a point sees.
@@ -125,7 +125,7 @@ impl Eye {
         for piece in pieces {
             self.target.clear();
             self.target.extend(piece.iter().map(|p| *p - from));
-            let clipped = inside(&mut self.target, &self.walls, &mut self.spare);
+            let clipped = self.shears.inside(&mut self.target, &self.walls);
             is_covered &= matches!(clipped, Clipped::All);
             is_met |= !matches!(clipped, Clipped::Nothing);
         }
@@ -210,33 +210,35 @@ impl Eye {
 
     /// The form factor of what the cones hide of the target, and whether shadows overlap; `None` where one hides all of it.
     fn hidden(&mut self, normal: DVec3) -> Option<(f64, bool)> {
-        let Self { walls, ends, target, shadow, spare, casting, parts, next, rest, .. } = self;
+        let Self { walls, ends, target, shadow, casting, parts, next, shears, .. } = self;
         casting.clear();
         let (mut hidden, mut is_joint) = (0.0, false);
         let mut start = 0;
         for end in &*ends {
-            let cone = &walls[start..*end];
+            let cone = start..*end;
             start = *end;
-            shadow.clone_from(target);
-            match inside(shadow, cone, spare) {
+            shadow.clear();
+            shadow.extend_from_slice(target);
+            match shears.inside(shadow, &walls[cone.clone()]) {
                 Clipped::Nothing => continue,
                 Clipped::All => return None,
                 Clipped::Part => (),
             }
-            parts.clear();
-            parts.push(shadow);
-            for earlier in &*casting {
-                let from = if *earlier == 0 { 0 } else { ends[*earlier - 1] };
-                next.clear();
-                let mut met = false;
-                parts
-                    .polygons()
-                    .for_each(|part| met |= subtract(part, &walls[from..ends[*earlier]], next, rest));
-                is_joint |= met;
-                std::mem::swap(parts, next);
+            if casting.is_empty() {
+                hidden += lambert(normal, shadow);
+            } else {
+                parts.clear();
+                parts.push(shadow);
+                for earlier in &*casting {
+                    next.clear();
+                    for part in parts.polygons() {
+                        is_joint |= shears.subtract(part, &walls[earlier.clone()], next);
+                    }
+                    std::mem::swap(parts, next);
+                }
+                hidden += parts.polygons().map(|part| lambert(normal, part)).sum::<f64>();
             }
-            hidden += parts.polygons().map(|part| lambert(normal, part)).sum::<f64>();
-            casting.push(ends.iter().position(|e| e == end).unwrap_or(0));
+            casting.push(cone);
         }
         Some((hidden, is_joint))
     }
@@ -245,7 +247,7 @@ impl Eye {
     /// cell may see. Relative to the first corner.
     pub(super) fn not_in_umbrae(&mut self, corners: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) {
         self.cones(corners, occluders);
-        let Self { walls, ends, target, parts, next, rest, .. } = self;
+        let Self { walls, ends, target, parts, next, shears, .. } = self;
         parts.clear();
         for piece in pieces {
             target.clear();
@@ -255,9 +257,9 @@ impl Eye {
         let mut start = 0;
         for end in &*ends {
             next.clear();
-            parts.polygons().for_each(|part| {
-                subtract(part, &walls[start..*end], next, rest);
-            });
+            for part in parts.polygons() {
+                shears.subtract(part, &walls[start..*end], next);
+            }
             std::mem::swap(parts, next);
             start = *end;
         }
