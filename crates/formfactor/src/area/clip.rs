@@ -133,12 +133,13 @@ impl Shears {
 
     /// The least and the greatest depth of a polygon's corners.
     fn measure(&mut self, polygon: &[DVec3], wall: &Bound) -> [f64; 2] {
-        self.depths.clear();
-        self.depths.extend(polygon.iter().map(|p| wall.depth(*p)));
+        self.depths.resize(polygon.len(), 0.0);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for depth in &self.depths {
-            low = if *depth < low { *depth } else { low };
-            high = if *depth > high { *depth } else { high };
+        for (depth, point) in self.depths.iter_mut().zip(polygon) {
+            let here = wall.depth(*point);
+            *depth = here;
+            low = if here < low { here } else { low };
+            high = if here > high { here } else { high };
         }
         [low, high]
     }

@@ -266,7 +266,7 @@ impl<'p> Cubature<'p> {
     /// How a cell sees the target, all events on it cut or not.
     fn view(&mut self, cell: &Cell, is_cut: bool) -> CellView {
         if !is_cut {
-            self.eye.face(cell, self.occluders);
+            self.eye.face(cell, &self.target, self.occluders);
             return CellView { focus: Focus::Part, is_cut, skewness: 1.0, apart: 0.0 };
         }
         let focus = self.eye.focus(cell, &self.target, self.occluders);

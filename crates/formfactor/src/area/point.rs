@@ -73,7 +73,7 @@ impl Eye {
         for (index, occluder) in occluders.iter().enumerate() {
             occluder.facing(from, &mut self.facing);
             let start = self.edges.len();
-            self.edges.extend(occluder.silhouette(&self.facing));
+            occluder.silhouette(&self.facing, |edge| self.edges.push(edge));
             if self.edges.len() == start && occluder.is_plate {
                 continue;
             }
@@ -93,20 +93,31 @@ impl Eye {
         if self.edges.is_empty() && self.turning.is_empty() { Focus::All } else { Focus::Part }
     }
 
-    /// Finds the silhouettes of all occluders as all points of a cell see them, where they see the same.
-    pub(super) fn face(&mut self, cell: &[DVec3], occluders: &[Near]) {
+    /// Finds the silhouettes of all occluders as all points of a cell see them, where they see the same: those edges that are seen before
+    /// the target from some point.
+    pub(super) fn face(&mut self, cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) {
         self.unfocus();
         let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
         for (index, occluder) in occluders.iter().enumerate() {
-            if occluder.turns_alike(cell) {
-                occluder.facing(from, &mut self.facing);
-                let start = self.edges.len();
-                self.edges.extend(occluder.silhouette(&self.facing));
-                if self.edges.len() > start || !occluder.is_plate {
-                    self.edge_ends.push(self.edges.len());
-                }
-            } else {
+            if !occluder.turns_alike(cell) {
                 self.turning.push(index);
+                continue;
+            }
+            occluder.facing(from, &mut self.facing);
+            let (start, mut hides) = (self.edges.len(), false);
+            let mut is_beside = false;
+            occluder.silhouette(&self.facing, |edge| {
+                let side = side_of_all(edge, cell, pieces);
+                hides = true;
+                is_beside |= side == Some(false);
+                if side.is_none() {
+                    self.edges.push(edge);
+                }
+            });
+            if is_beside || (occluder.is_plate && !hides) {
+                self.edges.truncate(start);
+            } else {
+                self.edge_ends.push(self.edges.len());
             }
         }
     }
@@ -197,9 +208,8 @@ impl Eye {
             occluder.facing(*from, &mut self.facing);
             let before = self.walls.len();
             let shift = *from - points[0];
-            self.walls.extend(
-                occluder.silhouette(&self.facing).map(|edge| Bound::through(edge, *from).moved(shift)),
-            );
+            let Self { walls, facing, .. } = &mut *self;
+            occluder.silhouette(facing, |edge| walls.push(Bound::through(edge, *from).moved(shift)));
             if self.walls.len() == before && occluder.is_plate {
                 // Seen edge-on: its cone is empty.
                 self.walls.push(Bound::NOWHERE);
@@ -294,6 +304,25 @@ impl Eye {
         let near = corners.iter().map(|corner| (*corner - corners[0]).lerp(middle, 0.25));
         near.map(|point| parts.seen_from(point, normal, spare)).fold(0.0, f64::max)
     }
+}
+
+/// Whether all points of a cell see all of the pieces on one side of an edge, and whether that is the inner one.
+///
+/// The volume of the tetrahedron of the edge, a point and a corner is linear in both: the cell's corners tell.
+fn side_of_all([a, b]: [DVec3; 2], cell: &[DVec3], pieces: &[Vec<DVec3>]) -> Option<bool> {
+    let (mut low, mut high) = (0.0_f64, 0.0_f64);
+    for from in cell {
+        let wall = Bound::through([a, b], *from);
+        for corner in pieces.iter().flatten() {
+            let depth = wall.depth(*corner - *from);
+            low = if depth < low { depth } else { low };
+            high = if depth > high { depth } else { high };
+        }
+        if low < 0.0 && high > 0.0 {
+            return None;
+        }
+    }
+    Some(low >= 0.0)
 }
 
 /// Whether all of a silhouette is seen outside of one edge of another one.

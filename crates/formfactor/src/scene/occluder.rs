@@ -68,16 +68,16 @@ impl Occluder {
         })
     }
 
-    /// The silhouette as a point sees it that sees the faces `facing`: edges that run counter-clockwise.
-    pub(crate) fn silhouette<'o>(&'o self, facing: &'o [bool]) -> impl Iterator<Item = [DVec3; 2]> + 'o {
-        let sees = |side: usize| side != CAP && facing[side];
-        self.ridges.iter().filter_map(move |Ridge { ends: [a, b], sides: [left, right] }| {
-            match (sees(*left), sees(*right)) {
-                (true, false) => Some([*a, *b]),
-                (false, true) => Some([*b, *a]),
-                _ => None,
+    /// Calls with each edge of the silhouette, as a point sees it that sees the faces `facing`: edges that run counter-clockwise.
+    pub(crate) fn silhouette(&self, facing: &[bool], mut with: impl FnMut([DVec3; 2])) {
+        // A cap is no face: none is seen.
+        let sees = |side: usize| facing.get(side).is_some_and(|sees| *sees);
+        for Ridge { ends: [a, b], sides: [left, right] } in &self.ridges {
+            let is_left = sees(*left);
+            if is_left != sees(*right) {
+                with(if is_left { [*a, *b] } else { [*b, *a] });
             }
-        })
+        }
     }
 
     /// What of it is before a plane, by a point on the plane and its normal: itself, a part, or nothing.
