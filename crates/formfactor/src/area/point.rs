@@ -5,7 +5,7 @@
 //! sign near zero changes areas by roundings only.
 use super::clip::{Bound, Clipped, Shears, Soup};
 use super::lambert::lambert;
-use crate::scene::occluder::Occluder;
+use crate::scene::occluder::{Occluder, Ridge, silhouette};
 use glam::DVec3;
 use std::{borrow::Cow, ops::Range};
 
@@ -19,8 +19,12 @@ pub(super) struct Eye {
     /// The silhouettes of the occluders that hide something, and where those of each end.
     edges: Vec<[DVec3; 2]>,
     edge_ends: Vec<usize>,
-    /// Those of which not all points of the cell see the same faces.
-    turning: Vec<usize>,
+    /// Those of which not all points of the cell see the same faces, the edges of which all see the same, and the ridges that are edges
+    /// for some.
+    turning: Vec<Turning>,
+    fixed: Vec<[DVec3; 2]>,
+    ridges: Vec<Ridge>,
+    sides: Vec<[bool; 2]>,
     /// The half-spaces of all cones, and where those of each end.
     walls: Vec<Bound>,
     ends: Vec<usize>,
@@ -32,6 +36,14 @@ pub(super) struct Eye {
     parts: Soup,
     next: Soup,
     shears: Shears,
+}
+
+/// An occluder of which not all points of a cell see the same faces.
+#[derive(Debug)]
+struct Turning {
+    occluder: usize,
+    edges: Range<usize>,
+    ridges: Range<usize>,
 }
 
 /// What a point sees.
@@ -73,7 +85,7 @@ impl Eye {
         for (index, occluder) in occluders.iter().enumerate() {
             occluder.facing(from, &mut self.facing);
             let start = self.edges.len();
-            occluder.silhouette(&self.facing, |edge| self.edges.push(edge));
+            silhouette(&occluder.ridges, &self.facing, |edge| self.edges.push(edge));
             if self.edges.len() == start && occluder.is_plate {
                 continue;
             }
@@ -85,7 +97,7 @@ impl Eye {
                 Clipped::Part if occluder.turns_alike(cell) => self.edge_ends.push(self.edges.len()),
                 Clipped::Part => {
                     self.edges.truncate(start);
-                    self.turning.push(index);
+                    self.turn(index, occluder, cell, pieces);
                 }
                 Clipped::Nothing => self.edges.truncate(start),
             }
@@ -100,13 +112,13 @@ impl Eye {
         let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
         for (index, occluder) in occluders.iter().enumerate() {
             if !occluder.turns_alike(cell) {
-                self.turning.push(index);
+                self.turn(index, occluder, cell, pieces);
                 continue;
             }
             occluder.facing(from, &mut self.facing);
             let (start, mut hides) = (self.edges.len(), false);
             let mut is_beside = false;
-            occluder.silhouette(&self.facing, |edge| {
+            silhouette(&occluder.ridges, &self.facing, |edge| {
                 let side = side_of_all(edge, cell, pieces);
                 hides = true;
                 is_beside |= side == Some(false);
@@ -122,8 +134,51 @@ impl Eye {
         }
     }
 
+    /// Finds the edges of a silhouette that some points of a cell see otherwise than others.
+    fn turn(&mut self, index: usize, occluder: &Occluder, cell: &[DVec3], pieces: &[Vec<DVec3>]) {
+        let Self { turning, fixed, ridges, sides, .. } = self;
+        occluder.sides(cell, sides);
+        let of = |side: usize| sides.get(side).copied().unwrap_or([false, true]);
+        let (first_edge, first_ridge) = (fixed.len(), ridges.len());
+        for ridge in &occluder.ridges {
+            let [[left, not_left], [right, not_right]] = ridge.sides.map(of);
+            let (ahead, back) = (left && not_right, right && not_left);
+            let is_inside = |inner: bool| if inner { !back } else { !ahead };
+            if !(ahead || back) || side_of_all(ridge.ends, cell, pieces).is_some_and(is_inside) {
+                continue;
+            }
+            if left != not_left && right != not_right {
+                let [a, b] = ridge.ends;
+                fixed.push(if ahead { [a, b] } else { [b, a] });
+            } else {
+                ridges.push(*ridge);
+            }
+        }
+        let (edges, ridges) = (first_edge..fixed.len(), first_ridge..ridges.len());
+        turning.push(Turning { occluder: index, edges, ridges });
+    }
+
+    /// The half-spaces of the cone of an occluder of which not all points of the cell see the same faces.
+    fn turned(&mut self, from: DVec3, at: usize, occluders: &[Near]) {
+        let Self { turning, fixed, ridges, facing, walls, ends, .. } = self;
+        let Turning { occluder, edges, ridges: some } = &turning[at];
+        let occluder = &occluders[*occluder];
+        let before = walls.len();
+        walls.extend(fixed[edges.clone()].iter().map(|edge| Bound::through(*edge, from)));
+        if !some.is_empty() {
+            occluder.facing(from, facing);
+            silhouette(&ridges[some.clone()], facing, |edge| walls.push(Bound::through(edge, from)));
+        }
+        if walls.len() == before && occluder.is_plate {
+            walls.push(Bound::NOWHERE);
+        }
+        ends.push(walls.len());
+    }
+
     fn unfocus(&mut self) {
         self.turning.clear();
+        self.fixed.clear();
+        self.ridges.clear();
         self.edges.clear();
         self.edge_ends.clear();
     }
@@ -174,8 +229,8 @@ impl Eye {
         self.walls.clear();
         self.walls.extend(self.edges.iter().map(|edge| Bound::through(*edge, from)));
         self.ends.clone_from(&self.edge_ends);
-        for index in 0..self.turning.len() {
-            self.cone(&[from], &occluders[self.turning[index]]);
+        for at in 0..self.turning.len() {
+            self.turned(from, at, occluders);
         }
         self.sum(from, normal, pieces, is_whole_asked)
     }
@@ -209,7 +264,7 @@ impl Eye {
             let before = self.walls.len();
             let shift = *from - points[0];
             let Self { walls, facing, .. } = &mut *self;
-            occluder.silhouette(facing, |edge| walls.push(Bound::through(edge, *from).moved(shift)));
+            silhouette(&occluder.ridges, facing, |edge| walls.push(Bound::through(edge, *from).moved(shift)));
             if self.walls.len() == before && occluder.is_plate {
                 // Seen edge-on: its cone is empty.
                 self.walls.push(Bound::NOWHERE);
