@@ -8,12 +8,14 @@ mod cubature;
 mod estimate;
 mod events;
 mod integral;
+mod integrand;
 mod kernel;
 mod lambert;
 mod pair;
 mod patch;
 mod point;
 mod queue;
+mod silhouettes;
 mod tolerance;
 mod uncut;
 

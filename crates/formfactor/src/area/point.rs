@@ -5,7 +5,8 @@
 //! sign near zero changes areas by roundings only.
 use super::clip::{Bound, Clipped, Shears, Soup};
 use super::lambert::lambert;
-use crate::scene::occluder::{Occluder, Ridge, silhouette};
+use super::silhouettes::Silhouettes;
+use crate::scene::occluder::{Occluder, silhouette};
 use glam::DVec3;
 use std::{borrow::Cow, ops::Range};
 
@@ -16,15 +17,8 @@ pub(super) type Near<'e> = Cow<'e, Occluder>;
 #[derive(Debug, Default)]
 pub(super) struct Eye {
     facing: Vec<bool>,
-    /// The silhouettes of the occluders that hide something, and where those of each end.
-    edges: Vec<[DVec3; 2]>,
-    edge_ends: Vec<usize>,
-    /// Those of which not all points of the cell see the same faces, the edges of which all see the same, and the ridges that are edges
-    /// for some.
-    turning: Vec<Turning>,
-    fixed: Vec<[DVec3; 2]>,
-    ridges: Vec<Ridge>,
-    sides: Vec<[bool; 2]>,
+    /// Of the occluders that hide something from a cell.
+    silhouettes: Silhouettes,
     /// The half-spaces of all cones, and where those of each end.
     walls: Vec<Bound>,
     ends: Vec<usize>,
@@ -36,14 +30,6 @@ pub(super) struct Eye {
     parts: Soup,
     next: Soup,
     shears: Shears,
-}
-
-/// An occluder of which not all points of a cell see the same faces.
-#[derive(Debug)]
-struct Turning {
-    occluder: usize,
-    edges: Range<usize>,
-    ridges: Range<usize>,
 }
 
 /// What a point sees.
@@ -81,112 +67,38 @@ impl Eye {
     /// Finds which of the occluders the middle of a cell sees before the pieces, and their silhouettes; whether one hides all.
     pub(super) fn focus(&mut self, cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) -> Focus {
         let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
-        self.unfocus();
+        self.silhouettes.clear();
         for (index, occluder) in occluders.iter().enumerate() {
-            occluder.facing(from, &mut self.facing);
-            let start = self.edges.len();
-            silhouette(&occluder.ridges, &self.facing, |edge| self.edges.push(edge));
-            if self.edges.len() == start && occluder.is_plate {
+            let edges = self.silhouettes.try_from(from, occluder);
+            if edges.is_empty() && occluder.is_plate {
                 continue;
             }
-            match self.met(start, from, pieces) {
+            self.walls.clear();
+            self.walls.extend(edges.iter().map(|edge| Bound::through(*edge, from)));
+            match self.met(from, pieces) {
                 Clipped::All => {
-                    self.unfocus();
+                    self.silhouettes.clear();
                     return Focus::Nothing;
                 }
-                Clipped::Part if occluder.turns_alike(cell) => self.edge_ends.push(self.edges.len()),
-                Clipped::Part => {
-                    self.edges.truncate(start);
-                    self.turn(index, occluder, cell, pieces);
-                }
-                Clipped::Nothing => self.edges.truncate(start),
+                Clipped::Part if occluder.turns_alike(cell) => self.silhouettes.keep(),
+                Clipped::Part => self.silhouettes.turn(index, occluder, cell, pieces),
+                Clipped::Nothing => (),
             }
         }
-        if self.edges.is_empty() && self.turning.is_empty() { Focus::All } else { Focus::Part }
+        self.silhouettes.forget();
+        if self.silhouettes.is_empty() { Focus::All } else { Focus::Part }
     }
 
-    /// Finds the silhouettes of all occluders as all points of a cell see them, where they see the same: those edges that are seen before
-    /// the target from some point.
+    /// Finds the silhouettes of all occluders as the points of a cell see them before the pieces.
     pub(super) fn face(&mut self, cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) {
-        self.unfocus();
-        let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
+        self.silhouettes.clear();
         for (index, occluder) in occluders.iter().enumerate() {
-            if !occluder.turns_alike(cell) {
-                self.turn(index, occluder, cell, pieces);
-                continue;
-            }
-            occluder.facing(from, &mut self.facing);
-            let (start, mut hides) = (self.edges.len(), false);
-            let mut is_beside = false;
-            silhouette(&occluder.ridges, &self.facing, |edge| {
-                let side = side_of_all(edge, cell, pieces);
-                hides = true;
-                is_beside |= side == Some(false);
-                if side.is_none() {
-                    self.edges.push(edge);
-                }
-            });
-            if is_beside || (occluder.is_plate && !hides) {
-                self.edges.truncate(start);
-            } else {
-                self.edge_ends.push(self.edges.len());
-            }
+            self.silhouettes.turn(index, occluder, cell, pieces);
         }
     }
 
-    /// Finds the edges of a silhouette that some points of a cell see otherwise than others.
-    fn turn(&mut self, index: usize, occluder: &Occluder, cell: &[DVec3], pieces: &[Vec<DVec3>]) {
-        let Self { turning, fixed, ridges, sides, .. } = self;
-        occluder.sides(cell, sides);
-        let of = |side: usize| sides.get(side).copied().unwrap_or([false, true]);
-        let (first_edge, first_ridge) = (fixed.len(), ridges.len());
-        for ridge in &occluder.ridges {
-            let [[left, not_left], [right, not_right]] = ridge.sides.map(of);
-            let (ahead, back) = (left && not_right, right && not_left);
-            let is_inside = |inner: bool| if inner { !back } else { !ahead };
-            if !(ahead || back) || side_of_all(ridge.ends, cell, pieces).is_some_and(is_inside) {
-                continue;
-            }
-            if left != not_left && right != not_right {
-                let [a, b] = ridge.ends;
-                fixed.push(if ahead { [a, b] } else { [b, a] });
-            } else {
-                ridges.push(*ridge);
-            }
-        }
-        let (edges, ridges) = (first_edge..fixed.len(), first_ridge..ridges.len());
-        turning.push(Turning { occluder: index, edges, ridges });
-    }
-
-    /// The half-spaces of the cone of an occluder of which not all points of the cell see the same faces.
-    fn turned(&mut self, from: DVec3, at: usize, occluders: &[Near]) {
-        let Self { turning, fixed, ridges, facing, walls, ends, .. } = self;
-        let Turning { occluder, edges, ridges: some } = &turning[at];
-        let occluder = &occluders[*occluder];
-        let before = walls.len();
-        walls.extend(fixed[edges.clone()].iter().map(|edge| Bound::through(*edge, from)));
-        if !some.is_empty() {
-            occluder.facing(from, facing);
-            silhouette(&ridges[some.clone()], facing, |edge| walls.push(Bound::through(edge, from)));
-        }
-        if walls.len() == before && occluder.is_plate {
-            walls.push(Bound::NOWHERE);
-        }
-        ends.push(walls.len());
-    }
-
-    fn unfocus(&mut self) {
-        self.turning.clear();
-        self.fixed.clear();
-        self.ridges.clear();
-        self.edges.clear();
-        self.edge_ends.clear();
-    }
-
-    /// What of all pieces is in the cone of the silhouette that begins at an edge.
-    fn met(&mut self, start: usize, from: DVec3, pieces: &[Vec<DVec3>]) -> Clipped {
-        self.walls.clear();
-        self.walls.extend(self.edges[start..].iter().map(|edge| Bound::through(*edge, from)));
+    /// What of all pieces is in the cone of the walls.
+    fn met(&mut self, from: DVec3, pieces: &[Vec<DVec3>]) -> Clipped {
         let (mut is_covered, mut is_met) = (true, false);
         for piece in pieces {
             self.target.clear();
@@ -202,19 +114,9 @@ impl Eye {
         }
     }
 
-    /// Whether two of the shadows in focus meet anywhere, on the target or beside it, as the middle of a cell sees them.
-    ///
-    /// Events cut cells where two begin to meet, so that what holds for the middle holds for all.
+    /// Whether two of the shadows in focus meet anywhere.
     pub(super) fn shadows_cross(&self, cell: &[DVec3]) -> bool {
-        let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
-        let shadow = |i: usize| {
-            let start = if i == 0 { 0 } else { self.edge_ends[i - 1] };
-            &self.edges[start..self.edge_ends[i]]
-        };
-        let count = self.edge_ends.len();
-        let mut pairs = (0..count).flat_map(|i| (0..i).map(move |j| [shadow(i), shadow(j)]));
-        (count + self.turning.len() > 1 && !self.turning.is_empty())
-            || pairs.any(|[one, other]| !is_beside(one, other, from) && !is_beside(other, one, from))
+        self.silhouettes.cross(cell)
     }
 
     /// [`Self::look`] past the silhouettes in focus; the whole only if asked for or if it is hidden.
@@ -226,12 +128,7 @@ impl Eye {
         occluders: &[Near],
         is_whole_asked: bool,
     ) -> Seen {
-        self.walls.clear();
-        self.walls.extend(self.edges.iter().map(|edge| Bound::through(*edge, from)));
-        self.ends.clone_from(&self.edge_ends);
-        for at in 0..self.turning.len() {
-            self.turned(from, at, occluders);
-        }
+        self.silhouettes.cones(from, occluders, &mut self.walls, &mut self.ends);
         self.sum(from, normal, pieces, is_whole_asked)
     }
 
@@ -359,29 +256,4 @@ impl Eye {
         let near = corners.iter().map(|corner| (*corner - corners[0]).lerp(middle, 0.25));
         near.map(|point| parts.seen_from(point, normal, spare)).fold(0.0, f64::max)
     }
-}
-
-/// Whether all points of a cell see all of the pieces on one side of an edge, and whether that is the inner one.
-///
-/// The volume of the tetrahedron of the edge, a point and a corner is linear in both: the cell's corners tell.
-fn side_of_all([a, b]: [DVec3; 2], cell: &[DVec3], pieces: &[Vec<DVec3>]) -> Option<bool> {
-    let (mut low, mut high) = (0.0_f64, 0.0_f64);
-    for from in cell {
-        let wall = Bound::through([a, b], *from);
-        for corner in pieces.iter().flatten() {
-            let depth = wall.depth(*corner - *from);
-            low = if depth < low { depth } else { low };
-            high = if depth > high { depth } else { high };
-        }
-        if low < 0.0 && high > 0.0 {
-            return None;
-        }
-    }
-    Some(low >= 0.0)
-}
-
-/// Whether all of a silhouette is seen outside of one edge of another one.
-fn is_beside(one: &[[DVec3; 2]], other: &[[DVec3; 2]], from: DVec3) -> bool {
-    let leaves_out = |wall: Bound| other.iter().all(|[a, _]| wall.depth(*a - from) <= 0.0);
-    one.iter().any(|edge| leaves_out(Bound::through(*edge, from)))
 }
