@@ -6,8 +6,8 @@ use super::point::{Eye, Near};
 use super::{contour, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
-use crate::scene::occluder::{Before, Face, Occluder};
-use crate::scene::surfaces::{Origin, Surface, Surfaces};
+use crate::scene::occluder::{Before, Face};
+use crate::scene::surfaces::{Hider, Origin, Surface, Surfaces};
 use crate::shapes::cell::nodes;
 use glam::DVec3;
 use std::{borrow::Cow, f64::consts::PI};
@@ -21,20 +21,20 @@ const EASY: f64 = 0.1;
 pub(super) struct Outlook<'e> {
     surfaces: &'e Surfaces,
     id: usize,
-    near: Vec<(Origin, Near<'e>)>,
+    /// What of each occluder is before it.
+    near: Vec<Option<(Origin, Near<'e>)>>,
 }
 
 impl<'e> Outlook<'e> {
     pub(super) fn from(surfaces: &'e Surfaces, id: usize) -> Self {
         let own = &surfaces.surfaces[id];
-        let mut near = Vec::new();
-        for hider in surfaces.hiders.iter().filter(|hider| !own.is_of(hider.of)) {
-            match hider.shape.before(own.face) {
-                Before::All => near.push((hider.of, Cow::Borrowed(&hider.shape))),
-                Before::Part(part) => near.push((hider.of, Cow::Owned(part))),
-                Before::Nothing => (),
+        let seen = |hider: &'e Hider| {
+            if own.is_of(hider.of) {
+                return None;
             }
-        }
+            Some((hider.of, before(Cow::Borrowed(&hider.shape), own)?))
+        };
+        let near = surfaces.hiders.iter().map(seen).collect();
         Self { surfaces, id, near }
     }
 
@@ -47,7 +47,7 @@ impl<'e> Outlook<'e> {
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
         let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
-        let occluders = self.between(other);
+        let Some(occluders) = self.between(other, eye) else { return Some(Integral::default()) };
         if occluders.is_empty() {
             if let Some(found) = unobstructed(one, other, &allowed.part(EASY)) {
                 return Some(found);
@@ -56,48 +56,70 @@ impl<'e> Outlook<'e> {
         let unhidden =
             if occluders.is_empty() { None } else { unobstructed(one, other, &allowed.part(EASY)) };
         let (one, other) = in_order(one, other, &occluders);
-        if occluders.iter().any(|occluder| eye.is_covered(&one.pieces, &other.pieces, occluder)) {
-            return Some(Integral::default());
-        }
         Cubature::new(one, other, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
     }
 
-    /// What can stand between this polygon and another one.
-    fn between(&self, other: &Surface) -> Vec<Near<'_>> {
+    /// What can stand between this polygon and another one; `None` where one occluder hides all of it.
+    fn between(&self, other: &Surface, eye: &mut Eye) -> Option<Vec<Near<'_>>> {
         let one = &self.surfaces.surfaces[self.id];
+        // What hid the last one may hide this one.
+        let may_cover = |id: usize| self.near.get(id)?.as_ref().filter(|near| !other.is_of(near.0));
+        if let Some(part) =
+            may_cover(eye.cover).and_then(|near| before(Cow::Borrowed(near.1.as_ref()), other))
+        {
+            if eye.is_covered(&one.pieces, &other.pieces, &part) {
+                return None;
+            }
+        }
+        let mut ids = self.surfaces.tree.find(|extent| {
+            let middle = extent.low.midpoint(extent.high);
+            to_hull(one, other, middle, middle.distance(extent.high)).is_none()
+        });
+        ids.sort_unstable();
         let mut hull: Vec<DVec3> = Vec::new();
         let mut found = Vec::new();
-        for (_, occluder) in self.near.iter().filter(|(owner, _)| !other.is_of(*owner)) {
-            let Some(away) = to_hull(one, other, occluder) else { continue };
+        for id in ids {
+            let Some((_, occluder)) = may_cover(id) else { continue };
+            let Some(away) = to_hull(one, other, occluder.middle, occluder.radius) else { continue };
             if hull.is_empty() {
                 hull.extend(one.pieces.iter().chain(&other.pieces).flatten());
             }
             if are_apart(&hull, &occluder.corners, away) {
                 continue;
             }
-            match occluder.before(other.face) {
-                Before::All => found.push(Cow::Borrowed(occluder.as_ref())),
-                Before::Part(part) => found.push(Cow::Owned(part)),
-                Before::Nothing => (),
+            let Some(part) = before(Cow::Borrowed(occluder.as_ref()), other) else { continue };
+            if eye.is_covered(&one.pieces, &other.pieces, &part) {
+                eye.cover = id;
+                return None;
             }
+            found.push(part);
         }
-        found
+        Some(found)
     }
 }
 
-/// The way from the axis of two surfaces to an occluder, unless the balls around all three show that it is not in between.
+/// What of an occluder is before a surface.
+fn before<'o>(occluder: Near<'o>, surface: &Surface) -> Option<Near<'o>> {
+    match occluder.before(surface.face) {
+        Before::All => Some(occluder),
+        Before::Part(part) => Some(Cow::Owned(part)),
+        Before::Nothing => None,
+    }
+}
+
+/// The way from the axis of two surfaces to the middle of a ball, unless the balls around all three show that it is not in between.
 ///
 /// The convex hull of two balls is in the cone around them, of half the angle with the sine (r2 - r1) / d.
-fn to_hull(one: &Surface, other: &Surface, occluder: &Occluder) -> Option<DVec3> {
-    let (axis, way) = (other.middle - one.middle, occluder.middle - one.middle);
+fn to_hull(one: &Surface, other: &Surface, middle: DVec3, radius: f64) -> Option<DVec3> {
+    let (axis, way) = (other.middle - one.middle, middle - one.middle);
     let square = axis.length_squared();
     let share = way.dot(axis) / square;
     let growth = other.radius - one.radius;
-    let width = one.radius + growth * share + occluder.radius;
+    let width = one.radius + growth * share + radius;
     let across = (way - axis * share).length_squared() * (1.0 - growth * growth / square);
     let is_in_cone = width > 0.0 && across <= width * width || growth * growth >= square;
     let away = way - axis * share.clamp(0.0, 1.0);
-    let reach = occluder.radius + one.radius.max(other.radius);
+    let reach = radius + one.radius.max(other.radius);
     (is_in_cone && away.length_squared() <= reach * reach).then_some(away)
 }
 

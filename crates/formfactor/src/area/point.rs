@@ -30,6 +30,8 @@ pub(super) struct Eye {
     parts: Soup,
     next: Soup,
     shears: Shears,
+    /// The number of the occluder that hid all of a target last.
+    pub(super) cover: usize,
 }
 
 /// What a point sees.
