@@ -44,6 +44,9 @@ const CLOSE: f64 = 2.0;
 /// Past one occluder cuts are not made where rules take so few nodes without; past more so many times the square of their number.
 const FEW_NODES: usize = 64;
 
+/// The rule for what is within the tolerance altogether.
+const FAINT: usize = 1;
+
 /// Into so many cells a piece is halved where it is not cut.
 const MOST_CELLS: usize = 16;
 
@@ -141,7 +144,8 @@ impl<'p> Cubature<'p> {
             let view = self.of.view(&cell, false);
             let sum = self.of.product(&cell, order, &view);
             // Gaps between several occluders may open in between nodes; past one, what is dark is convex.
-            let may_gap = sum.is_dark && self.of.occluders.len() > 1;
+            let may_gap =
+                sum.is_dark && self.of.occluders.len() > 1 && error < self.scale * area(&cell) / self.size;
             let unseen = if may_gap { self.of.unseen(&cell) } else { 0.0 };
             found.push(Open { order, value: sum.value, error: error.max(unseen), ..Open::over(cell, None) });
         }
@@ -177,9 +181,12 @@ impl<'p> Cubature<'p> {
         let [skewness, apart] = self.of.shape(cell);
         let view = CellView { focus: Focus::Part, is_cut: false, skewness, apart };
         let slopes = self.of.slopes(cell);
-        let errors = (0..RULES.len()).map(|order| self.scale * uncut::error(&view, slopes, order));
-        let mut rules = errors.enumerate();
-        let (order, error) = rules.find(|(order, error)| *error <= self.tolerance * fair_share(*order))?;
+        let mut errors =
+            (0..RULES.len()).map(|order| self.scale * uncut::error(&view, slopes, order)).enumerate();
+        let fair = errors.find(|(order, error)| *error <= self.tolerance * fair_share(*order));
+        // Where all that could be seen is within the tolerance, it does not matter which.
+        let is_faint = self.scale <= self.tolerance * fair_share(RULES.len() - 1);
+        let (order, error) = fair.or_else(|| is_faint.then_some((FAINT, self.scale)))?;
         Some((order, share * error))
     }
 
