@@ -44,6 +44,9 @@ const CLOSE: f64 = 2.0;
 /// Past one occluder cuts are not made where rules take so few nodes without; past more so many times the square of their number.
 const FEW_NODES: usize = 64;
 
+/// What a rule of few nodes says is raised by this.
+const ROUGH: f64 = 2.0;
+
 /// The rule for what is within the tolerance altogether.
 const FAINT: usize = 1;
 
@@ -83,10 +86,11 @@ impl<'p> Cubature<'p> {
         }
         self.unhidden = unhidden;
         self.of.is_rest_known = unhidden.is_some();
-        self.whole =
-            unhidden.map_or_else(|| self.of.middling(&self.source[0]) * self.size, |unhidden| unhidden.value);
-        // Where planes cut the polygons off, what the middle sees says little.
-        self.scale = if unhidden.is_some() { self.whole } else { self.whole.max(8.0 * self.least) };
+        let Self { source, of, .. } = &mut self;
+        let roughly = || source.iter().map(|piece| of.roughly(piece)).sum();
+        self.whole = unhidden.map_or_else(roughly, |unhidden| unhidden.value);
+        // Where planes cut the polygons off, a few nodes may see little of them.
+        self.scale = if unhidden.is_some() { self.whole } else { ROUGH * self.whole };
         let known = unhidden.map_or(0.0, |unhidden| unhidden.error);
         let whole = self.whole.max(self.least);
         self.tolerance = allowed.error(self.whole, whole);

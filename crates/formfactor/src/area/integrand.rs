@@ -5,8 +5,9 @@ use super::events::{Event, are_skew, events};
 use super::patch::Patch;
 use super::point::{Eye, Focus, Near, Seen};
 use super::uncut::{away_from, away_from_surface, slopes};
+use crate::numeric::gauss::RULE_2;
 use crate::scene::surfaces::Surface;
-use crate::shapes::cell::{Cell, area, nodes};
+use crate::shapes::cell::{Cell, area, fan, nodes};
 use glam::DVec3;
 use std::cell::OnceCell;
 
@@ -71,10 +72,11 @@ impl<'p> Integrand<'p> {
         *self.is_skew.get_or_init(|| are_skew(self.to, self.occluders))
     }
 
-    /// The form factor to the target with nothing in between, from the middle of some points.
-    pub(super) fn middling(&mut self, corners: &[DVec3]) -> f64 {
-        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
-        self.eye.look(middle, self.normal, &self.target, &[]).whole
+    /// The integral over a convex piece of the source with nothing in between, by a rule of few nodes.
+    pub(super) fn roughly(&mut self, piece: &[DVec3]) -> f64 {
+        let cells = fan(piece);
+        let nodes = cells.iter().flat_map(|cell| nodes(cell, &RULE_2));
+        nodes.map(|(point, weight)| weight * self.eye.look(point, self.normal, &self.target, &[]).whole).sum()
     }
 
     /// How far a cell is at least from what it looks at.

@@ -23,6 +23,8 @@ pub(super) struct Outlook<'e> {
     id: usize,
     /// What of each occluder is before it.
     near: Vec<Option<(Origin, Near<'e>)>>,
+    /// The numbers of those that some is of.
+    all: Vec<usize>,
 }
 
 impl<'e> Outlook<'e> {
@@ -34,8 +36,9 @@ impl<'e> Outlook<'e> {
             }
             Some((hider.of, before(Cow::Borrowed(&hider.shape), own)?))
         };
-        let near = surfaces.hiders.iter().map(seen).collect();
-        Self { surfaces, id, near }
+        let near: Vec<_> = surfaces.hiders.iter().map(seen).collect();
+        let all = (0..near.len()).filter(|id| near[*id].is_some()).collect();
+        Self { surfaces, id, near, all }
     }
 
     /// The double integral of the kernel over this polygon and another one that it faces.
@@ -59,6 +62,20 @@ impl<'e> Outlook<'e> {
         Cubature::new(one, other, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
     }
 
+    /// The numbers of the occluders that balls do not show to be elsewhere than between this polygon and another one.
+    fn near_to(&self, other: &Surface) -> Cow<'_, [usize]> {
+        if self.near.len() <= FEW {
+            return Cow::Borrowed(&self.all);
+        }
+        let one = &self.surfaces.surfaces[self.id];
+        let mut found = self.surfaces.tree.find(|extent| {
+            let middle = extent.low.midpoint(extent.high);
+            to_hull(one, other, middle, middle.distance(extent.high)).is_none()
+        });
+        found.sort_unstable();
+        Cow::Owned(found)
+    }
+
     /// What can stand between this polygon and another one; `None` where one occluder hides all of it.
     fn between(&self, other: &Surface, eye: &mut Eye) -> Option<Vec<Near<'_>>> {
         let one = &self.surfaces.surfaces[self.id];
@@ -71,14 +88,9 @@ impl<'e> Outlook<'e> {
                 return None;
             }
         }
-        let mut ids = self.surfaces.tree.find(|extent| {
-            let middle = extent.low.midpoint(extent.high);
-            to_hull(one, other, middle, middle.distance(extent.high)).is_none()
-        });
-        ids.sort_unstable();
         let mut hull: Vec<DVec3> = Vec::new();
         let mut found = Vec::new();
-        for id in ids {
+        for &id in self.near_to(other).iter() {
             let Some((_, occluder)) = may_cover(id) else { continue };
             let Some(away) = to_hull(one, other, occluder.middle, occluder.radius) else { continue };
             if hull.is_empty() {
@@ -97,6 +109,9 @@ impl<'e> Outlook<'e> {
         Some(found)
     }
 }
+
+/// So few occluders are looked at one by one: asking for boxes around them first would cost more.
+const FEW: usize = 64;
 
 /// What of an occluder is before a surface.
 fn before<'o>(occluder: Near<'o>, surface: &Surface) -> Option<Near<'o>> {
