@@ -52,7 +52,8 @@ impl<'e> Outlook<'e> {
         let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
         let Some(occluders) = self.between(other, eye) else { return Some(Integral::default()) };
         if occluders.is_empty() {
-            if let Some(found) = unobstructed(one, other, &allowed.part(EASY)) {
+            let found = unobstructed(one, other, &allowed.part(EASY));
+            if let Some(found) = found.or_else(|| unobstructed(one, other, allowed)) {
                 return Some(found);
             }
         }
