@@ -29,10 +29,6 @@ impl Bound {
     pub(super) fn depth(&self, point: DVec3) -> f64 {
         self.normal.dot(point) + self.shift
     }
-
-    pub(super) fn turned(self) -> Self {
-        Self { normal: -self.normal, shift: -self.shift }
-    }
 }
 
 /// Convex polygons, one after the other.
@@ -80,85 +76,88 @@ pub(super) enum Clipped {
     All,
 }
 
-/// Clips a convex polygon to a cone.
-pub(super) fn inside(polygon: &mut Vec<DVec3>, cone: &[Bound], spare: &mut Vec<DVec3>) -> Clipped {
-    let mut is_cut = false;
-    for wall in cone {
-        let (low, high) = reach(polygon, wall);
-        if high <= 0.0 {
-            return Clipped::Nothing;
-        }
-        if low < 0.0 {
-            clip(polygon, wall, spare);
-            std::mem::swap(polygon, spare);
-            is_cut = true;
-        }
-    }
-    if is_cut { Clipped::Part } else { Clipped::All }
+/// What clipping needs, used again.
+#[derive(Debug, Default)]
+pub(super) struct Shears {
+    left: Vec<DVec3>,
+    spare: Vec<DVec3>,
+    /// How deep each corner is in the half-space that clips.
+    depths: Vec<f64>,
 }
 
-/// The least and the greatest depth of a polygon's corners.
-pub(super) fn reach(polygon: &[DVec3], wall: &Bound) -> (f64, f64) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for point in polygon {
-        let depth = wall.depth(*point);
-        low = if depth < low { depth } else { low };
-        high = if depth > high { depth } else { high };
+impl Shears {
+    /// Clips a convex polygon to a cone.
+    pub(super) fn inside(&mut self, polygon: &mut Vec<DVec3>, cone: &[Bound]) -> Clipped {
+        let mut is_cut = false;
+        for wall in cone {
+            let [low, high] = self.measure(polygon, wall);
+            if high <= 0.0 {
+                return Clipped::Nothing;
+            }
+            if low < 0.0 {
+                clip(polygon, &self.depths, 1.0, &mut self.spare);
+                std::mem::swap(polygon, &mut self.spare);
+                is_cut = true;
+            }
+        }
+        if is_cut { Clipped::Part } else { Clipped::All }
     }
-    (low, high)
+
+    /// Adds the parts of a convex polygon outside of a cone; whether any of it was inside.
+    pub(super) fn subtract(&mut self, polygon: &[DVec3], cone: &[Bound], out: &mut Soup) -> bool {
+        if cone.iter().any(|wall| polygon.iter().all(|p| wall.depth(*p) <= 0.0)) {
+            out.push(polygon);
+            return false;
+        }
+        let mut left = std::mem::take(&mut self.left);
+        left.clear();
+        left.extend_from_slice(polygon);
+        let mut is_met = true;
+        for wall in cone {
+            let [low, high] = self.measure(&left, wall);
+            if high <= 0.0 {
+                out.push(&left);
+                is_met = false;
+                break;
+            }
+            if low < 0.0 {
+                clip(&left, &self.depths, -1.0, &mut self.spare);
+                out.push(&self.spare);
+                clip(&left, &self.depths, 1.0, &mut self.spare);
+                std::mem::swap(&mut left, &mut self.spare);
+            }
+        }
+        self.left = left;
+        is_met
+    }
+
+    /// The least and the greatest depth of a polygon's corners.
+    fn measure(&mut self, polygon: &[DVec3], wall: &Bound) -> [f64; 2] {
+        self.depths.resize(polygon.len(), 0.0);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (depth, point) in self.depths.iter_mut().zip(polygon) {
+            let here = wall.depth(*point);
+            *depth = here;
+            low = if here < low { here } else { low };
+            high = if here > high { here } else { high };
+        }
+        [low, high]
+    }
 }
 
-/// The part of a convex polygon in a half-space.
-pub(super) fn clip(polygon: &[DVec3], wall: &Bound, out: &mut Vec<DVec3>) {
+/// The part of a convex polygon where its depths have a sign.
+fn clip(polygon: &[DVec3], depths: &[f64], sign: f64, out: &mut Vec<DVec3>) {
     out.clear();
-    let Some(mut before) = polygon.last().copied() else { return };
-    let mut there = wall.depth(before);
-    for &point in polygon {
-        let here = wall.depth(point);
-        if (there < 0.0 && here > 0.0) || (there > 0.0 && here < 0.0) {
-            out.push(before + (point - before) * (there / (there - here)));
+    let (Some(mut before), Some(mut there)) = (polygon.last(), depths.last()) else { return };
+    for (point, here) in polygon.iter().zip(depths) {
+        if (*there < 0.0 && *here > 0.0) || (*there > 0.0 && *here < 0.0) {
+            out.push(*before + (*point - *before) * (there / (there - here)));
         }
-        if here >= 0.0 {
-            out.push(point);
+        if sign * here >= 0.0 {
+            out.push(*point);
         }
         (before, there) = (point, here);
     }
-}
-
-/// What is left of a polygon while cones are cut out of it.
-#[derive(Debug, Default)]
-pub(super) struct Rest {
-    left: Vec<DVec3>,
-    spare: Vec<DVec3>,
-}
-
-/// Adds the parts of a convex polygon outside of a cone; whether any of it was inside.
-pub(super) fn subtract(
-    polygon: &[DVec3],
-    cone: &[Bound],
-    out: &mut Soup,
-    Rest { left, spare }: &mut Rest,
-) -> bool {
-    if cone.iter().any(|wall| reach(polygon, wall).1 <= 0.0) {
-        out.push(polygon);
-        return false;
-    }
-    left.clear();
-    left.extend_from_slice(polygon);
-    for wall in cone {
-        let (low, high) = reach(left, wall);
-        if high <= 0.0 {
-            out.push(left);
-            return false;
-        }
-        if low < 0.0 {
-            clip(left, &wall.turned(), spare);
-            out.push(spare);
-            clip(left, wall, spare);
-            std::mem::swap(left, spare);
-        }
-    }
-    true
 }
 
 /// The parts of convex polygons before a plane.

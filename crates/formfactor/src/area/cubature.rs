@@ -1,30 +1,25 @@
 //! Pairs that are hidden in part: cubature on cells that are cut where the view changes its shape.
 use super::clip::before;
-use super::estimate::{CellView, FINE, RULES, SURE, Smoothness, a_priori};
-use super::events::{are_skew, cut, events};
+use super::estimate::{CellView, FINE, RULES, SURE, a_priori};
+use super::events::cut;
 use super::integral::{Allowed, Integral, least_whole, most};
+use super::integrand::Integrand;
 use super::patch::Patch;
-use super::point::{Eye, Focus, Near, Seen};
+use super::point::{Eye, Focus, Near};
 use super::queue::{Open, Queue};
-use crate::scene::occluder::Face;
+use super::uncut::{self, fair_share};
 use crate::scene::surfaces::{Surface, area as area_of};
-use crate::shapes::cell::{Cell, area, fan, halves, nodes};
+use crate::shapes::cell::{Cell, area, fan, halves};
 use glam::DVec3;
 
-/// The form factor from the points of a source to a target.
+/// The integral of the form factor over a source.
 #[derive(Debug)]
 pub(super) struct Cubature<'p> {
-    normal: DVec3,
-    /// What of the two is before the other's plane.
+    of: Integrand<'p>,
+    /// What of the source is before the target's plane.
     source: Vec<Vec<DVec3>>,
-    target: Vec<Vec<DVec3>>,
-    to: &'p Surface,
-    occluders: &'p [Near<'p>],
-    /// Whether three edges in three directions may open a gap where no vertex is.
-    is_skew: bool,
     /// No point of the source has a larger factor to the target.
     most: f64,
-    eye: &'p mut Eye,
     size: f64,
     /// The integral with nothing in between, if it is known, and roughly.
     unhidden: Option<Integral>,
@@ -35,7 +30,6 @@ pub(super) struct Cubature<'p> {
     least: f64,
     tolerance: f64,
     open: Queue,
-    evaluations: u64,
 }
 
 /// The share of the tolerance that any cut which is not made may take.
@@ -47,8 +41,17 @@ const START: f64 = 0.1;
 /// A rule of few nodes is checked by the next where a cell is so close to what it looks at, in halves of its longest side.
 const CLOSE: f64 = 2.0;
 
-/// What no node sees more of than this share counts as nothing: roundings of what is hidden.
-const DARK: f64 = 1e-13;
+/// Past one occluder cuts are not made where rules take so few nodes without; past more so many times the square of their number.
+const FEW_NODES: usize = 64;
+
+/// What a rule of few nodes says is raised by this.
+const ROUGH: f64 = 2.0;
+
+/// The rule for what is within the tolerance altogether.
+const FAINT: usize = 1;
+
+/// Into so many cells a piece is halved where it is not cut.
+const MOST_CELLS: usize = 16;
 
 /// A cell is halved so often before cuts by events are given up.
 const BLIND_HALVINGS: u32 = 4;
@@ -58,14 +61,9 @@ impl<'p> Cubature<'p> {
         let source = before(&from.pieces, to.face);
         let size = source.iter().map(|piece| area_of(piece)).sum();
         Self {
-            normal: from.face[1],
+            of: Integrand::new(from, to, occluders, eye),
             source,
-            target: before(&to.pieces, from.face),
-            to,
-            occluders,
-            is_skew: are_skew(to, occluders),
             most: most(from, to),
-            eye,
             size,
             unhidden: None,
             whole: 0.0,
@@ -73,7 +71,6 @@ impl<'p> Cubature<'p> {
             least: least_whole(from, to),
             tolerance: 0.0,
             open: Queue::default(),
-            evaluations: 0,
         }
     }
 
@@ -84,20 +81,23 @@ impl<'p> Cubature<'p> {
         allowed: &Allowed,
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
-        if self.source.is_empty() || self.target.is_empty() {
+        if self.source.is_empty() || self.of.is_nothing() {
             return Some(Integral::default());
         }
         self.unhidden = unhidden;
-        self.whole = unhidden.map_or_else(|| self.middling() * self.size, |unhidden| unhidden.value);
-        // Where planes cut the polygons off, what the middle sees says little.
-        self.scale = if unhidden.is_some() { self.whole } else { self.whole.max(8.0 * self.least) };
+        self.of.is_rest_known = unhidden.is_some();
+        let Self { source, of, .. } = &mut self;
+        let roughly = || source.iter().map(|piece| of.roughly(piece)).sum();
+        self.whole = unhidden.map_or_else(roughly, |unhidden| unhidden.value);
+        // Where planes cut the polygons off, a few nodes may see little of them.
+        self.scale = if unhidden.is_some() { self.whole } else { ROUGH * self.whole };
         let known = unhidden.map_or(0.0, |unhidden| unhidden.error);
         let whole = self.whole.max(self.least);
         self.tolerance = allowed.error(self.whole, whole);
         for piece in std::mem::take(&mut self.source) {
             self.begin(&piece);
         }
-        while self.evaluations < allowed.evaluations {
+        while self.of.evaluations < allowed.evaluations {
             if is_cancelled() {
                 return None;
             }
@@ -109,7 +109,7 @@ impl<'p> Cubature<'p> {
             self.refine(&worst);
         }
         let (value, error) = self.open.sum();
-        Some(Integral { value: self.seen(value), error: known + error, evaluations: self.evaluations })
+        Some(Integral { value: self.seen(value), error: known + error, evaluations: self.of.evaluations })
     }
 
     /// What is seen, given the sum over the cells.
@@ -117,15 +117,11 @@ impl<'p> Cubature<'p> {
         self.unhidden.map_or(sum, |unhidden| unhidden.value - sum).max(0.0)
     }
 
-    /// The form factor to the target with nothing in between, from a point of the source.
-    fn middling(&mut self) -> f64 {
-        let corners = &self.source[0];
-        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
-        self.eye.look(middle, self.normal, &self.target, &[]).whole
-    }
-
     /// Cuts a piece of the source at events, and integrates over what comes of it.
     fn begin(&mut self, piece: &[DVec3]) {
+        if !self.of.occluders.is_empty() && self.is_done_uncut(piece) {
+            return;
+        }
         let least = self.tolerance * UNCUT;
         let mut coarse: Vec<(Cell, u32)> = Vec::new();
         let patch = Patch::of(piece);
@@ -144,9 +140,63 @@ impl<'p> Cubature<'p> {
         }
     }
 
+    /// Integrates over a piece of the source without cuts, if rules of few nodes are good enough for that.
+    fn is_done_uncut(&mut self, piece: &[DVec3]) -> bool {
+        let Some(cells) = self.uncut(piece) else { return false };
+        let mut found = Vec::with_capacity(cells.len());
+        for (cell, order, error) in cells {
+            let view = self.of.view(&cell, false);
+            let sum = self.of.product(&cell, order, &view);
+            // Gaps between several occluders may open in between nodes; past one, what is dark is convex.
+            let may_gap =
+                sum.is_dark && self.of.occluders.len() > 1 && error < self.scale * area(&cell) / self.size;
+            let unseen = if may_gap { self.of.unseen(&cell) } else { 0.0 };
+            found.push(Open { order, value: sum.value, error: error.max(unseen), ..Open::over(cell, None) });
+        }
+        let error: f64 = found.iter().map(|open| open.error).sum();
+        let is_good = error <= self.tolerance * area_of(piece) / self.size;
+        if is_good {
+            found.into_iter().for_each(|open| self.open.push(open));
+        }
+        is_good
+    }
+
+    /// Cells of a piece with rules that are good enough without cuts, and what they may err by, if they take few nodes.
+    fn uncut(&self, piece: &[DVec3]) -> Option<Vec<(Cell, usize, f64)>> {
+        let mut left = FEW_NODES * self.of.occluders.len().pow(2);
+        let mut coarse = fan(piece);
+        let mut found = Vec::with_capacity(coarse.len());
+        while let Some(cell) = coarse.pop() {
+            if let Some((order, error)) = self.rule_uncut(&cell) {
+                left = left.checked_sub(RULES[order].len().pow(2))?;
+                found.push((cell, order, error));
+            } else if coarse.len() + found.len() < MOST_CELLS {
+                coarse.extend(halves(cell));
+            } else {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    /// The cheapest rule that is good enough on a cell without cuts, if any, and what it may err by.
+    fn rule_uncut(&self, cell: &Cell) -> Option<(usize, f64)> {
+        let share = area(cell) / self.size;
+        let [skewness, apart] = self.of.shape(cell);
+        let view = CellView { focus: Focus::Part, is_cut: false, skewness, apart };
+        let slopes = self.of.slopes(cell);
+        let mut errors =
+            (0..RULES.len()).map(|order| self.scale * uncut::error(&view, slopes, order)).enumerate();
+        let fair = errors.find(|(order, error)| *error <= self.tolerance * fair_share(*order));
+        // Where all that could be seen is within the tolerance, it does not matter which.
+        let is_faint = self.scale <= self.tolerance * fair_share(RULES.len() - 1);
+        let (order, error) = fair.or_else(|| is_faint.then_some((FAINT, self.scale)))?;
+        Some((order, share * error))
+    }
+
     /// Integrates over a patch cut at all events, but for those that change less than `least` there; whether they are few enough.
     fn cut(&mut self, patch: Patch, least: f64) -> bool {
-        let (events, are_all) = events(&patch, &self.target, self.occluders);
+        let (events, are_all) = self.of.events(&patch);
         let Some(parts) = cut(patch, &events, self.most, least).filter(|_| are_all) else { return false };
         for (part, left_out) in parts {
             let size = part.area();
@@ -158,30 +208,14 @@ impl<'p> Cubature<'p> {
         true
     }
 
-    /// How far a cell is at least from what it looks at.
-    fn away(&self, cell: &Cell) -> f64 {
-        let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
-        let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
-        let from_ball = |at: DVec3, size: f64| middle.distance(at) - size - radius;
-        let above =
-            |[on, normal]: &Face| cell.iter().map(|p| normal.dot(*p - *on)).fold(f64::INFINITY, f64::min);
-        let to_target = from_ball(self.to.middle, self.to.radius).max(above(&self.to.face));
-        let to_occluder = |o: &Near| {
-            let plane = o.faces.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
-            from_ball(o.middle, o.radius).max(plane)
-        };
-        self.occluders.iter().map(to_occluder).fold(to_target, f64::min).max(0.0)
-    }
-
     /// Integrates over a cell with the cheapest rule from `least` on that seems good enough.
     fn add(&mut self, cell: Cell, left_out: Option<f64>, least: usize, known: Option<(f64, [f64; 3])>) {
         if area(&cell) == 0.0 {
             return;
         }
-        let view = self.view(&cell, left_out.is_some());
-        let mut open =
-            Open { cell, value: 0.0, error: 0.0, left_out, order: 0, constants: [0.0; 3], last: 0.0 };
-        if view.focus != self.adds_nothing() {
+        let view = self.of.view(&cell, left_out.is_some());
+        let mut open = Open::over(cell, left_out);
+        if view.focus != self.of.adds_nothing() {
             let share = area(&cell) / self.size;
             let allowed = self.tolerance * (share / 2.0).max(START);
             let a_priori = |order| share * self.scale * a_priori(&view, order);
@@ -192,101 +226,44 @@ impl<'p> Cubature<'p> {
             } else {
                 self.by_many(&mut open, &view, known)
             };
-            if is_dark && (self.is_skew || !view.is_cut) {
-                open.error = open.error.max(self.unseen(&cell));
+            if is_dark && (self.of.is_skew() || !view.is_cut) {
+                open.error = open.error.max(self.of.unseen(&cell));
             }
         }
         open.error += left_out.unwrap_or(0.0);
         self.open.push(open);
     }
 
-    /// How a cell sees the target, all events on it cut or not.
-    fn view(&mut self, cell: &Cell, is_cut: bool) -> CellView {
-        if !is_cut {
-            return CellView { focus: Focus::Part, is_cut, skewness: 1.0, apart: 0.0 };
-        }
-        let focus = self.eye.focus(cell, &self.target, self.occluders);
-        let [a, b, c, d] = *cell;
-        let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
-        let skewness = (a - b + c - d).length() / longest;
-        CellView { focus, is_cut, skewness, apart: 2.0 * self.away(cell) / longest }
-    }
-
-    /// What a cell must see to add nothing.
-    fn adds_nothing(&self) -> Focus {
-        if self.unhidden.is_some() { Focus::All } else { Focus::Nothing }
-    }
-
     /// The integral over a cell by a rule of few nodes, to whose error belongs what one more node a side changes nearby or where
     /// shadows overlap; whether no node sees anything.
     fn by_few(&mut self, open: &mut Open, view: &CellView) -> bool {
-        let (value, seen) = self.product(&open.cell, open.order, view);
-        open.value = value;
-        if seen.is_joint || view.apart < CLOSE {
-            open.value = self.product(&open.cell, open.order + 1, view).0;
-            open.error = open.error.max((open.value - value).abs());
+        let sum = self.of.product(&open.cell, open.order, view);
+        open.value = sum.value;
+        if sum.is_joint || view.apart < CLOSE {
+            open.value = self.of.product(&open.cell, open.order + 1, view).value;
+            open.error = open.error.max((open.value - sum.value).abs());
         }
-        is_dark(view, &seen)
+        sum.is_dark
     }
 
     /// The integral over a cell by a fine rule, after three before it or after the one that is known with its constants; whether no
     /// node sees anything.
     fn by_many(&mut self, open: &mut Open, view: &CellView, known: Option<(f64, [f64; 3])>) -> bool {
-        let smoothness = self.smoothness(&open.cell, view);
+        let smoothness = self.of.smoothness(&open.cell, view);
         let first = if known.is_some() { open.order } else { open.order - 2 };
         (open.value, open.constants) =
-            known.unwrap_or_else(|| (self.product(&open.cell, first - 1, view).0, [0.0; 3]));
-        let mut last = Seen::default();
+            known.unwrap_or_else(|| (self.of.product(&open.cell, first - 1, view).value, [0.0; 3]));
+        let mut is_dark = false;
         for order in first..=open.order {
-            let (value, seen) = self.product(&open.cell, order, view);
+            let sum = self.of.product(&open.cell, order, view);
             open.constants.rotate_left(1);
-            open.constants[2] = (value - open.value).abs() / smoothness.rate(order - 1);
-            (open.value, last) = (value, seen);
+            open.constants[2] = (sum.value - open.value).abs() / smoothness.rate(order - 1);
+            (open.value, is_dark) = (sum.value, sum.is_dark);
         }
         let constant = SURE * open.constants.into_iter().fold(0.0, f64::max);
         open.error = constant * smoothness.rate(open.order);
         open.last = constant * smoothness.rate(RULES.len() - 1);
-        is_dark(view, &last)
-    }
-
-    fn smoothness(&self, cell: &Cell, view: &CellView) -> Smoothness {
-        if view.is_cut && self.is_skew && self.eye.shadows_cross(cell) {
-            Smoothness::Bends
-        } else {
-            Smoothness::Analytic { apart: view.apart }
-        }
-    }
-
-    /// What some of a cell might see though its nodes do not.
-    fn unseen(&mut self, cell: &Cell) -> f64 {
-        let corners = if cell[2] == cell[3] { &cell[..3] } else { &cell[..] };
-        self.eye.left_open(corners, self.normal, &self.target, self.occluders) * area(cell)
-    }
-
-    /// The integral by a rule: of what is hidden where the rest is known, else of what is seen.
-    fn product(&mut self, cell: &Cell, order: usize, view: &CellView) -> (f64, Seen) {
-        let mut all = Seen::default();
-        let mut value = 0.0;
-        for (point, weight) in nodes(cell, RULES[order]) {
-            let seen = if view.is_cut {
-                self.eye.look_past(point, self.normal, &self.target, self.occluders)
-            } else {
-                self.eye.look(point, self.normal, &self.target, self.occluders)
-            };
-            value += weight * self.part(seen, view.focus);
-            all.add(&seen);
-            self.evaluations += 1;
-        }
-        (value, all)
-    }
-
-    /// What of the factor from a node counts.
-    fn part(&self, seen: Seen, focus: Focus) -> f64 {
-        match (focus, self.unhidden.is_some()) {
-            (Focus::Part, true) => seen.hidden,
-            (Focus::Part, false) => seen.whole - seen.hidden,
-            _ => seen.whole,
-        }
+        is_dark
     }
 
     /// Makes cuts that were left out, or takes a finer rule where the integrand is smooth and there is one, else two halves.
@@ -313,9 +290,4 @@ impl<'p> Cubature<'p> {
             self.add(half, Some(left_out * share), 2, None);
         }
     }
-}
-
-/// Whether a part of nothing is seen, as far as nodes say.
-fn is_dark(view: &CellView, seen: &Seen) -> bool {
-    view.focus == Focus::Part && seen.whole - seen.hidden <= DARK * seen.whole
 }

@@ -6,7 +6,7 @@
 use super::contour::to_segment;
 use super::patch::{MOST_CORNERS, Patch};
 use super::point::Near;
-use crate::scene::occluder::{CAP, Face, Occluder, Ridge};
+use crate::scene::occluder::{Face, Occluder, Ridge};
 use crate::scene::surfaces::Surface;
 use glam::DVec3;
 
@@ -189,12 +189,9 @@ struct Silhouette {
 impl Silhouette {
     /// Those with a face that some of the cell may see and one that some may not.
     fn from_some(occluder: &Occluder, cell: &[DVec3]) -> Self {
-        let faces = occluder.faces.iter().map(|[on, normal]| {
-            let heights = cell.iter().map(|p| normal.dot(*p - *on));
-            heights.fold([false; 2], |[seen, unseen], h| [seen || h > 0.0, unseen || h <= 0.0])
-        });
-        let faces: Vec<[bool; 2]> = faces.collect();
-        let of = |side: usize| if side == CAP { [false, true] } else { faces[side] };
+        let mut sides = Vec::with_capacity(occluder.faces.len());
+        occluder.sides(cell, &mut sides);
+        let of = |side: usize| sides.get(side).copied().unwrap_or([false, true]);
         let may_turn = |ridge: &&Ridge| {
             let [[left, not_left], [right, not_right]] = ridge.sides.map(of);
             (left && not_right) || (right && not_left)

@@ -8,31 +8,38 @@ use super::{contour, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
 use crate::scene::occluder::{Before, Face};
-use crate::scene::surfaces::{Origin, Surface, Surfaces};
+use crate::scene::surfaces::{Hider, Origin, Surface, Surfaces};
 use crate::shapes::cell::nodes;
 use glam::DVec3;
 use std::{borrow::Cow, f64::consts::PI};
+
+/// The share of what is allowed that integrals with nothing in between may err by: they cost little, and errors of what is hidden add to
+/// theirs.
+const EASY: f64 = 0.1;
 
 /// A polygon, and what is before its plane.
 #[derive(Debug)]
 pub(super) struct Outlook<'e> {
     surfaces: &'e Surfaces,
     id: usize,
-    near: Vec<(Origin, Near<'e>)>,
+    /// What of each occluder is before it.
+    near: Vec<Option<(Origin, Near<'e>)>>,
+    /// The numbers of those that some is of.
+    all: Vec<usize>,
 }
 
 impl<'e> Outlook<'e> {
     pub(super) fn from(surfaces: &'e Surfaces, id: usize) -> Self {
         let own = &surfaces.surfaces[id];
-        let mut near = Vec::new();
-        for hider in surfaces.hiders.iter().filter(|hider| !own.is_of(hider.of)) {
-            match hider.shape.before(own.face) {
-                Before::All => near.push((hider.of, Cow::Borrowed(&hider.shape))),
-                Before::Part(part) => near.push((hider.of, Cow::Owned(part))),
-                Before::Nothing => (),
+        let seen = |hider: &'e Hider| {
+            if own.is_of(hider.of) {
+                return None;
             }
-        }
-        Self { surfaces, id, near }
+            Some((hider.of, before(Cow::Borrowed(&hider.shape), own)?))
+        };
+        let near: Vec<_> = surfaces.hiders.iter().map(seen).collect();
+        let all = (0..near.len()).filter(|id| near[*id].is_some()).collect();
+        Self { surfaces, id, near, all }
     }
 
     /// The double integral of the kernel over this polygon and another one that it faces.
@@ -44,18 +51,16 @@ impl<'e> Outlook<'e> {
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
         let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
-        let occluders = self.between(other);
+        let Some(occluders) = self.between(other, eye) else { return Some(Integral::default()) };
         if occluders.is_empty() {
-            if let Some(found) = unobstructed(one, other, allowed) {
+            let found = unobstructed(one, other, &allowed.part(EASY));
+            if let Some(found) = found.or_else(|| unobstructed(one, other, allowed)) {
                 return Some(found);
             }
         }
         let unhidden =
-            if occluders.is_empty() { None } else { unobstructed(one, other, &allowed.part(0.25)) };
+            if occluders.is_empty() { None } else { unobstructed(one, other, &allowed.part(EASY)) };
         let (one, other) = in_order(one, other, &occluders);
-        if occluders.iter().any(|occluder| eye.is_covered(&one.pieces, &other.pieces, occluder)) {
-            return Some(Integral::default());
-        }
         Cubature::new(one, other, &occluders, eye).integrate(unhidden, allowed, is_cancelled)
     }
 
@@ -68,44 +73,95 @@ impl<'e> Outlook<'e> {
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
         let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
-        let occluders = self.between(other);
-        let (one, other) = in_order(one, other, &occluders);
-        let deviation = deviation + rounded([one, other], &occluders);
-        let swept = SWEPT * deviation * edges([one, other], &occluders);
+        let between = self.between(other, &mut Eye::default());
+        let occluders = between.as_deref().unwrap_or_default();
+        let (one, other) = in_order(one, other, occluders);
+        let deviation = deviation + rounded([one, other], occluders);
+        let swept = SWEPT * deviation * edges([one, other], occluders);
+        if between.is_none() {
+            return Some(Integral { error: swept, ..Integral::default() });
+        }
         if occluders.is_empty() && contour::is_closed(one, other) && are_before([one, other]) {
             let [value, error] = contour::exchange(one, other, 0.0);
             return Some(Integral { value, error: SURE * error + swept, evaluations: 0 });
         }
-        Proof::new(one, other, &occluders, deviation).integrate(swept, allowed, is_cancelled)
+        Proof::new(one, other, occluders, deviation).integrate(swept, allowed, is_cancelled)
     }
 
-    /// What can stand between this polygon and another one.
-    fn between(&self, other: &Surface) -> Vec<Near<'_>> {
+    /// The numbers of the occluders that balls do not show to be elsewhere than between this polygon and another one.
+    fn near_to(&self, other: &Surface) -> Cow<'_, [usize]> {
+        if self.near.len() <= FEW {
+            return Cow::Borrowed(&self.all);
+        }
         let one = &self.surfaces.surfaces[self.id];
+        let mut found = self.surfaces.tree.find(|extent| {
+            let middle = extent.low.midpoint(extent.high);
+            to_hull(one, other, middle, middle.distance(extent.high)).is_none()
+        });
+        found.sort_unstable();
+        Cow::Owned(found)
+    }
+
+    /// What can stand between this polygon and another one; `None` where one occluder hides all of it.
+    fn between(&self, other: &Surface, eye: &mut Eye) -> Option<Vec<Near<'_>>> {
+        let one = &self.surfaces.surfaces[self.id];
+        // What hid the last one may hide this one.
+        let may_cover = |id: usize| self.near.get(id)?.as_ref().filter(|near| !other.is_of(near.0));
+        if let Some(part) =
+            may_cover(eye.cover).and_then(|near| before(Cow::Borrowed(near.1.as_ref()), other))
+        {
+            if eye.is_covered(&one.pieces, &other.pieces, &part) {
+                return None;
+            }
+        }
         let mut hull: Vec<DVec3> = Vec::new();
         let mut found = Vec::new();
-        for (_, occluder) in self.near.iter().filter(|(owner, _)| !other.is_of(*owner)) {
-            let axis = other.middle - one.middle;
-            let share = ((occluder.middle - one.middle).dot(axis) / axis.length_squared()).clamp(0.0, 1.0);
-            let away = occluder.middle - (one.middle + axis * share);
-            let reach = occluder.radius + one.radius + other.radius;
-            if away.length_squared() > reach * reach {
-                continue;
-            }
+        for &id in self.near_to(other).iter() {
+            let Some((_, occluder)) = may_cover(id) else { continue };
+            let Some(away) = to_hull(one, other, occluder.middle, occluder.radius) else { continue };
             if hull.is_empty() {
                 hull.extend(one.pieces.iter().chain(&other.pieces).flatten());
             }
             if are_apart(&hull, &occluder.corners, away) {
                 continue;
             }
-            match occluder.before(other.face) {
-                Before::All => found.push(Cow::Borrowed(occluder.as_ref())),
-                Before::Part(part) => found.push(Cow::Owned(part)),
-                Before::Nothing => (),
+            let Some(part) = before(Cow::Borrowed(occluder.as_ref()), other) else { continue };
+            if eye.is_covered(&one.pieces, &other.pieces, &part) {
+                eye.cover = id;
+                return None;
             }
+            found.push(part);
         }
-        found
+        Some(found)
     }
+}
+
+/// So few occluders are looked at one by one: asking for boxes around them first would cost more.
+const FEW: usize = 64;
+
+/// What of an occluder is before a surface.
+fn before<'o>(occluder: Near<'o>, surface: &Surface) -> Option<Near<'o>> {
+    match occluder.before(surface.face) {
+        Before::All => Some(occluder),
+        Before::Part(part) => Some(Cow::Owned(part)),
+        Before::Nothing => None,
+    }
+}
+
+/// The way from the axis of two surfaces to the middle of a ball, unless the balls around all three show that it is not in between.
+///
+/// The convex hull of two balls is in the cone around them, of half the angle with the sine (r2 - r1) / d.
+fn to_hull(one: &Surface, other: &Surface, middle: DVec3, radius: f64) -> Option<DVec3> {
+    let (axis, way) = (other.middle - one.middle, middle - one.middle);
+    let square = axis.length_squared();
+    let share = way.dot(axis) / square;
+    let growth = other.radius - one.radius;
+    let width = one.radius + growth * share + radius;
+    let across = (way - axis * share).length_squared() * (1.0 - growth * growth / square);
+    let is_in_cone = width > 0.0 && across <= width * width || growth * growth >= square;
+    let away = way - axis * share.clamp(0.0, 1.0);
+    let reach = radius + one.radius.max(other.radius);
+    (is_in_cone && away.length_squared() <= reach * reach).then_some(away)
 }
 
 /// The two with the one first that is small as the occluders see it: its points see them alike.

@@ -3,11 +3,12 @@
 //! From a point an occluder is a cone, the half-spaces inside its silhouette. A target's part in that cone is clipped out of it, and Lambert's sum
 //! over it subtracted. Where shadows overlap, each counts less what is in the cones before it. Clipping is continuous: a wrong
 //! sign near zero changes areas by roundings only.
-use super::clip::{Bound, Clipped, Rest, Soup, inside, subtract};
+use super::clip::{Bound, Clipped, Shears, Soup};
 use super::lambert::lambert;
-use crate::scene::occluder::Occluder;
+use super::silhouettes::Silhouettes;
+use crate::scene::occluder::{Occluder, silhouette};
 use glam::DVec3;
-use std::borrow::Cow;
+use std::{borrow::Cow, ops::Range};
 
 /// An occluder, or a part of one.
 pub(super) type Near<'e> = Cow<'e, Occluder>;
@@ -16,22 +17,21 @@ pub(super) type Near<'e> = Cow<'e, Occluder>;
 #[derive(Debug, Default)]
 pub(super) struct Eye {
     facing: Vec<bool>,
-    /// The silhouettes of the occluders that hide something, and where those of each end.
-    edges: Vec<[DVec3; 2]>,
-    edge_ends: Vec<usize>,
-    /// Those of which not all points of the cell see the same faces.
-    turning: Vec<usize>,
+    /// Of the occluders that hide something from a cell.
+    silhouettes: Silhouettes,
     /// The half-spaces of all cones, and where those of each end.
     walls: Vec<Bound>,
     ends: Vec<usize>,
     target: Vec<DVec3>,
     shadow: Vec<DVec3>,
     spare: Vec<DVec3>,
-    /// Shadows that are not empty.
-    casting: Vec<usize>,
+    /// The half-spaces of cones whose shadows are not empty.
+    casting: Vec<Range<usize>>,
     parts: Soup,
     next: Soup,
-    rest: Rest,
+    shears: Shears,
+    /// The number of the occluder that hid all of a target last.
+    pub(super) cover: usize,
 }
 
 /// What a point sees.
@@ -45,18 +45,11 @@ pub(super) enum Focus {
 /// What a point sees: the form factor of the target with nothing in between, and of what is hidden of it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Seen {
+    /// More than that where it was not asked for.
     pub(super) whole: f64,
     pub(super) hidden: f64,
     /// Whether shadows overlap.
     pub(super) is_joint: bool,
-}
-
-impl Seen {
-    pub(super) fn add(&mut self, other: &Self) {
-        self.whole += other.whole;
-        self.hidden += other.hidden;
-        self.is_joint |= other.is_joint;
-    }
 }
 
 impl Eye {
@@ -70,51 +63,49 @@ impl Eye {
         occluders: &[Near],
     ) -> Seen {
         self.cones(&[from], occluders);
-        self.sum(from, normal, pieces)
+        self.sum(from, normal, pieces, true)
     }
 
     /// Finds which of the occluders the middle of a cell sees before the pieces, and their silhouettes; whether one hides all.
     pub(super) fn focus(&mut self, cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) -> Focus {
         let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
-        self.unfocus();
+        self.silhouettes.clear();
         for (index, occluder) in occluders.iter().enumerate() {
-            occluder.facing(from, &mut self.facing);
-            let start = self.edges.len();
-            self.edges.extend(occluder.silhouette(&self.facing));
-            if self.edges.len() == start && occluder.is_plate {
+            let edges = self.silhouettes.try_from(from, occluder);
+            if edges.is_empty() && occluder.is_plate {
                 continue;
             }
-            match self.met(start, from, pieces) {
+            self.walls.clear();
+            self.walls.extend(edges.iter().map(|edge| Bound::through(*edge, from)));
+            match self.met(from, pieces) {
                 Clipped::All => {
-                    self.unfocus();
+                    self.silhouettes.clear();
                     return Focus::Nothing;
                 }
-                Clipped::Part if occluder.turns_alike(cell) => self.edge_ends.push(self.edges.len()),
-                Clipped::Part => {
-                    self.edges.truncate(start);
-                    self.turning.push(index);
-                }
-                Clipped::Nothing => self.edges.truncate(start),
+                Clipped::Part if occluder.turns_alike(cell) => self.silhouettes.keep(),
+                Clipped::Part => self.silhouettes.turn(index, occluder, cell, pieces),
+                Clipped::Nothing => (),
             }
         }
-        if self.edges.is_empty() && self.turning.is_empty() { Focus::All } else { Focus::Part }
+        self.silhouettes.forget();
+        if self.silhouettes.is_empty() { Focus::All } else { Focus::Part }
     }
 
-    fn unfocus(&mut self) {
-        self.turning.clear();
-        self.edges.clear();
-        self.edge_ends.clear();
+    /// Finds the silhouettes of all occluders as the points of a cell see them before the pieces.
+    pub(super) fn face(&mut self, cell: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) {
+        self.silhouettes.clear();
+        for (index, occluder) in occluders.iter().enumerate() {
+            self.silhouettes.turn(index, occluder, cell, pieces);
+        }
     }
 
-    /// What of all pieces is in the cone of the silhouette that begins at an edge.
-    fn met(&mut self, start: usize, from: DVec3, pieces: &[Vec<DVec3>]) -> Clipped {
-        self.walls.clear();
-        self.walls.extend(self.edges[start..].iter().map(|edge| Bound::through(*edge, from)));
+    /// What of all pieces is in the cone of the walls.
+    fn met(&mut self, from: DVec3, pieces: &[Vec<DVec3>]) -> Clipped {
         let (mut is_covered, mut is_met) = (true, false);
         for piece in pieces {
             self.target.clear();
             self.target.extend(piece.iter().map(|p| *p - from));
-            let clipped = inside(&mut self.target, &self.walls, &mut self.spare);
+            let clipped = self.shears.inside(&mut self.target, &self.walls);
             is_covered &= matches!(clipped, Clipped::All);
             is_met |= !matches!(clipped, Clipped::Nothing);
         }
@@ -125,52 +116,35 @@ impl Eye {
         }
     }
 
-    /// Whether two of the shadows in focus meet anywhere, on the target or beside it, as the middle of a cell sees them.
-    ///
-    /// Events cut cells where two begin to meet, so that what holds for the middle holds for all.
+    /// Whether two of the shadows in focus meet anywhere.
     pub(super) fn shadows_cross(&self, cell: &[DVec3]) -> bool {
-        let from = cell.iter().sum::<DVec3>() / cell.len() as f64;
-        let shadow = |i: usize| {
-            let start = if i == 0 { 0 } else { self.edge_ends[i - 1] };
-            &self.edges[start..self.edge_ends[i]]
-        };
-        let count = self.edge_ends.len();
-        let mut pairs = (0..count).flat_map(|i| (0..i).map(move |j| [shadow(i), shadow(j)]));
-        (count + self.turning.len() > 1 && !self.turning.is_empty())
-            || pairs.any(|[one, other]| !is_beside(one, other, from) && !is_beside(other, one, from))
+        self.silhouettes.cross(cell)
     }
 
-    /// [`Self::look`] past the silhouettes in focus.
+    /// [`Self::look`] past the silhouettes in focus; the whole only if asked for or if it is hidden.
     pub(super) fn look_past(
         &mut self,
         from: DVec3,
         normal: DVec3,
         pieces: &[Vec<DVec3>],
         occluders: &[Near],
+        is_whole_asked: bool,
     ) -> Seen {
-        self.walls.clear();
-        self.walls.extend(self.edges.iter().map(|edge| Bound::through(*edge, from)));
-        self.ends.clone_from(&self.edge_ends);
-        for index in 0..self.turning.len() {
-            self.cone(&[from], &occluders[self.turning[index]]);
-        }
-        self.sum(from, normal, pieces)
+        self.silhouettes.cones(from, occluders, &mut self.walls, &mut self.ends);
+        self.sum(from, normal, pieces, is_whole_asked)
     }
 
-    fn sum(&mut self, from: DVec3, normal: DVec3, pieces: &[Vec<DVec3>]) -> Seen {
+    fn sum(&mut self, from: DVec3, normal: DVec3, pieces: &[Vec<DVec3>], is_whole_asked: bool) -> Seen {
         let mut seen = Seen::default();
         for piece in pieces {
             self.target.clear();
             self.target.extend(piece.iter().map(|p| *p - from));
-            let whole = lambert(normal, &self.target);
+            let found = self.hidden(normal);
+            let whole = if is_whole_asked || found.is_none() { lambert(normal, &self.target) } else { 1.0 };
+            let (hidden, is_joint) = found.unwrap_or((whole, false));
             seen.whole += whole;
-            match self.hidden(normal) {
-                Some((hidden, is_joint)) => {
-                    seen.hidden += hidden.min(whole);
-                    seen.is_joint |= is_joint;
-                }
-                None => seen.hidden += whole,
-            }
+            seen.hidden += hidden.min(whole);
+            seen.is_joint |= is_joint;
         }
         seen
     }
@@ -188,9 +162,8 @@ impl Eye {
             occluder.facing(*from, &mut self.facing);
             let before = self.walls.len();
             let shift = *from - points[0];
-            self.walls.extend(
-                occluder.silhouette(&self.facing).map(|edge| Bound::through(edge, *from).moved(shift)),
-            );
+            let Self { walls, facing, .. } = &mut *self;
+            silhouette(&occluder.ridges, facing, |edge| walls.push(Bound::through(edge, *from).moved(shift)));
             if self.walls.len() == before && occluder.is_plate {
                 // Seen edge-on: its cone is empty.
                 self.walls.push(Bound::NOWHERE);
@@ -201,33 +174,35 @@ impl Eye {
 
     /// The form factor of what the cones hide of the target, and whether shadows overlap; `None` where one hides all of it.
     fn hidden(&mut self, normal: DVec3) -> Option<(f64, bool)> {
-        let Self { walls, ends, target, shadow, spare, casting, parts, next, rest, .. } = self;
+        let Self { walls, ends, target, shadow, casting, parts, next, shears, .. } = self;
         casting.clear();
         let (mut hidden, mut is_joint) = (0.0, false);
         let mut start = 0;
         for end in &*ends {
-            let cone = &walls[start..*end];
+            let cone = start..*end;
             start = *end;
-            shadow.clone_from(target);
-            match inside(shadow, cone, spare) {
+            shadow.clear();
+            shadow.extend_from_slice(target);
+            match shears.inside(shadow, &walls[cone.clone()]) {
                 Clipped::Nothing => continue,
                 Clipped::All => return None,
                 Clipped::Part => (),
             }
-            parts.clear();
-            parts.push(shadow);
-            for earlier in &*casting {
-                let from = if *earlier == 0 { 0 } else { ends[*earlier - 1] };
-                next.clear();
-                let mut met = false;
-                parts
-                    .polygons()
-                    .for_each(|part| met |= subtract(part, &walls[from..ends[*earlier]], next, rest));
-                is_joint |= met;
-                std::mem::swap(parts, next);
+            if casting.is_empty() {
+                hidden += lambert(normal, shadow);
+            } else {
+                parts.clear();
+                parts.push(shadow);
+                for earlier in &*casting {
+                    next.clear();
+                    for part in parts.polygons() {
+                        is_joint |= shears.subtract(part, &walls[earlier.clone()], next);
+                    }
+                    std::mem::swap(parts, next);
+                }
+                hidden += parts.polygons().map(|part| lambert(normal, part)).sum::<f64>();
             }
-            hidden += parts.polygons().map(|part| lambert(normal, part)).sum::<f64>();
-            casting.push(ends.iter().position(|e| e == end).unwrap_or(0));
+            casting.push(cone);
         }
         Some((hidden, is_joint))
     }
@@ -236,7 +211,7 @@ impl Eye {
     /// cell may see. Relative to the first corner.
     pub(super) fn not_in_umbrae(&mut self, corners: &[DVec3], pieces: &[Vec<DVec3>], occluders: &[Near]) {
         self.cones(corners, occluders);
-        let Self { walls, ends, target, parts, next, rest, .. } = self;
+        let Self { walls, ends, target, parts, next, shears, .. } = self;
         parts.clear();
         for piece in pieces {
             target.clear();
@@ -246,9 +221,9 @@ impl Eye {
         let mut start = 0;
         for end in &*ends {
             next.clear();
-            parts.polygons().for_each(|part| {
-                subtract(part, &walls[start..*end], next, rest);
-            });
+            for part in parts.polygons() {
+                shears.subtract(part, &walls[start..*end], next);
+            }
             std::mem::swap(parts, next);
             start = *end;
         }
@@ -283,10 +258,4 @@ impl Eye {
         let near = corners.iter().map(|corner| (*corner - corners[0]).lerp(middle, 0.25));
         near.map(|point| parts.seen_from(point, normal, spare)).fold(0.0, f64::max)
     }
-}
-
-/// Whether all of a silhouette is seen outside of one edge of another one.
-fn is_beside(one: &[[DVec3; 2]], other: &[[DVec3; 2]], from: DVec3) -> bool {
-    let leaves_out = |wall: Bound| other.iter().all(|[a, _]| wall.depth(*a - from) <= 0.0);
-    one.iter().any(|edge| leaves_out(Bound::through(*edge, from)))
 }

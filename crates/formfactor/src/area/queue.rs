@@ -18,6 +18,13 @@ pub(super) struct Open {
     pub(super) last: f64,
 }
 
+impl Open {
+    /// A cell that was not integrated over yet.
+    pub(super) fn over(cell: Cell, left_out: Option<f64>) -> Self {
+        Self { cell, value: 0.0, error: 0.0, left_out, order: 0, constants: [0.0; 3], last: 0.0 }
+    }
+}
+
 /// A cell and when it came.
 #[derive(Debug)]
 struct Numbered(Open, usize);

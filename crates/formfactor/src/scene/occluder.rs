@@ -68,16 +68,13 @@ impl Occluder {
         })
     }
 
-    /// The silhouette as a point sees it that sees the faces `facing`: edges that run counter-clockwise.
-    pub(crate) fn silhouette<'o>(&'o self, facing: &'o [bool]) -> impl Iterator<Item = [DVec3; 2]> + 'o {
-        let sees = |side: usize| side != CAP && facing[side];
-        self.ridges.iter().filter_map(move |Ridge { ends: [a, b], sides: [left, right] }| {
-            match (sees(*left), sees(*right)) {
-                (true, false) => Some([*a, *b]),
-                (false, true) => Some([*b, *a]),
-                _ => None,
-            }
-        })
+    /// Whether some points of a cell see each face, and whether some do not.
+    pub(crate) fn sides(&self, cell: &[DVec3], sides: &mut Vec<[bool; 2]>) {
+        sides.clear();
+        sides.extend(self.faces.iter().map(|[on, normal]| {
+            let heights = cell.iter().map(|p| normal.dot(*p - *on));
+            heights.fold([false; 2], |[seen, unseen], h| [seen || h > 0.0, unseen || h <= 0.0])
+        }));
     }
 
     /// What of it is before a plane, by a point on the plane and its normal: itself, a part, or nothing.
@@ -144,6 +141,19 @@ impl Occluder {
             }
         }
         Self::of(ridges, self.faces.clone(), self.is_plate)
+    }
+}
+
+/// Calls with each ridge that is an edge of the silhouette, as a point sees it that sees the faces `facing`: edges that run
+/// counter-clockwise.
+pub(crate) fn silhouette(ridges: &[Ridge], facing: &[bool], mut with: impl FnMut([DVec3; 2])) {
+    // A cap is no face: none is seen.
+    let sees = |side: usize| facing.get(side).is_some_and(|sees| *sees);
+    for Ridge { ends: [a, b], sides: [left, right] } in ridges {
+        let is_left = sees(*left);
+        if is_left != sees(*right) {
+            with(if is_left { [*a, *b] } else { [*b, *a] });
+        }
     }
 }
 

@@ -3,7 +3,9 @@
 use super::body::Bodies;
 use super::coplanar::planes;
 use super::occluder::{Face, Occluder, Ridge, ball};
+use super::tree::Tree;
 use crate::shapes::cell::{Cell, Nodes, fan};
+use crate::shapes::extent::Extent;
 use crate::shapes::loops::{is_convex, leaf};
 use crate::shapes::pieces::{pieces, trapezoids};
 use crate::shapes::polygon::PlanarPolygon;
@@ -56,6 +58,8 @@ pub(crate) enum Origin {
 pub(crate) struct Surfaces {
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) hiders: Vec<Hider>,
+    /// The boxes around the occluders.
+    pub(crate) tree: Tree,
 }
 
 impl Surfaces {
@@ -84,7 +88,8 @@ impl Surfaces {
             let plates = plates(polygons, &ids);
             hiders.extend(plates.into_iter().map(|shape| Hider { shape, of: Origin::Plane(plane) }));
         }
-        Self { surfaces, hiders }
+        let extents: Vec<Extent> = hiders.iter().map(|hider| Extent::around(&hider.shape.corners)).collect();
+        Self { surfaces, hiders, tree: Tree::around(&extents) }
     }
 }
 

@@ -17,9 +17,13 @@ const FEW: usize = 8;
 impl Tree {
     /// Takes O(n log^2 n).
     pub(crate) fn over(polygons: &[PlanarPolygon]) -> Self {
-        let extents: Vec<Extent> = polygons.iter().map(|polygon| Extent::around(polygon.points())).collect();
-        let mut tree = Self { extents: Vec::new(), ids: (0..polygons.len()).collect() };
-        let mut open = vec![(0, 0..polygons.len())];
+        Self::around(&polygons.iter().map(|polygon| Extent::around(polygon.points())).collect::<Vec<_>>())
+    }
+
+    /// Over whatever is in boxes.
+    pub(crate) fn around(extents: &[Extent]) -> Self {
+        let mut tree = Self { extents: Vec::new(), ids: (0..extents.len()).collect() };
+        let mut open = vec![(0, 0..extents.len())];
         while let Some((node, range)) = open.pop() {
             let ids = &mut tree.ids[range.clone()];
             let extent = ids.iter().fold(Extent::NOTHING, |all, id| all.with(extents[*id]));
@@ -27,7 +31,7 @@ impl Tree {
             tree.extents.resize(nodes, Extent::NOTHING);
             tree.extents[node] = extent;
             if range.len() > LEAF {
-                sort_along_longest(ids, &extents, extent);
+                sort_along_longest(ids, extents, extent);
                 let middle = range.start + range.len() / 2;
                 open.push((2 * node + 1, range.start..middle));
                 open.push((2 * node + 2, middle..range.end));
