@@ -31,7 +31,7 @@ impl Numbers {
 }
 
 /// Polygons that need not keep apart.
-fn scene(seed: u64) -> Vec<PlanarPolygon> {
+pub fn scene(seed: u64) -> Vec<PlanarPolygon> {
     let mut numbers = Numbers(seed);
     let family = seed % 6;
     let count = 2 + numbers.below(5);
@@ -123,4 +123,13 @@ fn bounds_hold_where_polygons_touch_and_cross() {
     let first = number("FIRST", 0);
     let found: Vec<String> = (first..first + number("SCENES", 300)).flat_map(complaints).collect();
     assert!(found.is_empty(), "{}:\n{}", found.len(), found.join("\n"));
+}
+#[test]
+fn show() {
+    for seed in [109, 139] {
+        let s = scene(seed);
+        for (i, p) in s.iter().enumerate() {
+            println!("{seed} {i} {:?} n {:?}", p.points().iter().map(|p| (*p * 3.0).round().to_array()).collect::<Vec<_>>(), p.normal().to_array());
+        }
+    }
 }

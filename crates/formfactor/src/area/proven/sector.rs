@@ -2,7 +2,7 @@
 use super::chart::Chart;
 use super::curtain::{Bearing, Curtain, Divide, Sign, linear_sign};
 use super::factor::Sight;
-use crate::scene::occluder::{CAP, Occluder};
+use crate::scene::occluder::{CAP, Occluder, silhouette};
 use glam::DVec3;
 
 /// Corners, each with the curtain to the next, counter-clockwise as the point sees them.
@@ -47,7 +47,9 @@ pub(super) fn cast(chart: &Chart, occluder: &Occluder, deviation: f64) -> Result
         }
     }
     debug_assert!(occluder.ridges.iter().flat_map(|r| r.sides).all(|s| s == CAP || s < facing.len()));
-    Ok(occluder.silhouette(&facing).map(|ends| Curtain { ends }).collect())
+    let mut found = Cast::new();
+    silhouette(&occluder.ridges, &facing, |ends| found.push(Curtain { ends }));
+    Ok(found)
 }
 
 impl Sector {
