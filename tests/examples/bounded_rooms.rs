@@ -19,11 +19,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut seen, mut wide, mut wrong) = (0, 0, 0);
     let (mut evaluations, mut times) = ([0; 2], [Duration::ZERO; 2]);
     for (i, j) in pairs {
-        if let Ok(w) = std::env::var("W") {
-            if w != format!("{i},{j}") {
-                continue;
-            }
-        }
         let start = Instant::now();
         let estimate = enclosure.area_form_factor(i, j, tolerance, &Limits::default())?.unwrap_or_default();
         let between = Instant::now();

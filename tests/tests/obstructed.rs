@@ -75,6 +75,27 @@ fn frozen_pairs_are_within_their_tolerances() {
     assert!(failures.is_empty(), "{} of them:\n{}", failures.len(), failures.join("\n"));
 }
 
+/// Every other frozen pair as an interval that holds.
+#[test]
+fn frozen_pairs_are_within_their_bounds() {
+    let frozen = frozen();
+    let check = |(pair, exact): &(Pair, f64)| {
+        let polygon = |points| PlanarPolygon::new([points]).expect("a planar polygon");
+        let enclosure = Enclosure::new(pair.polygons().into_iter().map(polygon).collect());
+        let limits = Limits { per_pair: 20_000, ..Limits::default() };
+        let found = enclosure.bounded_area_form_factor(0, 1, 5e-4, &limits);
+        let found = found.expect("a tolerance above 0").expect("no stop");
+        let is_right = (found.value - exact).abs() <= found.error_bound + pair.uncertainty();
+        (!is_right || found.error_bound > 5e-4).then(|| format!("{}: {found:?}, {exact:e}", pair.name))
+    };
+    let share = |start: usize| frozen.iter().skip(start).step_by(4).filter_map(check).collect::<Vec<_>>();
+    let failures: Vec<String> = std::thread::scope(|scope| {
+        let running = [0, 3].map(|start| scope.spawn(move || share(start)));
+        running.into_iter().flat_map(|t| t.join().expect("the check itself does not panic")).collect()
+    });
+    assert!(failures.is_empty(), "{} of them:\n{}", failures.len(), failures.join("\n"));
+}
+
 #[test]
 fn named_cases_are_within_their_tolerances() {
     let named = named();

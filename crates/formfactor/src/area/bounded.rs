@@ -21,6 +21,36 @@ pub struct BoundedFormFactor {
 impl Enclosure {
     /// [`Enclosure::area_form_factor`] as an interval: the exact form factor lies within `error_bound` of `value`, for certain.
     /// `None` once `limits` stop it.
+    ///
+    /// One polygon is cut into cells. On a cell from which all shapes are alike the point form factor is known as a polynomial with
+    /// a bound on what it leaves out (a Taylor model, roundings included); any other cell sees between nothing and all of the other
+    /// polygon. Cells are cut and halved until the bound of both directions is within `tolerance`, or until `limits` on evaluations are
+    /// reached: compare `error_bound` with `tolerance`. What rounding and deviation may move edges by counts with the area that they
+    /// sweep: the bound does not fall below some 1e-11.
+    ///
+    /// At 1e-4 a pair past obstructions takes about as many evaluations as its estimate (of 1 000 pairs half took fewer, 95 % less
+    /// than 5 times as many), each some 50 times as long; at 1e-6 five times as many. Where edges of both are
+    /// parallel or perpendicular and nothing stands in between it is a closed form.
+    ///
+    /// # Errors
+    /// [`Error::BadTolerance`] unless the tolerance is positive.
+    ///
+    /// # Panics
+    /// When there is no polygon with one of the ids.
+    ///
+    /// ```
+    /// use formfactor::{Enclosure, Limits, PlanarPolygon};
+    /// // Unit squares, one above the other, and a board in between that hides some of each.
+    /// let floor = PlanarPolygon::new([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]])?;
+    /// let ceiling = PlanarPolygon::new([[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]]])?;
+    /// let board = PlanarPolygon::new([[[0.0, 0.0, 0.5], [0.5, 0.0, 0.5], [0.5, 1.0, 0.5], [0.0, 1.0, 0.5]]])?;
+    /// let room = Enclosure::new(vec![floor, ceiling, board]);
+    /// let f = room.bounded_area_form_factor(0, 1, 1e-4, &Limits::default())?.expect("no stop");
+    /// assert!(f.error_bound <= 1e-4);
+    /// let estimate = room.area_form_factor(0, 1, 1e-9, &Limits::default())?.expect("no stop");
+    /// assert!((f.value - estimate.value).abs() <= f.error_bound);
+    /// # Ok::<(), formfactor::Error>(())
+    /// ```
     pub fn bounded_area_form_factor(
         &self,
         from: usize,

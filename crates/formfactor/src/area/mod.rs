@@ -38,7 +38,7 @@ pub struct AreaFormFactor {
     /// The fraction of the power leaving the front of the first polygon that reaches the front of the second directly: a number
     /// from 0 to 1, without a unit.
     pub value: f64,
-    /// An estimate of the error; it is not a bound.
+    /// An estimate of the error; it is not a bound: [`Enclosure::bounded_area_form_factor`] finds one.
     ///
     /// Where nothing stands in between, it is what Gauss's rules of the kernel err by, from the surfaces' sizes and their
     /// distance, or the differences and roundings of contour integrals. Elsewhere, where that is good enough, it is what rules err by as

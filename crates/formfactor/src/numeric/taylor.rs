@@ -180,7 +180,7 @@ impl Sub for Taylor {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self + Self { terms: other.terms.map(|c| -c), ..other }
+        self.add(Self { terms: other.terms.map(|c| -c), ..other })
     }
 }
 

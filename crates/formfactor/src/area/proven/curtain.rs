@@ -136,7 +136,7 @@ impl Curtain {
     }
 
     /// The other end, if `point` is one, and whether `point` is the first.
-    fn from_end(&self, point: DVec3) -> Option<(DVec3, bool)> {
+    fn other_end(&self, point: DVec3) -> Option<(DVec3, bool)> {
         let [a, b] = self.ends;
         if a == point { Some((b, true)) } else { (b == point).then_some((a, false)) }
     }
@@ -158,7 +158,7 @@ impl Curtain {
         end: DVec3,
         deviation: f64,
     ) -> Option<Sign> {
-        let ((other, is_first), (near_other, near_is_first)) = (self.from_end(end)?, near.from_end(end)?);
+        let ((other, is_first), (near_other, near_is_first)) = (self.other_end(end)?, near.other_end(end)?);
         let volume = Self { ends: [end, other] }.side(chart, near_other, deviation);
         let sign = volume.times(far.side(chart, end, deviation));
         Some(if is_first == near_is_first { sign.turned() } else { sign })

@@ -23,7 +23,7 @@ use curtain::Divide;
 use factor::Sight;
 use glam::DVec3;
 use sector::{Cast, Sector, cast};
-use sight::Sum;
+use sight::Visible;
 use std::{cmp::Ordering, collections::BinaryHeap, rc::Rc};
 
 /// A cell and what is known of it.
@@ -186,17 +186,17 @@ impl<'p> Proof<'p> {
     }
 
     /// What all of a cell sees past the occluders that may matter.
-    fn look(&self, sight: &Sight, near: &[usize]) -> Result<Sum, Divide> {
+    fn look(&self, sight: &Sight, near: &[usize]) -> Result<Visible, Divide> {
         let casts: Result<Vec<Cast>, Divide> =
             near.iter().map(|i| cast(sight.chart, &self.occluders[*i], self.deviation)).collect();
         let casts = casts?;
         // A plate that is seen edge-on hides nothing.
         let hides = |(i, cast): &(&usize, &Cast)| !(cast.is_empty() && self.occluders[**i].is_plate);
         let shadows: Vec<&Cast> = near.iter().zip(&casts).filter(hides).map(|(_, cast)| cast).collect();
-        let mut sum = Sum { model: Taylor::ZERO, stray: 0.0 };
+        let mut sum = Visible { model: Taylor::ZERO, stray: 0.0 };
         for piece in &self.target {
             let own = sight.rest(&Sector::of(piece), &shadows)?;
-            sum = Sum { model: sum.model + own.model, stray: sum.stray + own.stray };
+            sum = Visible { model: sum.model + own.model, stray: sum.stray + own.stray };
         }
         Ok(sum)
     }
@@ -231,7 +231,7 @@ impl<'p> Proof<'p> {
 const SUMMED: f64 = 1e-9;
 
 /// A cell that sees one shape.
-fn known(cell: &Known, chart: &Chart, sum: &Sum, most: f64, near: Rc<[usize]>) -> Known {
+fn known(cell: &Known, chart: &Chart, sum: &Visible, most: f64, near: Rc<[usize]>) -> Known {
     let [value, error] = chart.integral(&sum.model);
     let error = error + sum.stray * chart.area;
     let (low, high) = ((value - error).max(0.0), (value + error).min(most * chart.area));

@@ -89,7 +89,7 @@ impl Sector {
             if !signs.iter().any(|sign| matches!(sign, Sign::Inside(_))) {
                 return Ok((Common::Nothing, doubt));
             }
-            left = left.cut(curtain, &signs);
+            left = left.cut(curtain, &signs, sight.chart);
             is_cut = true;
         }
         Ok((if is_cut { Common::Part(left) } else { Common::All }, doubt))
@@ -129,22 +129,18 @@ impl Sector {
         let count = self.corners.len();
         let (before, after) = ((i + count - 1) % count, (i + 1) % count);
         let (inward, outward) = (self.corners[before].1, self.corners[i].1);
-        let beside = |k: usize, both: [Curtain; 2]| {
-            let corner = meeting(both);
-            let is_turned = match signs[k] {
-                Sign::Inside(0.0) => true,
-                Sign::Outside(0.0) => false,
-                Sign::On => corner.middle(sight.chart).dot(self.corners[k].0.middle(sight.chart)) < 0.0,
-                _ => return None,
-            };
-            Some(if is_turned { opposite(corner) } else { corner })
+        let beside = |k: usize, both: [Curtain; 2]| match signs[k] {
+            Sign::Inside(0.0) => Some(meeting(sight.chart, both, true)),
+            Sign::Outside(0.0) => Some(meeting(sight.chart, both, false)),
+            Sign::On => Some(on(sight.chart, &self.corners[k].0, both)),
+            _ => None,
         };
         let (first, last) = (beside(before, [*curtain, inward])?, beside(after, [outward, *curtain])?);
         Some([(first, inward), (self.corners[i].0, outward), (last, *curtain)])
     }
 
     /// What is inside of a curtain, some being inside and some outside.
-    fn cut(&self, curtain: &Curtain, signs: &[Sign]) -> Self {
+    fn cut(&self, curtain: &Curtain, signs: &[Sign], chart: &Chart) -> Self {
         let count = self.corners.len();
         let is_outside = |i: usize| matches!(signs[i % count], Sign::Outside(_));
         let is_inside = |i: usize| matches!(signs[i % count], Sign::Inside(_));
@@ -157,12 +153,12 @@ impl Sector {
                 // On it: a corner that is left by another curtain, or entered by it.
                 let [enters, leaves] = [is_outside(i + count - 1), is_outside(i + 1)];
                 let both = [if enters { *curtain } else { before }, if leaves { *curtain } else { *along }];
-                corners.push((on(bearing, both), both[1]));
+                corners.push((on(chart, bearing, both), both[1]));
             }
             if is_inside(i) && is_outside(i + 1) {
-                corners.push((meeting([*along, *curtain]), *curtain));
+                corners.push((meeting(chart, [*along, *curtain], false), *curtain));
             } else if is_outside(i) && is_inside(i + 1) {
-                corners.push((meeting([*curtain, *along]), *along));
+                corners.push((meeting(chart, [*curtain, *along], false), *along));
             }
         }
         Self { corners }
@@ -175,25 +171,20 @@ impl Sign {
     }
 }
 
-/// The other way along the line on which two curtains meet.
-fn opposite(bearing: Bearing) -> Bearing {
-    match bearing {
-        Bearing::Point(_) => bearing,
-        Bearing::Crossing(both) => Bearing::Opposite(both),
-        Bearing::Opposite(both) => Bearing::Crossing(both),
-    }
-}
-
 /// A corner that lies on both of two curtains.
-fn on(bearing: &Bearing, both: [Curtain; 2]) -> Bearing {
-    match bearing {
-        Bearing::Point(_) => *bearing,
-        Bearing::Crossing(_) | Bearing::Opposite(_) => meeting(both),
+fn on(chart: &Chart, bearing: &Bearing, both: [Curtain; 2]) -> Bearing {
+    if let Bearing::Point(_) = bearing {
+        return *bearing;
     }
+    let is_turned = Bearing::Crossing(both).middle(chart).dot(bearing.middle(chart)) < 0.0;
+    meeting(chart, both, is_turned)
 }
 
-/// Where one curtain comes to the next: at a vertex that both have, or where they cross.
-fn meeting([inward, outward]: [Curtain; 2]) -> Bearing {
-    let shared = inward.ends.into_iter().find(|end| outward.ends.contains(end));
-    shared.map_or(Bearing::Crossing([inward, outward]), Bearing::Point)
+/// Where one curtain comes to the next, or away from there: at a vertex that both have, unless that is the other way, or where
+/// they cross.
+fn meeting(chart: &Chart, both: [Curtain; 2], is_turned: bool) -> Bearing {
+    let crossing = if is_turned { Bearing::Opposite(both) } else { Bearing::Crossing(both) };
+    let shared = both[0].ends.into_iter().find(|end| both[1].ends.contains(end));
+    let vertex = shared.filter(|end| chart.toward(*end)[0].dot(crossing.middle(chart)) > 0.0);
+    vertex.map_or(crossing, Bearing::Point)
 }

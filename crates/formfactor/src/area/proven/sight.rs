@@ -7,7 +7,7 @@ use crate::numeric::taylor::Taylor;
 /// A form factor from the points of a cell, and what it may be off by in the mean besides: where a shape is another one on
 /// some of the cell.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sum {
+pub(super) struct Visible {
     pub(super) model: Taylor,
     pub(super) stray: f64,
 }
@@ -22,7 +22,7 @@ impl Sight<'_> {
     ///
     /// # Errors
     /// What parts the cell, where it sees one shape from some points and another one from others.
-    pub(super) fn rest(&self, sector: &Sector, shadows: &[&Cast]) -> Result<Sum, Divide> {
+    pub(super) fn rest(&self, sector: &Sector, shadows: &[&Cast]) -> Result<Visible, Divide> {
         let mut common = Vec::with_capacity(shadows.len());
         let (mut stray, mut is_covered) = (0.0, None);
         for (j, shadow) in shadows.iter().enumerate() {
@@ -30,7 +30,7 @@ impl Sight<'_> {
             stray += doubt.stray;
             match part {
                 Common::All if doubt.share == 0.0 => {
-                    return Ok(Sum { model: Taylor::ZERO, stray: doubt.stray });
+                    return Ok(Visible { model: Taylor::ZERO, stray: doubt.stray });
                 }
                 Common::All => is_covered = Some(doubt),
                 Common::Part(part) => common.push((j, part, doubt.share)),
@@ -41,9 +41,9 @@ impl Sight<'_> {
         let whole = self.factor(&sector.corners).ok_or(Divide::Curve)?;
         let most = whole.reach().min(1.0);
         if let Some(doubt) = is_covered {
-            return Ok(Sum { model: Taylor::ZERO, stray: doubt.stray + doubt.share * most });
+            return Ok(Visible { model: Taylor::ZERO, stray: doubt.stray + doubt.share * most });
         }
-        let mut sum = Sum { model: whole, stray };
+        let mut sum = Visible { model: whole, stray };
         for (j, part, share) in common {
             let hidden = self.rest(&part, &shadows[..j])?;
             sum.model = sum.model - hidden.model;
