@@ -133,35 +133,40 @@ fn a_vertex_in_the_plane_of_the_source_is_not_its_opposite() {
     assert_eq!(complaints(139), Vec::<String>::new());
 }
 
+/// Unit squares, one above the other.
+fn squares() -> [PlanarPolygon; 2] {
+    let floor = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let ceiling = [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]];
+    [floor, ceiling].map(|corners| PlanarPolygon::new([corners]).expect("planar"))
+}
+
+/// The same, turned so that no edges are exactly parallel.
+fn turned_squares() -> [PlanarPolygon; 2] {
+    let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.4, 0.5);
+    squares().map(|polygon| {
+        let loops: Vec<Vec<DVec3>> = polygon.loops().map(|l| l.iter().map(|p| turn * *p).collect()).collect();
+        PlanarPolygon::new(loops).expect("planar up to roundings")
+    })
+}
+
+/// Of Hottel's squares: the closed form of contours, and cells.
 #[test]
 fn closed_forms_are_within_bounds() {
-    // Unit squares, one above the other [Hottel].
-    let floor = PlanarPolygon::new([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]]);
-    let ceiling = PlanarPolygon::new([[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]]]);
-    let squares: Vec<PlanarPolygon> = [floor, ceiling].into_iter().map(|p| p.expect("planar")).collect();
-    // With all edges parallel the closed form of contours is used, turned ones are cut into cells.
-    let turn = |p: DVec3| glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.4, 0.5) * p;
-    let turned = |polygon: &PlanarPolygon| {
-        let loops: Vec<Vec<DVec3>> = polygon.loops().map(|l| l.iter().map(|p| turn(*p)).collect()).collect();
-        PlanarPolygon::new(loops).expect("planar up to roundings")
-    };
-    for polygons in [squares.clone(), squares.iter().map(turned).collect()] {
-        let found = bounded(&Enclosure::new(polygons), [0, 1], 1e-6);
+    for polygons in [squares(), turned_squares()] {
+        let found = bounded(&Enclosure::new(polygons.into()), [0, 1], 1e-5);
         assert!((found.value - 0.199_824_895_698_387_4).abs() <= found.error_bound, "{found:?}");
-        assert!(found.error_bound <= 1e-6, "{found:?}");
+        assert!(found.error_bound <= 1e-5, "{found:?}");
     }
 }
 
 #[test]
 fn budgets_end_it_and_stops_return_nothing() {
-    let enclosure = Enclosure::new(scene(10));
+    let enclosure = Enclosure::new(turned_squares().into());
     let few = Limits { per_pair: 5, ..Limits::default() };
     let found = enclosure.bounded_area_form_factor(0, 1, 1e-9, &few).expect("a tolerance").expect("no stop");
     assert!(found.evaluations <= 5 && found.error_bound > 1e-9, "{found:?}");
+    assert!((found.value - 0.199_824_895_698_387_4).abs() <= found.error_bound, "{found:?}");
     let stopped = Limits { stop: &|| true, ..Limits::default() };
-    let pairs = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
-    let found =
-        pairs.map(|(i, j)| enclosure.bounded_area_form_factor(i, j, 1e-9, &stopped).expect("a tolerance"));
-    assert!(found.flatten().all(|found| found.evaluations == 0));
+    assert_eq!(enclosure.bounded_area_form_factor(0, 1, 1e-9, &stopped), Ok(None));
     assert!(enclosure.bounded_area_form_factor(0, 1, 0.0, &few).is_err());
 }
