@@ -31,7 +31,7 @@ impl Numbers {
     }
 }
 
-/// Polygons that need not keep apart.
+/// Polygons that need not keep apart, as they are, tiny, huge, and in map coordinates.
 fn scene(seed: u64) -> Vec<PlanarPolygon> {
     let mut numbers = Numbers(seed);
     let family = seed % 6;
@@ -47,7 +47,14 @@ fn scene(seed: u64) -> Vec<PlanarPolygon> {
             _ => polygons.extend(parallelogram(&mut numbers)),
         }
     }
-    polygons
+    let (scale, shift) = [(1.0, 0.0), (2.0_f64.powi(-60), 0.0), (2.0_f64.powi(150), 0.0), (1e3, 5e5)]
+        [usize::try_from(seed / 6 % 4).unwrap_or(0)];
+    let moved = |polygon: &PlanarPolygon| {
+        let loops: Vec<Vec<DVec3>> =
+            polygon.loops().map(|l| l.iter().map(|p| *p * scale + shift).collect()).collect();
+        PlanarPolygon::new(loops).ok()
+    };
+    polygons.iter().filter_map(moved).collect()
 }
 
 /// In a plane of the lattice, along its axes.

@@ -4,6 +4,7 @@
 //! has a closed form; elsewhere it is taken by adaptive cubature, whose cells are cut where the view changes its shape.
 mod bounded;
 mod clip;
+mod contact;
 mod contour;
 mod cubature;
 mod estimate;

@@ -4,7 +4,7 @@ use super::integral::{Allowed, Integral, least_whole};
 use super::lambert::lambert;
 use super::point::{Eye, Near};
 use super::proven::Proof;
-use super::{contour, kernel};
+use super::{contact::contact, contour, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
 use crate::scene::occluder::{Before, Face};
@@ -77,7 +77,8 @@ impl<'e> Outlook<'e> {
         let occluders = between.as_deref().unwrap_or_default();
         let (one, other) = in_order(one, other, occluders);
         let deviation = deviation + rounded([one, other], occluders);
-        let swept = SWEPT * deviation * edges([one, other], occluders);
+        let swept = SWEPT * deviation * edges([one, other], occluders)
+            + touching([one, other], occluders, SWEPT * deviation);
         if between.is_none() {
             return Some(Integral { error: swept, ..Integral::default() });
         }
@@ -181,8 +182,8 @@ fn in_order<'s>(one: &'s Surface, other: &'s Surface, occluders: &[Near]) -> (&'
 /// Roundings of a closed form are raised by so much.
 const SURE: f64 = 8.0;
 
-/// A deviation moves what edges seem to meet by no more than twice as much, to either side.
-const SWEPT: f64 = 4.0;
+/// A deviation moves what edges seem to meet by no more than so many times as much: to either side, and where vertices are joined.
+const SWEPT: f64 = 12.0;
 
 /// How far roundings of clipped corners and of what side they are on may move them.
 fn rounded(pair: [&Surface; 2], occluders: &[Near]) -> f64 {
@@ -201,6 +202,21 @@ fn edges(pair: [&Surface; 2], occluders: &[Near]) -> f64 {
     let own = pair.iter().flat_map(|surface| &surface.edges).map(|[a, b]| a.distance(*b));
     let ridges = occluders.iter().flat_map(|occluder| &occluder.ridges);
     own.chain(ridges.map(|ridge| ridge.ends[0].distance(ridge.ends[1]))).sum()
+}
+
+/// The area of the parts of two surfaces that lie within `reach` of each other or of a plate: what they see there is not known.
+fn touching(pair: [&Surface; 2], occluders: &[Near], reach: f64) -> f64 {
+    let edges = |piece: &[DVec3]| -> Vec<[DVec3; 2]> {
+        piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]).collect()
+    };
+    let [one, other] = pair;
+    let mutual =
+        other.pieces.iter().map(|piece| contact(&one.pieces, edges(piece).into_iter(), other.face, reach));
+    let of_plates = occluders.iter().filter(|occluder| occluder.is_plate).map(|plate| {
+        let edges = || plate.ridges.iter().map(|ridge| ridge.ends);
+        pair.iter().map(|surface| contact(&surface.pieces, edges(), plate.faces[0], reach)).sum::<f64>()
+    });
+    mutual.chain(of_plates).sum()
 }
 
 /// Whether each of two is wholly before the other's plane.

@@ -171,9 +171,8 @@ impl<'p> Proof<'p> {
         self.evaluations += 1;
         let near = self.near(&chart, &cell.near);
         let sight = Sight { chart: &chart, normal: self.normal, deviation: self.deviation };
-        let sectors: Vec<Sector> = self.target.iter().map(|piece| Sector::of(piece)).collect();
         let wholes: Option<Vec<Taylor>> =
-            sectors.iter().map(|sector| sight.factor(&sector.corners)).collect();
+            self.sectors().map(|sector| sight.factor(&sector.corners)).collect();
         let Some(wholes) = wholes else {
             self.part(&chart, Divide::Curve, cell.most, &near);
             return;
@@ -187,18 +186,21 @@ impl<'p> Proof<'p> {
 
     /// What all of a cell sees past the occluders that may matter.
     fn look(&self, sight: &Sight, near: &[usize]) -> Result<Visible, Divide> {
-        let casts: Result<Vec<Cast>, Divide> =
+        let casts: Result<Vec<Option<Cast>>, Divide> =
             near.iter().map(|i| cast(sight.chart, &self.occluders[*i], self.deviation)).collect();
         let casts = casts?;
-        // A plate that is seen edge-on hides nothing.
-        let hides = |(i, cast): &(&usize, &Cast)| !(cast.is_empty() && self.occluders[**i].is_plate);
-        let shadows: Vec<&Cast> = near.iter().zip(&casts).filter(hides).map(|(_, cast)| cast).collect();
+        let shadows: Vec<&Cast> = casts.iter().flatten().collect();
         let mut sum = Visible { model: Taylor::ZERO, stray: 0.0 };
-        for piece in &self.target {
-            let own = sight.rest(&Sector::of(piece), &shadows)?;
+        for sector in self.sectors() {
+            let own = sight.rest(&sector, &shadows)?;
             sum = Visible { model: sum.model + own.model, stray: sum.stray + own.stray };
         }
         Ok(sum)
+    }
+
+    /// The pieces of the target.
+    fn sectors(&self) -> impl Iterator<Item = Sector> {
+        self.target.iter().filter_map(|piece| Sector::of(piece, self.deviation))
     }
 
     /// Those of some occluders that reach between a cell and the target.

@@ -31,11 +31,11 @@ pub(super) struct Doubt {
 /// The curtains of an occluder's silhouette.
 pub(super) type Cast = Vec<Curtain>;
 
-/// The silhouette of an occluder, seen from all of a cell.
+/// The silhouette of an occluder, seen from all of a cell; nothing where it hides nothing.
 ///
 /// # Errors
 /// What parts the cell, where some of it sees a face and some does not.
-pub(super) fn cast(chart: &Chart, occluder: &Occluder, deviation: f64) -> Result<Cast, Divide> {
+pub(super) fn cast(chart: &Chart, occluder: &Occluder, deviation: f64) -> Result<Option<Cast>, Divide> {
     let mut facing = Vec::with_capacity(occluder.faces.len());
     for [on, normal] in &occluder.faces {
         let [c, a, b] = chart.toward(*on).map(|way| -normal.dot(way));
@@ -49,15 +49,39 @@ pub(super) fn cast(chart: &Chart, occluder: &Occluder, deviation: f64) -> Result
     debug_assert!(occluder.ridges.iter().flat_map(|r| r.sides).all(|s| s == CAP || s < facing.len()));
     let mut found = Cast::new();
     silhouette(&occluder.ridges, &facing, |ends| found.push(Curtain { ends }));
-    Ok(found)
+    // No face of a body is seen from inside of it.
+    let is_around = found.is_empty() && !occluder.is_plate;
+    join(&mut found, JOINED * deviation);
+    Ok((is_around || found.len() > 2).then_some(found))
+}
+
+/// Vertices nearer to each other than so many deviations are one: what clipping leaves of an edge may run anywhere.
+const JOINED: f64 = 4.0;
+
+/// Makes the ends of short edges one, and leaves such edges out.
+fn join(cast: &mut Cast, near: f64) {
+    while let Some(i) = cast.iter().position(|curtain| curtain.ends[0].distance(curtain.ends[1]) <= near) {
+        let [kept, other] = cast.swap_remove(i).ends;
+        let ends = cast.iter_mut().flat_map(|curtain| &mut curtain.ends);
+        ends.filter(|end| **end == other).for_each(|end| *end = kept);
+    }
 }
 
 impl Sector {
-    /// A convex polygon, counter-clockwise seen from its front.
-    pub(super) fn of(points: &[DVec3]) -> Self {
-        let next = points.iter().cycle().skip(1);
+    /// A convex polygon, counter-clockwise seen from its front; nothing unless it has three corners apart.
+    pub(super) fn of(points: &[DVec3], deviation: f64) -> Option<Self> {
+        let mut apart: Vec<DVec3> = Vec::with_capacity(points.len());
+        for point in points {
+            let is_near =
+                |other: Option<&DVec3>| other.is_some_and(|p| p.distance(*point) <= JOINED * deviation);
+            if !is_near(apart.last()) && !is_near(apart.first()) {
+                apart.push(*point);
+            }
+        }
+        let next = apart.iter().cycle().skip(1);
         let corner = |(a, b): (&DVec3, &DVec3)| (Bearing::Point(*a), Curtain { ends: [*a, *b] });
-        Self { corners: points.iter().zip(next).filter(|(a, b)| a != b).map(corner).collect() }
+        let corners: Vec<_> = apart.iter().zip(next).map(corner).collect();
+        (corners.len() > 2).then_some(Self { corners })
     }
 
     /// What of it is inside of all curtains, and what that may be off by.
