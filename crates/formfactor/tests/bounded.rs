@@ -140,6 +140,14 @@ fn a_vertex_in_the_plane_of_the_source_is_not_its_opposite() {
     assert_eq!(complaints(139), Vec::<String>::new());
 }
 
+/// Clipping left a ridge of some 1e-17 of an edge: estimates were off by 1e-2.
+#[test]
+fn vertices_in_the_plane_of_the_source_leave_no_edges() {
+    for seed in [3073, 3241, 3247, 3457] {
+        assert_eq!(complaints(seed), Vec::<String>::new());
+    }
+}
+
 /// Unit squares, one above the other.
 fn squares() -> [PlanarPolygon; 2] {
     let floor = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

@@ -95,7 +95,8 @@ impl Occluder {
         } else if low >= -least {
             Before::All
         } else {
-            Before::Part(self.clip(height))
+            // A ridge that roundings leave of an edge may run anywhere: a vertex that is on the plane up to them is on it.
+            Before::Part(self.clip(|p| if height(p).abs() <= least { 0.0 } else { height(p) }))
         }
     }
 
