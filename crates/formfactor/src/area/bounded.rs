@@ -69,7 +69,7 @@ impl Enclosure {
         let allowed = Allowed {
             absolute: tolerance.absolute * areas[0].min(areas[1]),
             relative: tolerance.relative,
-            of_whole: f64::INFINITY,
+            of_root: f64::INFINITY,
             equal: 0.0,
             evaluations: limits.per_pair.min(limits.in_all),
         };

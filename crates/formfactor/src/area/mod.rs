@@ -228,12 +228,13 @@ impl Enclosure {
         if !first.faces(second) {
             return Some(None);
         }
-        let areas = [first, second].map(|end| end.surface.area);
+        let area = first.surface.area.min(second.surface.area);
+        // Squares of independent errors add up: those of the shares of all entries give the row's.
         let allowed = Allowed {
-            absolute: tolerance.absolute * areas[0].min(areas[1]),
+            absolute: tolerance.absolute * area,
             relative: tolerance.relative,
-            of_whole: tolerance.row / 2.0,
-            equal: tolerance.row / 2.0 * areas[0].min(areas[1]) / self.polygons().len() as f64,
+            of_root: tolerance.row / 2.0 * area.sqrt(),
+            equal: tolerance.row / 2.0 * area / (self.polygons().len() as f64).sqrt(),
             evaluations: limits.per_pair,
         };
         let found = outlook.exchange(&second.surface, &allowed, eye, limits.stop)?;

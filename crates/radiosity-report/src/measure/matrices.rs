@@ -4,7 +4,7 @@ use crate::clock::{Job, interleaved};
 use crate::plan::Plan;
 use crate::rows::{Chapter, Deviation, Measured, Spread, Time};
 use formfactor::approx::{Exact, Hemicube, Method, MonteCarlo, Sampling};
-use formfactor::{DVec3, DifferentialArea, Enclosure, Limits, PlanarPolygon, Tolerance};
+use formfactor::{DVec3, DifferentialArea, Enclosure, Limits, PlanarPolygon};
 use std::hint::black_box;
 
 /// Factors by row and column.
@@ -23,7 +23,7 @@ pub(crate) const AREAS: &str = "area to area";
 /// How the names of series from points begin.
 pub(crate) const POINTS: &str = "points";
 /// The tolerance of the reference.
-const FINE: f64 = 1e-6;
+const FINE: f64 = 1e-7;
 
 /// Every room with its ways.
 pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Vec<Measured> {
@@ -36,8 +36,8 @@ pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Vec<Measured> {
 }
 
 fn of_room(room: Room, view3d: &[View3d], plan: &Plan) -> Vec<Measured> {
-    let (ways, enclosure) = (ways(plan), room.enclosure());
-    let reference = by_areas(&enclosure, FINE.into());
+    let (ways, enclosure) = (ways(), room.enclosure());
+    let reference = by_areas(&enclosure, FINE);
     let unit: Job<'_, Dense> = Box::new(|| vec![vec![plain_quad()]]);
     let job = |way| -> Job<'_, Dense> { Box::new(|| (way as &Way).find.as_ref()(&enclosure)) };
     let jobs: Vec<Job<'_, Dense>> = std::iter::once(unit).chain(ways.iter().map(job)).collect();
@@ -75,11 +75,9 @@ fn blank(room: Room) -> Measured {
 }
 
 /// All ways, from cheap to dear.
-fn ways(plan: &Plan) -> Vec<Way> {
-    let mut ways: Vec<Way> = (0..=4).map(|digits| areas(0.1_f64.powi(digits))).collect();
-    let most = if plan.quick { 2 } else { 3 };
-    for doublings in 0..=most {
-        let n = 1 << doublings;
+fn ways() -> Vec<Way> {
+    let mut ways: Vec<Way> = (2..=6).map(|digits| areas(0.1_f64.powi(digits))).collect();
+    for n in [1, 2, 4] {
         ways.push(points("points, exact", String::new(), n, Exact));
         let cells = 32 * n;
         ways.push(points("points, hemicube", format!(", {cells} × {cells} cells"), n, Hemicube::new(cells)));
@@ -90,17 +88,16 @@ fn ways(plan: &Plan) -> Vec<Way> {
     ways
 }
 
-fn areas(row: f64) -> Way {
-    let tolerance = Tolerance { absolute: row / 100.0, relative: 0.0, row };
+fn areas(tolerance: f64) -> Way {
     Way {
         series: AREAS,
-        setting: format!("rows to {row:.0e}"),
-        amount: row,
+        setting: format!("rows to {tolerance:.0e}"),
+        amount: tolerance,
         find: Box::new(move |enclosure| by_areas(enclosure, tolerance)),
     }
 }
 
-fn by_areas(enclosure: &Enclosure, tolerance: Tolerance) -> Dense {
+fn by_areas(enclosure: &Enclosure, tolerance: f64) -> Dense {
     let rows = enclosure.area_matrix(tolerance, &Limits::default());
     let rows = rows.expect("the tolerance is positive").expect("nothing stops it");
     let mut dense = vec![vec![0.0; rows.len()]; rows.len()];

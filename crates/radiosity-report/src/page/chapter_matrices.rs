@@ -16,7 +16,7 @@ pub(crate) fn html(report: &Report) -> String {
     format!(
         "<h2 id=\"matrices\">Matrices from area to area</h2>\n<p>All form factors of closed rooms: a cube of side 10, its walls in quads, \
          and boxes that touch nothing. <i>Area to area</i> is the cubature of the exact point factors; <i>points</i> are means of rows \
-         from the middles of n × n parts of each surface, by other methods. Errors of entries are against area to area at 1e-6. Rows \
+         from the middles of n × n parts of each surface, by other methods. Errors of entries are against area to area at 1e-7. Rows \
          should add to 1, which needs no reference; those from points do so whatever they miss, and are not drawn. Nothing is closed \
          or smoothed afterwards. View3D 4.0 was measured once: its \
          times are so many plain quads a pair, a plain quad is timed in this run.</p>\n{sections}"
