@@ -3,6 +3,7 @@
 
 use super::csg::Token;
 use super::simple_ring::winds_once;
+use crate::base::corners::corners;
 use crate::region::rings::Rings;
 use crate::spatial::strips::Strips;
 use glam::DVec2;
@@ -21,8 +22,8 @@ pub(super) fn operands_are_apart<'t, 'c: 't>(
     let mut boxes = Vec::new();
     for operand in operands {
         match operand {
-            Token::Rings(rings, _) => boxes.extend(rings.iter().map(bounds)),
-            Token::Region(region) => boxes.push(bounds(region.rings_of().points())),
+            Token::Rings(rings, _) => boxes.extend(rings.iter().map(corners)),
+            Token::Region(region) => boxes.push(corners(region.rings_of().points())),
             Token::Prepared(_) | Token::Edge(_) | Token::Operator(..) => return false,
         }
     }
@@ -31,7 +32,7 @@ pub(super) fn operands_are_apart<'t, 'c: 't>(
 
 /// 1 or -1 if each of the rings winds so, and no two around one place.
 pub(super) fn rings_wind_once(rings: &Rings, strips: &mut Strips) -> Option<i32> {
-    let boxes: Vec<[DVec2; 2]> = rings.iter().map(bounds).collect();
+    let boxes: Vec<[DVec2; 2]> = rings.iter().map(corners).collect();
     if !boxes_are_apart(&boxes, strips) {
         return None;
     }
@@ -53,10 +54,6 @@ fn boxes_are_apart(boxes: &[[DVec2; 2]], strips: &mut Strips) -> bool {
     })
 }
 
-fn bounds(points: &[DVec2]) -> [DVec2; 2] {
-    points.iter().fold([DVec2::MAX, DVec2::MIN], |[low, high], &p| [low.min(p), high.max(p)])
-}
-
 /// A quarter of the area of a box, so that it overflows less soon.
 fn quarter(&[low, high]: &[DVec2; 2]) -> f64 {
     let half = high * 0.5 - low * 0.5;
@@ -66,6 +63,7 @@ fn quarter(&[low, high]: &[DVec2; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Strips, rings_wind_once};
+    use crate::base::corners::corners;
     use crate::region::rings::Rings;
     use glam::DVec2;
 
