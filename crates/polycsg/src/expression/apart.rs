@@ -63,7 +63,6 @@ fn quarter(&[low, high]: &[DVec2; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Strips, rings_wind_once};
-    use crate::base::corners::corners;
     use crate::region::rings::Rings;
     use glam::DVec2;
 
