@@ -247,7 +247,8 @@ fn sort_part(edges: &Edges, contacts: &mut [Contact], shift: u32, first: u32, st
     for bucket in 2..starts.len() {
         starts[bucket] += starts[bucket - 1];
     }
-    for contact in contacts.to_vec() {
+    let unsorted = contacts.to_vec();
+    for contact in unsorted {
         let place = &mut starts[bucket_of(&contact) + 1];
         contacts[*place as usize] = contact;
         *place += 1;
