@@ -52,6 +52,7 @@ pub(crate) struct Request<'a> {
 pub(crate) struct Contacts {
     /// In the end sorted by edge and along it.
     found: Vec<Contact>,
+    unsorted: Vec<Contact>,
     /// Where each bucket of them starts, and its first place that is free.
     starts: Vec<u32>,
     free: Vec<u32>,
@@ -162,7 +163,7 @@ impl Contacts {
     ///
     /// A few are one bucket; many are moved to the right part of memory first, and the parts are sorted on their own.
     fn sort(&mut self, edges: &Edges) {
-        let Contacts { found, starts, free, .. } = self;
+        let Contacts { found, unsorted, starts, free, .. } = self;
         if found.len() <= FEW {
             return along::sort(edges, found);
         }
@@ -170,16 +171,20 @@ impl Contacts {
         if found.len() <= MANY {
             starts.clear();
             starts.resize((edges.len() >> shift) + 3, 0);
-            return sort_part(edges, found, shift, 0, starts);
+            unsorted.clone_from(found);
+            scatter(unsorted, found, shift, starts);
+            return buckets(found, starts).for_each(|bucket| along::sort(edges, bucket));
         }
         for buffer in [&mut *starts, free] {
             buffer.clear();
             buffer.resize((edges.len() >> (shift + PART)) + 2, 0);
         }
-        bucket(found, shift + PART, starts, free);
+        bucket(found, shift + PART, 0, starts, free);
         Threads::for_edges(edges.len()).for_each(buckets(found, starts), |part| {
+            let (mut starts, mut free) = ([0; (1 << PART) + 1], [0; (1 << PART) + 1]);
             let first = part[0].edge >> (shift + PART) << PART;
-            sort_part(edges, part, shift, first, &mut [0; (1 << PART) + 2]);
+            bucket(part, shift, first, &mut starts, &mut free);
+            buckets(part, &starts).for_each(|bucket| along::sort(edges, bucket));
         });
     }
 
@@ -218,8 +223,8 @@ impl Contacts {
 
 /// Moves contacts to their buckets, by the bits of the edge above some, in place. The buckets' starts are zero before, and one
 /// more than there are buckets.
-fn bucket(contacts: &mut [Contact], shift: u32, starts: &mut [u32], free: &mut [u32]) {
-    let bucket_of = |contact: &Contact| (contact.edge >> shift) as usize;
+fn bucket(contacts: &mut [Contact], shift: u32, first: u32, starts: &mut [u32], free: &mut [u32]) {
+    let bucket_of = |contact: &Contact| ((contact.edge >> shift) - first) as usize;
     for contact in &*contacts {
         starts[bucket_of(contact) + 1] += 1;
     }
@@ -237,23 +242,22 @@ fn bucket(contacts: &mut [Contact], shift: u32, starts: &mut [u32], free: &mut [
     }
 }
 
-/// Sorts contacts by buckets of edges, from the copy of all: quicker than in place. The starts are zero before, and two more
-/// than there are buckets.
-fn sort_part(edges: &Edges, contacts: &mut [Contact], shift: u32, first: u32, starts: &mut [u32]) {
-    let bucket_of = |contact: &Contact| ((contact.edge >> shift) - first) as usize;
-    for contact in &*contacts {
+/// Copies contacts to their buckets, which is quicker than to swap them in place. The starts are zero before, and two more than
+/// there are buckets; in the end one more.
+fn scatter(contacts: &[Contact], to: &mut [Contact], shift: u32, starts: &mut Vec<u32>) {
+    let bucket_of = |contact: &Contact| (contact.edge >> shift) as usize;
+    for contact in contacts {
         starts[bucket_of(contact) + 2] += 1;
     }
     for bucket in 2..starts.len() {
         starts[bucket] += starts[bucket - 1];
     }
-    let unsorted = contacts.to_vec();
-    for contact in unsorted {
-        let place = &mut starts[bucket_of(&contact) + 1];
-        contacts[*place as usize] = contact;
+    for contact in contacts {
+        let place = &mut starts[bucket_of(contact) + 1];
+        to[*place as usize] = *contact;
         *place += 1;
     }
-    buckets(contacts, &starts[..starts.len() - 1]).for_each(|bucket| along::sort(edges, bucket));
+    starts.pop();
 }
 
 /// The buckets with more than one contact.

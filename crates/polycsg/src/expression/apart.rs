@@ -17,9 +17,10 @@ const ROUNDING: f64 = 1.0 + 1.0 / (1 << 20) as f64;
 /// Whether no place is in two of the operands, so that their union is their symmetric difference.
 pub(super) fn operands_are_apart<'t, 'c: 't>(
     operands: impl Iterator<Item = &'t Token<'c>>,
+    boxes: &mut Vec<[DVec2; 2]>,
     strips: &mut Strips,
 ) -> bool {
-    let mut boxes = Vec::new();
+    boxes.clear();
     for operand in operands {
         match operand {
             Token::Rings(rings, _) => boxes.extend(rings.iter().map(corners)),
@@ -27,13 +28,18 @@ pub(super) fn operands_are_apart<'t, 'c: 't>(
             Token::Prepared(_) | Token::Edge(_) | Token::Operator(..) => return false,
         }
     }
-    boxes_are_apart(&boxes, strips)
+    boxes_are_apart(boxes, strips)
 }
 
 /// 1 or -1 if each of the rings winds so, and no two around one place.
-pub(super) fn rings_wind_once(rings: &Rings, strips: &mut Strips) -> Option<i32> {
-    let boxes: Vec<[DVec2; 2]> = rings.iter().map(corners).collect();
-    if !boxes_are_apart(&boxes, strips) {
+pub(super) fn rings_wind_once(
+    rings: &Rings,
+    boxes: &mut Vec<[DVec2; 2]>,
+    strips: &mut Strips,
+) -> Option<i32> {
+    boxes.clear();
+    boxes.extend(rings.iter().map(corners));
+    if !boxes_are_apart(boxes, strips) {
         return None;
     }
     let mut ways = (0..rings.len()).map(|ring| winds_once(rings.closed(ring)));
@@ -73,7 +79,7 @@ mod tests {
             rings.extend(&corners.map(|corner| DVec2::new(x, y) + corner * DVec2::new(size, size.abs())));
             rings.close();
         }
-        rings_wind_once(&rings, &mut Strips::default())
+        rings_wind_once(&rings, &mut Vec::new(), &mut Strips::default())
     }
 
     #[test]
