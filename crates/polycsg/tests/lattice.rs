@@ -20,8 +20,60 @@ fn region() -> impl Strategy<Value = Region> {
     (rings(), rule()).prop_map(|(rings, rule)| Region::from_rings(rings, rule).expect("finite"))
 }
 
+/// A field of a board of 8 by 8, and which way its ring runs.
+type Field = (u32, bool);
+
+fn square((field, clockwise): Field) -> Vec<DVec2> {
+    let low = DVec2::new(f64::from(field % 8), f64::from(field / 8));
+    let mut ring: Vec<DVec2> = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|p| low + p).into();
+    if clockwise {
+        ring.reverse();
+    }
+    ring
+}
+
+/// All fields of a set run one way; a few more lie on others, or run the other way.
+fn fields() -> impl Strategy<Value = Vec<Field>> {
+    let more = proptest::collection::vec((0_u32..64, any::<bool>()), 0..2);
+    (any::<u64>(), any::<bool>(), more).prop_map(|(set, clockwise, more)| {
+        (0..64).filter(|field| set >> field & 1 == 1).map(|field| (field, clockwise)).chain(more).collect()
+    })
+}
+
+fn holds(fields: &[Field], rule: FillRule, at: u32) -> bool {
+    let here = fields.iter().filter(|(field, _)| *field == at);
+    let winding: i32 = here.map(|&(_, clockwise)| if clockwise { -1 } else { 1 }).sum();
+    match rule {
+        FillRule::EvenOdd => winding % 2 != 0,
+        FillRule::NonZero => winding != 0,
+        FillRule::Positive => winding > 0,
+    }
+}
+
+fn count(holds: impl Fn(u32) -> bool) -> f64 {
+    (0..64).map(|at| f64::from(u8::from(holds(at)))).sum()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    /// Fields that lie apart share a counter, others do not.
+    #[test]
+    fn fields_add_up(a in fields(), b in fields(), rules in [rule(), rule()]) {
+        let raw = |fields: &[Field], rule| Csg::from_rings(fields.iter().map(|&f| square(f)), rule).expect("finite");
+        let [in_a, in_b] = [(&a, rules[0]), (&b, rules[1])].map(|(fields, rule)| move |at| holds(fields, rule, at));
+        let either = raw(&a, rules[0]) ^ raw(&b, rules[1]);
+        prop_assert_eq!(either.evaluate().area(), count(|at| in_a(at) != in_b(at)));
+        let union = raw(&a, rules[0]) | raw(&b, rules[1]);
+        prop_assert_eq!(union.evaluate().area(), count(|at| in_a(at) || in_b(at)));
+        let regions = [&a, &b].map(|fields| -> Vec<Region> {
+            let region = |&f: &Field| Region::from_rings([square(f)], FillRule::NonZero).expect("finite");
+            fields.iter().map(region).collect()
+        });
+        let covers = |fields: &[Field], at| fields.iter().any(|(field, _)| *field == at);
+        let either = Csg::union(&regions[0]) ^ Csg::union(&regions[1]);
+        prop_assert_eq!(either.evaluate().area(), count(|at| covers(&a, at) != covers(&b, at)));
+    }
 
     #[test]
     fn results_are_valid_and_areas_add_up(a in region(), b in region()) {

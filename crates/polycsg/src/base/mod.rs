@@ -1,5 +1,6 @@
-//! What every stage uses: ids, a hash of points, threads, classes of ids.
+//! What every stage uses: ids, boxes and a hash of points, threads, classes of ids.
 
+pub(crate) mod corners;
 pub(crate) mod hash;
 pub(crate) mod id;
 pub(crate) mod meter;

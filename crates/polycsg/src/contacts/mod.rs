@@ -32,7 +32,7 @@ const NONE: u32 = u32::MAX;
 const FEW: usize = 24;
 
 /// More contacts than that, and buckets of so many bits of edges, are for the caches' sake.
-const MANY: usize = if cfg!(any(test, fuzzing)) { 64 } else { 1 << 16 };
+const MANY: usize = if cfg!(any(test, fuzzing)) { 64 } else { 1 << 18 };
 const PART: u32 = 8;
 
 /// What a caller asks for.
@@ -52,6 +52,7 @@ pub(crate) struct Request<'a> {
 pub(crate) struct Contacts {
     /// In the end sorted by edge and along it.
     found: Vec<Contact>,
+    unsorted: Vec<Contact>,
     /// Where each bucket of them starts, and its first place that is free.
     starts: Vec<u32>,
     free: Vec<u32>,
@@ -162,25 +163,27 @@ impl Contacts {
     ///
     /// A few are one bucket; many are moved to the right part of memory first, and the parts are sorted on their own.
     fn sort(&mut self, edges: &Edges) {
-        let Contacts { found, starts, free, .. } = self;
+        let Contacts { found, unsorted, starts, free, .. } = self;
         if found.len() <= FEW {
             return along::sort(edges, found);
         }
         let shift = (edges.len() / (found.len() + 1)).max(1).ilog2();
-        let are_many = found.len() > MANY;
-        let width = if are_many { shift + PART } else { shift };
+        if found.len() <= MANY {
+            starts.clear();
+            starts.resize((edges.len() >> shift) + 3, 0);
+            unsorted.clone_from(found);
+            scatter(unsorted, found, shift, starts);
+            return buckets(found, starts).for_each(|bucket| along::sort(edges, bucket));
+        }
         for buffer in [&mut *starts, free] {
             buffer.clear();
-            buffer.resize((edges.len() >> width) + 2, 0);
+            buffer.resize((edges.len() >> (shift + PART)) + 2, 0);
         }
-        bucket(found, width, 0, starts, free);
-        let parts = buckets(found, starts);
-        Threads::for_edges(edges.len()).for_each(parts, |part| {
-            if !are_many {
-                return along::sort(edges, part);
-            }
+        bucket(found, shift + PART, 0, starts, free);
+        Threads::for_edges(edges.len()).for_each(buckets(found, starts), |part| {
             let (mut starts, mut free) = ([0; (1 << PART) + 1], [0; (1 << PART) + 1]);
-            bucket(part, shift, part[0].edge >> width << PART, &mut starts, &mut free);
+            let first = part[0].edge >> (shift + PART) << PART;
+            bucket(part, shift, first, &mut starts, &mut free);
             buckets(part, &starts).for_each(|bucket| along::sort(edges, bucket));
         });
     }
@@ -237,6 +240,24 @@ fn bucket(contacts: &mut [Contact], shift: u32, first: u32, starts: &mut [u32], 
             free[other] += 1;
         }
     }
+}
+
+/// Copies contacts to their buckets, which is quicker than to swap them in place. The starts are zero before, and two more than
+/// there are buckets; in the end one more.
+fn scatter(contacts: &[Contact], to: &mut [Contact], shift: u32, starts: &mut Vec<u32>) {
+    let bucket_of = |contact: &Contact| (contact.edge >> shift) as usize;
+    for contact in contacts {
+        starts[bucket_of(contact) + 2] += 1;
+    }
+    for bucket in 2..starts.len() {
+        starts[bucket] += starts[bucket - 1];
+    }
+    for contact in contacts {
+        let place = &mut starts[bucket_of(contact) + 1];
+        to[*place as usize] = *contact;
+        *place += 1;
+    }
+    starts.pop();
 }
 
 /// The buckets with more than one contact.

@@ -23,17 +23,21 @@ pub(crate) struct RingKey {
     ring: u32,
 }
 
-/// Lists the rings of all operands, or of those alone that are not prepared.
-fn list_rings(csg: &Csg<'_>, all: bool, keys: &mut Vec<RingKey>) {
-    let mut operand = 0;
+/// Lists the rings of all operands, or of those alone that are not prepared; returns whether these are all.
+fn list_rings(csg: &Csg<'_>, all: bool, keys: &mut Vec<RingKey>) -> bool {
+    keys.clear();
+    let (mut operand, mut whole) = (0, true);
     for (token, leaf) in (0..).zip(csg.postfix()) {
         let Some(rings) = leaf.rings() else { continue };
-        if all || !matches!(leaf, Token::Prepared(_)) {
+        if !all && matches!(leaf, Token::Prepared(_)) {
+            whole = false;
+        } else {
             let key = |(ring, points): (u32, &[DVec2])| RingKey { point: points[0], operand, token, ring };
             keys.extend((0..).zip(rings.iter()).map(key));
         }
         operand += 1;
     }
+    whole
 }
 
 /// Whether each ring lies about as near to the one before it as it would when sorted by columns.
@@ -74,9 +78,8 @@ impl Edges {
         all: &mut Vec<RingKey>,
     ) {
         self.clear();
-        all.clear();
         let window = bounds.window();
-        list_rings(csg, window.is_none(), all);
+        let whole = list_rings(csg, window.is_none(), all);
         if all.len() > FEW_RINGS && !are_near(all) {
             sort_by_place(all);
         }
@@ -85,7 +88,7 @@ impl Edges {
                 self.add_ring(rings, place, winding, bounds, window.as_ref());
             }
         }
-        if let Some(window) = window {
+        if let (Some(window), false) = (window, whole) {
             let leaves = csg.postfix().filter(|leaf| leaf.rings().is_some());
             for (leaf, operand) in leaves.zip(0..) {
                 if let Token::Prepared(prepared) = leaf {

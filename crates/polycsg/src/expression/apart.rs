@@ -3,6 +3,7 @@
 
 use super::csg::Token;
 use super::simple_ring::winds_once;
+use crate::base::corners::corners;
 use crate::region::rings::Rings;
 use crate::spatial::strips::Strips;
 use glam::DVec2;
@@ -16,23 +17,29 @@ const ROUNDING: f64 = 1.0 + 1.0 / (1 << 20) as f64;
 /// Whether no place is in two of the operands, so that their union is their symmetric difference.
 pub(super) fn operands_are_apart<'t, 'c: 't>(
     operands: impl Iterator<Item = &'t Token<'c>>,
+    boxes: &mut Vec<[DVec2; 2]>,
     strips: &mut Strips,
 ) -> bool {
-    let mut boxes = Vec::new();
+    boxes.clear();
     for operand in operands {
         match operand {
-            Token::Rings(rings, _) => boxes.extend(rings.iter().map(bounds)),
-            Token::Region(region) => boxes.push(bounds(region.rings_of().points())),
+            Token::Rings(rings, _) => boxes.extend(rings.iter().map(corners)),
+            Token::Region(region) => boxes.push(corners(region.rings_of().points())),
             Token::Prepared(_) | Token::Edge(_) | Token::Operator(..) => return false,
         }
     }
-    boxes_are_apart(&boxes, strips)
+    boxes_are_apart(boxes, strips)
 }
 
 /// 1 or -1 if each of the rings winds so, and no two around one place.
-pub(super) fn rings_wind_once(rings: &Rings, strips: &mut Strips) -> Option<i32> {
-    let boxes: Vec<[DVec2; 2]> = rings.iter().map(bounds).collect();
-    if !boxes_are_apart(&boxes, strips) {
+pub(super) fn rings_wind_once(
+    rings: &Rings,
+    boxes: &mut Vec<[DVec2; 2]>,
+    strips: &mut Strips,
+) -> Option<i32> {
+    boxes.clear();
+    boxes.extend(rings.iter().map(corners));
+    if !boxes_are_apart(boxes, strips) {
         return None;
     }
     let mut ways = (0..rings.len()).map(|ring| winds_once(rings.closed(ring)));
@@ -51,10 +58,6 @@ fn boxes_are_apart(boxes: &[[DVec2; 2]], strips: &mut Strips) -> bool {
         let [[low, high], [other_low, other_high]] = [a, b].map(|i| boxes[i as usize]);
         low.max(other_low).cmpge(high.min(other_high)).any()
     })
-}
-
-fn bounds(points: &[DVec2]) -> [DVec2; 2] {
-    points.iter().fold([DVec2::MAX, DVec2::MIN], |[low, high], &p| [low.min(p), high.max(p)])
 }
 
 /// A quarter of the area of a box, so that it overflows less soon.
@@ -76,7 +79,7 @@ mod tests {
             rings.extend(&corners.map(|corner| DVec2::new(x, y) + corner * DVec2::new(size, size.abs())));
             rings.close();
         }
-        rings_wind_once(&rings, &mut Strips::default())
+        rings_wind_once(&rings, &mut Vec::new(), &mut Strips::default())
     }
 
     #[test]

@@ -13,6 +13,7 @@
 //! Rings that only touch the bounds stay: their vertices are put into the edges that they touch.
 
 use super::csg::{Csg, Operator, Token};
+use crate::base::corners::corners;
 use crate::predicates::Window;
 use glam::DVec2;
 
@@ -28,8 +29,8 @@ impl Bounds {
     const PLANE: Bounds = Bounds { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
 
     fn of(points: &[DVec2]) -> Bounds {
-        let grown = |b: Bounds, &p: &DVec2| Bounds { low: b.low.min(p), high: b.high.max(p) };
-        points.iter().fold(Bounds::NOTHING, grown)
+        let [low, high] = corners(points);
+        Bounds { low, high }
     }
 
     fn from_box(sides: Option<[DVec2; 2]>) -> Bounds {

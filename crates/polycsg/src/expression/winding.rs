@@ -11,6 +11,7 @@ use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
 use super::simple_ring::winds_once;
 use crate::{base::id::index, region::rings::Rings, spatial::strips::Strips};
+use glam::DVec2;
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
 /// ask it at each crossing.
@@ -84,6 +85,8 @@ pub(crate) struct WindingNumbers {
     /// Whether more operands might share counters.
     more_may_share: bool,
     open: Vec<Open>,
+    /// Of operands that may lie apart.
+    boxes: Vec<[DVec2; 2]>,
 }
 
 /// A gate that awaits operands: `remaining` of them, the first into `first`, all others into `rest`.
@@ -242,7 +245,7 @@ impl WindingNumbers {
             return operator;
         }
         self.more_may_share |= strips.is_none();
-        let apart = strips.is_some_and(|strips| operands_are_apart(operands, strips));
+        let apart = strips.is_some_and(|strips| operands_are_apart(operands, &mut self.boxes, strips));
         if apart { Operator::SymmetricDifference } else { operator }
     }
 
@@ -260,7 +263,7 @@ impl WindingNumbers {
         self.more_may_share |= strips.is_none() && !self.raw_share;
         let winds = match (strips, rings.len()) {
             (_, 1) if self.raw_share => winds_once(rings.closed(0)),
-            (Some(strips), 2..) => rings_wind_once(rings, strips),
+            (Some(strips), 2..) => rings_wind_once(rings, &mut self.boxes, strips),
             _ => None,
         };
         winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)

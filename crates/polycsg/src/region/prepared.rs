@@ -2,6 +2,7 @@
 
 use super::rings::{Rings, ring_edges};
 use super::{Location, Look, Region, look_down};
+use crate::base::corners::corners;
 use crate::predicates::Window;
 use crate::spatial::chord_tree::{ChordTree, Sight};
 use glam::DVec2;
@@ -98,9 +99,7 @@ impl PreparedRegion {
 impl Region {
     /// The box around it.
     pub(crate) fn window(&self) -> Window {
-        let points = self.rings.points().iter().copied();
-        let grown = |[low, high]: [DVec2; 2], p: DVec2| [low.min(p), high.max(p)];
-        let [low, high] = points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], grown);
+        let [low, high] = corners(self.rings.points());
         Window::new(low, high)
     }
 }

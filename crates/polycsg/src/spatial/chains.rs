@@ -7,6 +7,7 @@
 //! ```
 
 use super::strips::boxes_meet;
+use crate::base::corners::corners;
 use crate::base::threads::{Threads, ranges};
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
@@ -143,9 +144,7 @@ impl MonotoneChains {
             let end = slots.end - 1;
             for first in (slots.start..end).step_by(RUN as usize) {
                 let last = end.min(first + RUN);
-                let around = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
-                let run = &points[first as usize..=last as usize];
-                let (low, high) = run.iter().fold((DVec2::MAX, DVec2::MIN), around);
+                let [low, high] = corners(&points[first as usize..=last as usize]);
                 self.chains.push(MonotoneChain { first, last, ways: [None; 2], low, high });
             }
         }

@@ -1,6 +1,6 @@
 //! A grid over all edges.
 
-use crate::base::id::index;
+use crate::base::{corners::corners, id::index};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -15,8 +15,7 @@ pub(super) struct Cells {
 impl Cells {
     /// About so many cells over all points; where these have no width at all, one.
     pub(super) fn over(points: &[DVec2], count: usize) -> Cells {
-        let (low, high) =
-            points.iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
+        let [low, high] = corners(points);
         // Halves, so that the width of any finite interval is finite.
         let (half_low, half_size) = (low * 0.5, high * 0.5 - low * 0.5);
         let columns = index(count.isqrt() + 1);

@@ -9,6 +9,7 @@
 //! ```
 
 use super::{Fate, cells::Cells};
+use crate::base::corners::corners;
 use crate::edges::{EdgeRing, Edges};
 use crate::expression::{simple_ring::winds_once, winding::WindingNumbers};
 use crate::predicates::{Side, is_inside, lexicographic, side};
@@ -78,19 +79,18 @@ impl Sheet {
     /// Whether it runs once around a convex set: it turns to its inside only, and changes between left and right twice.
     fn is_convex(&self, edges: &Edges) -> bool {
         let EdgeRing { start, end, .. } = self.ring;
-        let corners = (start..end).map(|vertex| corner(edges, self.ring, vertex));
+        let turns = (start..end).map(|vertex| corner(edges, self.ring, vertex));
         let turns_back = |&[a, b, c]: &[DVec2; 3]| lexicographic(a, b) != lexicographic(b, c);
         end - start <= LONGEST
             && self.inside != Side::On
-            && corners.clone().all(|[a, b, c]| side(a, b, c) != self.inside.reversed())
-            && corners.filter(turns_back).count() == 2
+            && turns.clone().all(|[a, b, c]| side(a, b, c) != self.inside.reversed())
+            && turns.filter(turns_back).count() == 2
     }
 }
 
 /// The box of a ring.
 fn bounds(edges: &Edges, ring: EdgeRing) -> [DVec2; 2] {
-    let points = &edges.points()[ring.start as usize..ring.end as usize];
-    points.iter().fold([DVec2::MAX, DVec2::MIN], |[low, high], &p| [low.min(p), high.max(p)])
+    corners(&edges.points()[ring.start as usize..ring.end as usize])
 }
 
 /// A quarter of the area of a box, so that it overflows less soon.

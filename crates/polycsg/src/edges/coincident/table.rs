@@ -48,13 +48,13 @@ impl Table {
         self.clear(edges, fates);
         self.firsts.clear();
         self.firsts.resize(2 * edges.len(), NONE);
-        for ring in edges.rings() {
+        for ring in edges.rings().iter().filter(|ring| ring.counter.is_some()) {
             let slots = ring.start as usize..ring.end as usize + 1;
             let mut key = mixed(edges.point(ring.start));
             for (edge, ends) in (ring.start..).zip(edges.points()[slots].windows(2)) {
                 let next_key = mixed(ends[1]);
                 let key = std::mem::replace(&mut key, next_key).wrapping_add(next_key);
-                if ring.counter.is_some() && !self.is_first(edges.points(), edge, [ends[0], ends[1]], key) {
+                if !self.is_first(edges.points(), edge, [ends[0], ends[1]], key) {
                     fates[edge as usize] = Fate::Represented;
                 }
             }

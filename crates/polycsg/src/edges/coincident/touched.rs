@@ -1,7 +1,7 @@
 //! Vertices of edges that are gone, where they touch edges that are left: they become vertices of one of these.
 
 use super::{Fate, cells::Cells};
-use crate::base::id::index;
+use crate::base::{corners::corners, id::index};
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
@@ -137,8 +137,7 @@ impl Touched {
         between.clear();
         let slots = (0..index(fates.len())).filter(|&slot| is_between_gone(edges, fates, slot));
         between.extend(slots.map(|slot| edges.point(slot)));
-        let around = |(low, high): (DVec2, DVec2), &p: &DVec2| (low.min(p), high.max(p));
-        let (low, high) = between.iter().fold((DVec2::MAX, DVec2::MIN), around);
+        let [low, high] = corners(between);
         left.retain(|&edge| {
             let [a, b] = edges.segment(edge);
             a.min(b).cmple(high) & a.max(b).cmpge(low) == BVec2::TRUE
@@ -179,8 +178,7 @@ impl Touched {
     /// Whether the points' box touches cells with edges that are left.
     #[inline]
     fn are_near(&self, cells: Cells, points: &[DVec2]) -> bool {
-        let (low, high) =
-            points.iter().fold((points[0], points[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let [low, high] = corners(points);
         let ([left, bottom], [right, top]) = (cells.place(low), cells.place(high));
         let before = |column, row| self.near_before[row as usize * (cells.columns() + 1) + column as usize];
         before(right + 1, top + 1) + before(left, bottom) != before(left, top + 1) + before(right + 1, bottom)
