@@ -1,8 +1,9 @@
-//! Closed convex bodies among the polygons. Of such a body only the near side can occlude, and of the target's own body nothing.
+//! Closed convex bodies among the polygons, and such as lack one face. Of such a body only the near side can occlude, and of the target's own body nothing.
 //!
 //! With dA outside of a body, every ray that leaves it through its far side has entered it through its near side: the far side
 //! hides nothing more. The common edge of two faces of the near side is no part of the visible boundary, so that the body's
 //! silhouette remains.
+use super::cap::{Cap, lid};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::{cmp::Ordering, collections::BTreeMap};
@@ -13,6 +14,8 @@ pub(crate) struct Bodies {
     /// Which body each polygon belongs to.
     of: Vec<Option<usize>>,
     faces: Vec<Vec<usize>>,
+    /// Those that one more face would close.
+    caps: Vec<Cap>,
 }
 
 /// Bodies of more faces are not looked for: the check takes the square of their number.
@@ -22,14 +25,18 @@ impl Bodies {
     /// Takes O(n log n) for n edges, and the square of the faces of each body.
     pub(crate) fn among(polygons: &[PlanarPolygon]) -> Self {
         let neighbours = neighbours(polygons);
-        let mut bodies = Self { of: vec![None; polygons.len()], faces: Vec::new() };
+        let mut bodies = Self { of: vec![None; polygons.len()], ..Self::default() };
         let mut is_known = vec![false; polygons.len()];
         for first in 0..polygons.len() {
             let faces = connected(first, &neighbours, &mut is_known);
-            let is_closed = faces.iter().all(|face| neighbours[*face].is_some());
-            if is_closed && (4..=MOST).contains(&faces.len()) && is_convex(polygons, &faces) {
+            if !(2..=MOST).contains(&faces.len()) || !is_convex(polygons, &faces) {
+                continue;
+            }
+            if faces.iter().all(|face| neighbours[*face].iter().all(Option::is_some)) {
                 faces.iter().for_each(|face| bodies.of[*face] = Some(bodies.faces.len()));
                 bodies.faces.push(faces);
+            } else if let Some(lid) = lid(polygons, &faces, &neighbours) {
+                bodies.caps.push(Cap { faces, lid });
             }
         }
         bodies
@@ -44,9 +51,8 @@ impl Bodies {
         &self.faces[body]
     }
 
-    /// The body that a polygon is of.
-    pub(crate) fn body_of(&self, id: usize) -> Option<usize> {
-        self.of[id]
+    pub(crate) fn caps(&self) -> &[Cap] {
+        &self.caps
     }
 
     /// Whether two polygons belong to one body. Then neither hides any of the other's front: the body lies behind it.
@@ -94,7 +100,7 @@ pub(crate) struct Outside {
 }
 
 /// The polygons across each polygon's edges, `None` where an edge has not exactly one partner that runs the other way.
-fn neighbours(polygons: &[PlanarPolygon]) -> Vec<Option<Vec<usize>>> {
+fn neighbours(polygons: &[PlanarPolygon]) -> Vec<Vec<Option<usize>>> {
     let bits = |p: DVec3| p.to_array().map(f64::to_bits);
     let mut owners: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for (id, polygon) in polygons.iter().enumerate() {
@@ -109,7 +115,7 @@ fn neighbours(polygons: &[PlanarPolygon]) -> Vec<Option<Vec<usize>>> {
 }
 
 /// The polygons that are connected with one by edges, if they are not known yet.
-fn connected(first: usize, neighbours: &[Option<Vec<usize>>], is_known: &mut [bool]) -> Vec<usize> {
+fn connected(first: usize, neighbours: &[Vec<Option<usize>>], is_known: &mut [bool]) -> Vec<usize> {
     let (mut found, mut open) = (Vec::new(), vec![first]);
     while let Some(id) = open.pop() {
         if !std::mem::replace(&mut is_known[id], true) {

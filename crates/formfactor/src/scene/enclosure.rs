@@ -45,9 +45,10 @@ impl Enclosure {
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
         let bodies = Bodies::among(&polygons);
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
+        let tree = Tree::over(&polygons);
         Self {
-            tree: Tree::over(&polygons),
-            surfaces: Surfaces::of(&polygons, &bodies),
+            surfaces: Surfaces::of(&polygons, &bodies, &tree),
+            tree,
             bodies,
             polygons,
             deviation,

@@ -1,6 +1,7 @@
 //! Many polygons that see and hide each other: which of them can stand before a target.
 pub(crate) mod apart;
 pub(crate) mod body;
+pub(crate) mod cap;
 pub(crate) mod coplanar;
 pub(crate) mod enclosure;
 pub(crate) mod occluder;

@@ -1,6 +1,7 @@
 //! What form factors from area to area need of the polygons, found once: their convex pieces, and the convex occluders among
 //! them.
 use super::body::Bodies;
+use super::cap::is_entered;
 use super::coplanar::planes;
 use super::occluder::{Face, Occluder, Ridge, ball};
 use super::tree::Tree;
@@ -22,7 +23,7 @@ pub(crate) struct Surface {
     pub(crate) area: f64,
     /// The number of its plane.
     pub(crate) plane: usize,
-    /// The closed convex body that it is a face of.
+    /// The convex solid that it is a face of.
     pub(crate) body: Option<usize>,
     /// Convex pieces, counter-clockwise seen from the front.
     pub(crate) pieces: Vec<Vec<DVec3>>,
@@ -47,7 +48,7 @@ pub(crate) struct Hider {
 /// What an occluder is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// A closed convex body.
+    /// A convex solid.
     Body(usize),
     /// Polygons in a plane.
     Plane(usize),
@@ -64,23 +65,24 @@ pub(crate) struct Surfaces {
 
 impl Surfaces {
     /// Takes O(n log n) for n vertices where few planes have all polygons on one side, plus the unions of coplanar polygons.
-    pub(crate) fn of(polygons: &[PlanarPolygon], bodies: &Bodies) -> Self {
+    pub(crate) fn of(polygons: &[PlanarPolygon], bodies: &Bodies, tree: &Tree) -> Self {
         let planes = planes(polygons);
-        let surfaces = polygons
-            .iter()
-            .zip(&planes)
-            .enumerate()
-            .map(|(id, (polygon, plane))| Surface::new(polygon, *plane, bodies.body_of(id)))
-            .collect();
-        let mut hiders: Vec<Hider> = (0..bodies.count())
-            .map(|body| Hider {
-                shape: of_body(polygons, &planes, bodies.faces(body)),
-                of: Origin::Body(body),
-            })
-            .collect();
+        let solids = solids(polygons, bodies, tree);
+        let mut solid_of = vec![None; polygons.len()];
+        for (number, (faces, _)) in solids.iter().enumerate() {
+            faces.iter().for_each(|face| solid_of[*face] = Some(number));
+        }
+        let surface =
+            |(polygon, (plane, solid)): (_, (&usize, &Option<usize>))| Surface::new(polygon, *plane, *solid);
+        let surfaces = polygons.iter().zip(planes.iter().zip(&solid_of)).map(surface).collect();
+        let hider = |(number, (faces, lid)): (usize, &Solid)| Hider {
+            shape: of_solid(polygons, &planes, faces, *lid),
+            of: Origin::Body(number),
+        };
+        let mut hiders: Vec<Hider> = solids.iter().enumerate().map(hider).collect();
         let points: Vec<DVec3> = polygons.iter().flat_map(PlanarPolygon::points).copied().collect();
         let mut in_plane: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (id, plane) in planes.iter().enumerate().filter(|(id, _)| bodies.body_of(*id).is_none()) {
+        for (id, plane) in planes.iter().enumerate().filter(|(id, _)| solid_of[*id].is_none()) {
             in_plane.entry(*plane).or_default().push(id);
         }
         in_plane.retain(|plane, _| !supports(&polygons[*plane], &points));
@@ -180,21 +182,39 @@ fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
     true
 }
 
-/// A closed convex body: the edges between faces in different planes.
-fn of_body(polygons: &[PlanarPolygon], planes: &[usize], ids: &[usize]) -> Occluder {
+/// The faces of a convex solid, and a lid for one that is a cap.
+type Solid<'b> = (&'b [usize], Option<&'b PlanarPolygon>);
+
+/// Closed bodies and caps with nothing in them: something inside sees what else is inside, and through a cap's open face.
+fn solids<'b>(polygons: &[PlanarPolygon], bodies: &'b Bodies, tree: &Tree) -> Vec<Solid<'b>> {
+    let closed = (0..bodies.count()).map(|body| (bodies.faces(body), None));
+    let caps = bodies.caps().iter().map(|cap| (&cap.faces[..], Some(&cap.lid)));
+    closed.chain(caps).filter(|(faces, lid)| !is_entered(polygons, tree, faces, *lid)).collect()
+}
+
+/// A convex solid: the edges between faces in different planes.
+fn of_solid(
+    polygons: &[PlanarPolygon],
+    planes: &[usize],
+    ids: &[usize],
+    lid: Option<&PlanarPolygon>,
+) -> Occluder {
     let bits = |p: DVec3| p.to_array().map(f64::to_bits);
-    let mut numbers: Vec<usize> = ids.iter().map(|id| planes[*id]).collect();
+    let own = ids.iter().map(|id| (planes[*id], &polygons[*id]));
+    let sides: Vec<(usize, &PlanarPolygon)> = own.chain(lid.map(|lid| (planes.len(), lid))).collect();
+    let mut numbers: Vec<usize> = sides.iter().map(|side| side.0).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    let number = |id: usize| numbers.binary_search(&planes[id]).unwrap_or(0);
-    let edges = || ids.iter().flat_map(|id| polygons[*id].edges().map(move |edge| (*id, edge)));
-    let left: BTreeMap<_, usize> = edges().map(|(id, (a, b))| ([bits(a), bits(b)], number(id))).collect();
-    let ridges = edges().filter_map(|(id, (a, b))| {
-        let (own, other) = (number(id), *left.get(&[bits(b), bits(a)])?);
+    let number = |plane: usize| numbers.binary_search(&plane).unwrap_or(0);
+    let edges =
+        || sides.iter().flat_map(|(plane, side)| side.edges().map(move |edge| (number(*plane), edge)));
+    let left: BTreeMap<_, usize> = edges().map(|(own, (a, b))| ([bits(a), bits(b)], own)).collect();
+    let ridges = edges().filter_map(|(own, (a, b))| {
+        let other = *left.get(&[bits(b), bits(a)])?;
         (own < other).then_some(Ridge { ends: [a, b], sides: [own, other] })
     });
     let mut faces: Vec<Face> = vec![[DVec3::ZERO; 2]; numbers.len()];
-    ids.iter().for_each(|id| faces[number(*id)] = [polygons[*id].points()[0], polygons[*id].normal()]);
+    sides.iter().for_each(|(plane, side)| faces[number(*plane)] = [side.points()[0], side.normal()]);
     Occluder::of(ridges.collect(), faces, false)
 }
 

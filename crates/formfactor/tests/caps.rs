@@ -1,0 +1,101 @@
+//! Walls and a roof hide what the closed house hides, and something inside a body sees what is inside.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+use formfactor::{AreaFormFactor, Enclosure, Limits, PlanarPolygon};
+
+fn polygon(corners: &[[f64; 3]]) -> PlanarPolygon {
+    PlanarPolygon::new([corners]).unwrap()
+}
+
+/// The sides of a box, fronts outward: four walls, each in two triangles, the roof, and the floor.
+fn sides([x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3]) -> Vec<PlanarPolygon> {
+    let ring = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    let wall = |i: usize| {
+        let ([a, b], [c, d]) = (ring[i], ring[(i + 1) % 4]);
+        [polygon(&[[a, b, z0], [c, d, z0], [c, d, z1]]), polygon(&[[a, b, z0], [c, d, z1], [a, b, z1]])]
+    };
+    let roof = polygon(&ring.map(|[x, y]| [x, y, z1]));
+    let floor = polygon(&[ring[3], ring[2], ring[1], ring[0]].map(|[x, y]| [x, y, z0]));
+    (0..4).flat_map(wall).chain([roof, floor]).collect()
+}
+
+/// The ground around and below two houses, a tilted board above, and what stands on the ground.
+fn street(houses: impl IntoIterator<Item = PlanarPolygon>) -> Enclosure {
+    let ground = |x: f64, y: f64| {
+        polygon(&[[x, y, 0.0], [x + 3.0, y, 0.0], [x + 3.0, y + 3.0, 0.0], [x, y + 3.0, 0.0]])
+    };
+    let tiles = [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0], [3.0, 3.0]].map(|[x, y]| ground(x, y));
+    let board = polygon(&[[0.0, 0.0, 5.0], [0.0, 6.0, 4.0], [6.0, 6.0, 4.0], [6.0, 0.0, 5.0]]);
+    Enclosure::new(tiles.into_iter().chain([board]).chain(houses).collect())
+}
+
+fn houses() -> Vec<PlanarPolygon> {
+    [sides([1.0, 1.0, 0.0], [2.5, 2.0, 2.0]), sides([3.5, 2.5, 0.0], [4.5, 4.0, 1.0])].concat()
+}
+
+fn all(scene: &Enclosure, count: usize) -> Vec<AreaFormFactor> {
+    let pairs = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
+    pairs.map(|(i, j)| scene.area_form_factor(i, j, 1e-6, &Limits::default()).unwrap().unwrap()).collect()
+}
+
+#[test]
+fn a_house_without_a_floor_hides_what_its_walls_and_its_roof_hide() {
+    let open: Vec<PlanarPolygon> = houses().chunks(10).flat_map(|sides| sides[..9].iter().cloned()).collect();
+    let count = 5 + open.len();
+    let inside = [[1.4, 1.4], [3.9, 3.0]]
+        .map(|[x, y]| polygon(&[[x, y, 0.1], [x + 0.01, y, 0.1], [x, y + 0.01, 0.1]]));
+    // With something inside the walls count one by one.
+    let capped = all(&street(open.clone()), count);
+    let walled = all(&street(open.into_iter().chain(inside)), count);
+    let seen = capped.iter().filter(|factor| factor.value > 1e-3).count();
+    assert!(seen > 60, "only {seen} factors");
+    for (pair, (capped, walled)) in capped.iter().zip(&walled).enumerate() {
+        let most = capped.error_estimate + walled.error_estimate + 1e-9;
+        assert!((capped.value - walled.value).abs() <= most, "{pair}: {capped:?} {walled:?}");
+    }
+}
+
+#[test]
+fn bounds_hold_before_a_house_without_a_floor() {
+    let open: Vec<PlanarPolygon> = houses().chunks(10).flat_map(|sides| sides[..9].iter().cloned()).collect();
+    let scene = street(open);
+    for (i, j) in [(0, 4), (1, 4), (2, 4), (3, 4), (0, 3), (5, 16), (13, 4)] {
+        let estimate = scene.area_form_factor(i, j, 1e-7, &Limits::default()).unwrap().unwrap();
+        let limits = Limits { per_pair: 20_000, ..Limits::default() };
+        let bounded = scene.bounded_area_form_factor(i, j, 1e-3, &limits).unwrap().unwrap();
+        let most = bounded.error_bound + estimate.error_estimate;
+        assert!((bounded.value - estimate.value).abs() <= most, "{i} {j}: {bounded:?} {estimate:?}");
+    }
+}
+
+#[test]
+fn what_is_inside_of_a_body_sees_what_is_inside() {
+    let level = |z: f64, up: bool| {
+        let ring = [[0.2, 0.2, z], [0.8, 0.2, z], [0.8, 0.8, z], [0.2, 0.8, z]];
+        let turned = [ring[3], ring[2], ring[1], ring[0]];
+        polygon(if up { &ring } else { &turned })
+    };
+    let (lower, upper) = (level(0.2, true), level(0.8, false));
+    let free = Enclosure::new(vec![lower.clone(), upper.clone()]);
+    let expected = free.area_form_factor(0, 1, 1e-9, &Limits::default()).unwrap().unwrap().value;
+    for sides in [sides([0.0; 3], [1.0; 3]), sides([0.0; 3], [1.0; 3])[..9].to_vec()] {
+        let outside = polygon(&[[0.0, 0.0, 3.0], [0.0, 1.0, 3.0], [1.0, 1.0, 3.0], [1.0, 0.0, 3.0]]);
+        let scene = Enclosure::new([vec![lower.clone(), upper.clone(), outside], sides].concat());
+        let found = |to| scene.area_form_factor(0, to, 1e-9, &Limits::default()).unwrap().unwrap().value;
+        assert!((found(1) - expected).abs() < 1e-9 && expected > 0.1, "{}", found(1));
+        assert_eq!(found(2), 0.0);
+    }
+}
+
+#[test]
+fn what_lies_on_a_bodys_faces_and_looks_inward_sees_what_does() {
+    let ring = [[0.2, 0.2, 0.0], [0.8, 0.2, 0.0], [0.8, 0.8, 0.0], [0.2, 0.8, 0.0]];
+    let lower = polygon(&ring);
+    let upper = polygon(&[ring[3], ring[2], ring[1], ring[0]].map(|[x, y, _]| [x, y, 1.0]));
+    let free = Enclosure::new(vec![lower.clone(), upper.clone()]);
+    let expected = free.area_form_factor(0, 1, 1e-9, &Limits::default()).unwrap().unwrap().value;
+    for sides in [sides([0.0; 3], [1.0; 3]), sides([0.0; 3], [1.0; 3])[..9].to_vec()] {
+        let scene = Enclosure::new([vec![lower.clone(), upper.clone()], sides].concat());
+        let found = scene.area_form_factor(0, 1, 1e-9, &Limits::default()).unwrap().unwrap().value;
+        assert!((found - expected).abs() < 1e-9 && expected > 0.05, "{found}");
+    }
+}
