@@ -54,6 +54,17 @@ pub enum Error {
         /// The largest distance that is accepted.
         allowed: f64,
     },
+    /// A vertex of a part lies further off the plane of the polygon that it is of than rounding of coordinates explains.
+    OffSurface {
+        /// Index of the part's loop, in the order given.
+        loop_index: usize,
+        /// Index of the vertex within that loop.
+        vertex: usize,
+        /// Distance from the plane, in the coordinates' units.
+        distance: f64,
+        /// The largest distance that is accepted.
+        allowed: f64,
+    },
 }
 
 impl fmt::Display for Error {
@@ -95,6 +106,10 @@ impl fmt::Display for Error {
             Error::NotPlanar { loop_index, vertex, distance, allowed } => write!(
                 f,
                 "loop {loop_index}, vertex {vertex}: {distance:e} off the polygon's plane where {allowed:e} is allowed; split the polygon into triangles"
+            ),
+            Error::OffSurface { loop_index, vertex, distance, allowed } => write!(
+                f,
+                "loop {loop_index}, vertex {vertex} of the part: {distance:e} off the plane of its polygon where {allowed:e} is allowed; give points of that plane"
             ),
         }
     }

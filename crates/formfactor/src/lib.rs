@@ -31,6 +31,7 @@
 //! | many polygons that are targets and occluders | form factors from a point to one, or to all | [`Enclosure::form_factor`], [`Enclosure::row`] |
 //! | many polygons | form factors from many points to one of them | [`Enclosure::form_factors`] |
 //! | many polygons | form factors from polygon to polygon | [`Enclosure::area_form_factor`], [`Enclosure::area_matrix`] |
+//! | many polygons | form factors from or to parts of polygons | the same, with a [`Part`] |
 //! | many polygons | a form factor from polygon to polygon with a bound that holds | [`Enclosure::bounded_area_form_factor`] |
 //! | many polygons | matrices row by row, to be resumed or shared among machines; closed, grouped, sparse | [`Enclosure::exchange_row`], [`FactorMatrix`] |
 //! | a polygon that hides almost all of the hemisphere | 1 - F with all digits | [`unoccluded_complement`] |
@@ -146,7 +147,7 @@ mod shapes;
 mod stats;
 mod visible_part;
 
-pub use area::{AreaFormFactor, BoundedFormFactor, Limits, Row, Tolerance};
+pub use area::{AreaFormFactor, BoundedFormFactor, Limits, Part, Row, Tolerance};
 pub use complement::unoccluded_complement;
 pub use error::Error;
 pub use form_factor::FormFactor;

@@ -131,6 +131,7 @@ mod tests {
             amount: 1.0,
             error: Deviation { max: error, mean: error, beyond: 0.0 },
             bound: None,
+            defect: None,
             points: None,
             in_part: None,
             valid: None,

@@ -8,7 +8,8 @@ pub struct Plan {
     pub scenes: Vec<(String, Scene)>,
     /// Whether to use fewer points, settings and rounds: some minutes instead of half an hour.
     pub quick: bool,
-    /// Whether to measure also without a scene: single points, axes of stress, solvers, Booleans.
+    /// Whether to measure also without a scene: single points, axes of stress, solvers, Booleans,
+    /// matrices.
     pub general: bool,
 }
 

@@ -2,8 +2,9 @@
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
 use crate::measure::test_scene::TestScene;
-use crate::measure::{booleans, cases, error_image::images, left_out, published, stiff, stress};
+use crate::measure::{booleans, cases, error_image::images, left_out, matrices, published, stiff, stress};
 use crate::methods::{Step, middle, steps};
+use crate::page::chapter_matrices;
 use crate::page::chapter_tables::{left_out_table, published_table};
 use crate::page::{page, peers::Peers, summary, work_precision::time_to_error};
 use crate::plan::Plan;
@@ -61,6 +62,7 @@ fn general(plan: &Plan, steps: &[Step], mut say: impl FnMut(&str)) -> Result<Vec
     rows.extend(stiff::measure(plan)?);
     say("stability of Booleans");
     rows.extend(booleans::measure(plan));
+    rows.extend(matrices::measure(plan, say));
     Ok(rows)
 }
 
@@ -95,6 +97,9 @@ impl Report {
         for (name, rows) in subjects(self.measured(Chapter::Scenes)) {
             let table = time_to_error(&lines(&rows));
             text += &format!("\n## Time to an error: {name}\n\n{}", table.markdown());
+        }
+        for (room, table) in chapter_matrices::tables(self) {
+            text += &format!("\n## Matrix of {room}\n\n{}", table.markdown());
         }
         for (title, table) in [
             ("Work saved", left_out_table(self)),

@@ -27,6 +27,8 @@ pub(crate) enum Chapter {
     Solvers,
     /// Polygon Booleans along one axis of stress.
     Booleans,
+    /// Whole matrices from area to area.
+    Matrices,
 }
 
 /// An error and what it cost.
@@ -46,13 +48,15 @@ pub(crate) struct Measured {
     pub(crate) error: Deviation,
     /// A bound that the method itself gives with its result: on the largest error.
     pub(crate) bound: Option<f64>,
+    /// Of a matrix of a closed room: the largest |sum - 1| of a row.
+    pub(crate) defect: Option<f64>,
     /// The number of points queried; `None` where no points are queried.
     pub(crate) points: Option<usize>,
     /// The number of points from which the targets are partly hidden.
     pub(crate) in_part: Option<usize>,
     /// Whether the result passes an exact check, where there is one.
     pub(crate) valid: Option<bool>,
-    /// Seconds for one point (scenes, points, stability), one solution or one Boolean.
+    /// Seconds for one point (scenes, points, stability), one solution, one Boolean or one matrix.
     pub(crate) time: Time,
 }
 

@@ -1,6 +1,6 @@
 //! The hemicube for what is far and for what is seen, the contour sum for what is near.
 use super::gather::{aim, as_contour};
-use super::parts::{Division, Part, divide, pieces};
+use super::parts::{Division, Tile, divide, pieces};
 use super::{hemicube::Hemicube, method::Method, screen::Screen};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
@@ -47,7 +47,7 @@ impl Baum {
     ) -> f64 {
         let target = &enclosure.polygons()[id];
         let parts = divide(target, from.position(), Division::Uniform(self.divisions));
-        let is_shown = |part: &&Part| {
+        let is_shown = |part: &&Tile| {
             aim(from, part).is_some_and(|toward| screens.iter().any(|s| s.id_toward(toward) == Some(id)))
         };
         parts.iter().filter(is_shown).map(|part| as_contour(from, part)).fold(0.0, |sum, part| sum + part)

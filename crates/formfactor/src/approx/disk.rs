@@ -33,7 +33,7 @@ impl Method for Disk {
 fn centroid(polygon: &PlanarPolygon) -> DVec3 {
     let parts = pieces(polygon);
     let weighted: DVec3 = parts.iter().map(|part| part.area() * part.centre()).sum();
-    weighted / parts.iter().map(super::parts::Part::area).sum::<f64>()
+    weighted / parts.iter().map(super::parts::Tile::area).sum::<f64>()
 }
 
 /// The form factor to a disk of this area and direction, its centre given relative to dA.

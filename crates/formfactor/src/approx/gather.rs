@@ -1,7 +1,7 @@
 //! RayTarget after target, part after part: what the methods by parts share.
 use super::contour::{above, contour};
 use super::disk::disk;
-use super::parts::{Division, Part, divide};
+use super::parts::{Division, Tile, divide};
 use super::ray::{RayTarget, items};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
@@ -24,15 +24,15 @@ pub(super) fn by_parts(
     from: &DifferentialArea,
     target: &RayTarget,
     division: Division,
-    factor: impl Fn(&Part) -> f64,
+    factor: impl Fn(&Tile) -> f64,
 ) -> f64 {
     let parts = divide(target.item.polygon, from.position(), division);
-    let reached = |part: &&Part| aim(from, part).is_some_and(|point| target.is_reached(point));
+    let reached = |part: &&Tile| aim(from, part).is_some_and(|point| target.is_reached(point));
     parts.iter().filter(reached).map(factor).fold(0.0, |sum, part| sum + part)
 }
 
 /// The point of a part to which a ray goes: its centre relative to dA, or the middle of what is above the horizon.
-pub(super) fn aim(from: &DifferentialArea, part: &Part) -> Option<DVec3> {
+pub(super) fn aim(from: &DifferentialArea, part: &Tile) -> Option<DVec3> {
     let centre = part.centre() - from.position();
     if from.normal().dot(centre) > 0.0 {
         return Some(centre);
@@ -44,12 +44,12 @@ pub(super) fn aim(from: &DifferentialArea, part: &Part) -> Option<DVec3> {
 }
 
 /// A part as a disk.
-pub(super) fn as_disk(from: &DifferentialArea, target: &RayTarget, part: &Part) -> f64 {
+pub(super) fn as_disk(from: &DifferentialArea, target: &RayTarget, part: &Tile) -> f64 {
     disk(from.normal(), part.centre() - from.position(), target.item.polygon.normal(), part.area())
 }
 
 /// A part by the contour sum (2.4).
-pub(super) fn as_contour(from: &DifferentialArea, part: &Part) -> f64 {
+pub(super) fn as_contour(from: &DifferentialArea, part: &Tile) -> f64 {
     let corners: Vec<DVec3> = part.corners().iter().map(|p| *p - from.position()).collect();
     contour(from.normal(), &corners)
 }

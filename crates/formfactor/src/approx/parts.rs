@@ -31,13 +31,13 @@ impl fmt::Display for Division {
 
 /// A triangle or a parallelogram, by a corner and its two sides; counter-clockwise seen from the front.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct Tile {
     corner: DVec3,
     sides: [DVec3; 2],
     is_triangle: bool,
 }
 
-impl Part {
+impl Tile {
     fn triangle([a, b, c]: [DVec3; 3]) -> Self {
         Self { corner: a, sides: [b - a, c - a], is_triangle: true }
     }
@@ -71,7 +71,7 @@ impl Part {
     }
 
     /// n x n congruent parts.
-    pub(super) fn grid(&self, n: u32) -> Vec<Part> {
+    pub(super) fn grid(&self, n: u32) -> Vec<Tile> {
         let n = n.max(1);
         let [s, t] = self.sides.map(|side| side / f64::from(n));
         let at = |i: u32, j: u32| self.corner + f64::from(i) * s + f64::from(j) * t;
@@ -79,9 +79,9 @@ impl Part {
         for i in 0..n {
             let end = if self.is_triangle { n - i } else { n };
             for j in 0..end {
-                parts.push(Part { corner: at(i, j), sides: [s, t], ..*self });
+                parts.push(Tile { corner: at(i, j), sides: [s, t], ..*self });
                 if self.is_triangle && j + 1 < end {
-                    parts.push(Part { corner: at(i + 1, j + 1), sides: [-s, -t], ..*self });
+                    parts.push(Tile { corner: at(i + 1, j + 1), sides: [-s, -t], ..*self });
                 }
             }
         }
@@ -90,12 +90,12 @@ impl Part {
 }
 
 /// The parts of a target as seen from `position`, in an order that is always the same.
-pub(super) fn divide(target: &PlanarPolygon, position: DVec3, division: Division) -> Vec<Part> {
+pub(super) fn divide(target: &PlanarPolygon, position: DVec3, division: Division) -> Vec<Tile> {
     match division {
         Division::Uniform(n) => pieces(target).iter().flat_map(|piece| piece.grid(n)).collect(),
         Division::Adaptive { size, depth } => {
             let mut parts = Vec::new();
-            let mut open: Vec<(Part, u32)> = pieces(target).into_iter().map(|piece| (piece, depth)).collect();
+            let mut open: Vec<(Tile, u32)> = pieces(target).into_iter().map(|piece| (piece, depth)).collect();
             while let Some((part, left)) = open.pop() {
                 if left > 0 && part.is_large(position, size) {
                     open.extend(part.grid(2).into_iter().map(|quarter| (quarter, left - 1)));
@@ -109,23 +109,23 @@ pub(super) fn divide(target: &PlanarPolygon, position: DVec3, division: Division
 }
 
 /// The target as few triangles and parallelograms.
-pub(super) fn pieces(target: &PlanarPolygon) -> Vec<Part> {
+pub(super) fn pieces(target: &PlanarPolygon) -> Vec<Tile> {
     if !target.is_convex() {
         return trapezoids(target).into_iter().flat_map(fan).collect();
     }
     let points = target.points();
     match *points {
         [a, b, c, d] if a + c == b + d => {
-            vec![Part { corner: a, sides: [b - a, d - a], is_triangle: false }]
+            vec![Tile { corner: a, sides: [b - a, d - a], is_triangle: false }]
         }
         _ => fan(points),
     }
 }
 
 /// The triangles of a convex loop that have an area.
-fn fan(points: impl AsRef<[DVec3]>) -> Vec<Part> {
+fn fan(points: impl AsRef<[DVec3]>) -> Vec<Tile> {
     let points = points.as_ref();
-    let triangles = points[1..].windows(2).map(|pair| Part::triangle([points[0], pair[0], pair[1]]));
+    let triangles = points[1..].windows(2).map(|pair| Tile::triangle([points[0], pair[0], pair[1]]));
     triangles.filter(|part| part.area() > 0.0).collect()
 }
 
@@ -178,9 +178,9 @@ mod tests {
             let whole = whole.expect("planar");
             for n in [1, 2, 5] {
                 let parts = divide(&whole, DVec3::ZERO, Division::Uniform(n));
-                let area: f64 = parts.iter().map(Part::area).sum();
+                let area: f64 = parts.iter().map(Tile::area).sum();
                 assert!((area - whole.area()).abs() < 1e-13 * area);
-                let facing = |p: &Part| p.sides[0].cross(p.sides[1]).dot(whole.normal()) > 0.0;
+                let facing = |p: &Tile| p.sides[0].cross(p.sides[1]).dot(whole.normal()) > 0.0;
                 assert!(parts.iter().all(facing));
             }
         }
@@ -192,6 +192,6 @@ mod tests {
         let position = DVec3::new(0.1, 0.2, 3.0);
         let parts = divide(&whole, position, Division::Adaptive { size: 0.5, depth: 9 });
         assert!(parts.iter().all(|part| !part.is_large(position, 0.5)));
-        assert!(parts.iter().map(Part::area).fold(0.0, f64::max) > parts[0].area().min(1.0));
+        assert!(parts.iter().map(Tile::area).fold(0.0, f64::max) > parts[0].area().min(1.0));
     }
 }

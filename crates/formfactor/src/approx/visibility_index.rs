@@ -1,6 +1,6 @@
 //! Parts, split where rays disagree.
 use super::gather::{aim, as_contour, as_disk, row_of_targets};
-use super::parts::{Part, pieces};
+use super::parts::{Tile, pieces};
 use super::{method::Method, ray::RayTarget};
 use crate::scene::enclosure::Enclosure;
 use crate::shapes::differential_area::DifferentialArea;
@@ -35,7 +35,7 @@ impl Method for VisibilityIndex {
 impl VisibilityIndex {
     fn factor(&self, from: &DifferentialArea, target: &RayTarget) -> f64 {
         let mut sum = 0.0;
-        let mut open: Vec<(Part, u32)> =
+        let mut open: Vec<(Tile, u32)> =
             pieces(target.item.polygon).into_iter().map(|piece| (piece, self.depth)).collect();
         while let Some((part, left)) = open.pop() {
             let index = self.index(from, target, &part);
@@ -49,7 +49,7 @@ impl VisibilityIndex {
     }
 
     /// The fraction of the sample rays that reach a part; 0 when it is below the horizon.
-    fn index(&self, from: &DifferentialArea, target: &RayTarget, part: &Part) -> f64 {
+    fn index(&self, from: &DifferentialArea, target: &RayTarget, part: &Tile) -> f64 {
         let (mut all, mut reached) = (0_u32, 0_u32);
         for point in part.grid(self.samples).iter().filter_map(|piece| aim(from, piece)) {
             all += 1;
@@ -58,7 +58,7 @@ impl VisibilityIndex {
         if all == 0 { 0.0 } else { f64::from(reached) / f64::from(all) }
     }
 
-    fn part(&self, from: &DifferentialArea, target: &RayTarget, part: &Part) -> f64 {
+    fn part(&self, from: &DifferentialArea, target: &RayTarget, part: &Tile) -> f64 {
         if part.is_large(from.position(), self.near) {
             as_contour(from, part)
         } else {

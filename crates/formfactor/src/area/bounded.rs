@@ -1,6 +1,7 @@
 //! Form factors between polygons with a bound that holds.
 use super::integral::{Allowed, Integral};
 use super::pair::Outlook;
+use super::part::{End, Part};
 use super::tolerance::{Limits, Tolerance};
 use crate::error::Error;
 use crate::scene::enclosure::Enclosure;
@@ -33,7 +34,7 @@ impl Enclosure {
     /// parallel or perpendicular and nothing stands in between it is a closed form.
     ///
     /// # Errors
-    /// [`Error::BadTolerance`] unless the tolerance is positive.
+    /// [`Error::BadTolerance`] unless the tolerance is positive, [`Error::OffSurface`] for a part that is not in its polygon's plane.
     ///
     /// # Panics
     /// When there is no polygon with one of the ids.
@@ -51,29 +52,31 @@ impl Enclosure {
     /// assert!((f.value - estimate.value).abs() <= f.error_bound);
     /// # Ok::<(), formfactor::Error>(())
     /// ```
-    pub fn bounded_area_form_factor(
+    pub fn bounded_area_form_factor<'p>(
         &self,
-        from: usize,
-        to: usize,
+        from: impl Into<Part<'p>>,
+        to: impl Into<Part<'p>>,
         tolerance: impl Into<Tolerance>,
         limits: &Limits,
     ) -> Result<Option<BoundedFormFactor>, Error> {
         let tolerance = tolerance.into();
         tolerance.check()?;
-        if !self.face([from, to]) {
+        let [from, to] = [End::of(self, from.into())?, End::of(self, to.into())?];
+        if !from.faces(&to) {
             return Ok(Some(BoundedFormFactor::default()));
         }
-        let areas = [from, to].map(|id| self.area(id));
+        let areas = [&from, &to].map(|end| end.surface.area);
         let allowed = Allowed {
             absolute: tolerance.absolute * areas[0].min(areas[1]),
             relative: tolerance.relative,
-            of_whole: f64::INFINITY,
+            of_root: f64::INFINITY,
             equal: 0.0,
             evaluations: limits.per_pair.min(limits.in_all),
         };
-        let [first, second] = [from.min(to), from.max(to)];
-        let outlook = Outlook::from(self.surfaces(), first);
-        let found = outlook.proven(second, &allowed, self.deviation(), limits.stop);
+        let [first, second] = if from.id <= to.id { [&from, &to] } else { [&to, &from] };
+        let deviation = self.deviation().max(from.deviation).max(to.deviation);
+        let outlook = Outlook::from(self.surfaces(), &first.surface);
+        let found = outlook.proven(&second.surface, &allowed, deviation, limits.stop);
         Ok(found.map(|found| bounded(&found, areas[0])))
     }
 }

@@ -17,8 +17,8 @@ pub(super) struct Allowed {
     pub(super) absolute: f64,
     /// Of its value.
     pub(super) relative: f64,
-    /// Of its value were nothing in between.
-    pub(super) of_whole: f64,
+    /// Of the square root of its value were nothing in between.
+    pub(super) of_root: f64,
     /// Of the integral over both, whatever it were: an equal share of what is left of a row's tolerance.
     pub(super) equal: f64,
     pub(super) evaluations: u64,
@@ -27,13 +27,13 @@ pub(super) struct Allowed {
 impl Allowed {
     /// A part of it.
     pub(super) fn part(&self, share: f64) -> Self {
-        let parts = [self.absolute, self.relative, self.of_whole, self.equal].map(|x| x * share);
-        let [absolute, relative, of_whole, equal] = parts;
-        Self { absolute, relative, of_whole, equal, ..*self }
+        let parts = [self.absolute, self.relative, self.of_root, self.equal].map(|x| x * share);
+        let [absolute, relative, of_root, equal] = parts;
+        Self { absolute, relative, of_root, equal, ..*self }
     }
 
     pub(super) fn error(&self, value: f64, whole: f64) -> f64 {
-        self.absolute.max(self.relative * value).min(self.of_whole * whole + self.equal)
+        self.absolute.max(self.relative * value).min(self.of_root * whole.sqrt() + self.equal)
     }
 }
 

@@ -14,6 +14,7 @@ mod integrand;
 mod kernel;
 mod lambert;
 mod pair;
+mod part;
 mod patch;
 mod point;
 mod proven;
@@ -23,13 +24,14 @@ mod tolerance;
 mod uncut;
 
 use crate::error::Error;
-use crate::scene::{enclosure::Enclosure, surfaces::Surface};
+use crate::scene::enclosure::Enclosure;
 use integral::{Allowed, Integral};
 use pair::Outlook;
+use part::End;
 use point::Eye;
-use std::cmp::Ordering;
 
 pub use bounded::BoundedFormFactor;
+pub use part::Part;
 pub use tolerance::{Limits, Tolerance};
 
 /// A form factor from a polygon to a polygon, with an estimate of its error.
@@ -64,8 +66,8 @@ pub(crate) type Exchanges = Vec<(usize, f64, f64)>;
 pub type Row = Vec<(usize, AreaFormFactor)>;
 
 impl Enclosure {
-    /// The form factor from polygon `from` to polygon `to`, with all other polygons as occluders: the mean of the point form
-    /// factors over the front of `from`. `None` once `limits` stop it.
+    /// The form factor from polygon `from` to polygon `to`, or between [parts](Part) of polygons, with all other polygons as occluders:
+    /// the mean of the point form factors over the front of `from`. `None` once `limits` stop it.
     ///
     /// The integral is taken over one of both; A1 F12 = A2 F21 gives the other direction, so that reciprocity holds to
     /// rounding. Refinement stops when the estimated error of both directions is within `tolerance`, or when the limit on
@@ -73,7 +75,7 @@ impl Enclosure {
     /// about 100 at 1e-2 and 1 000 at 1e-6 with one edge or a few near the line of sight, ten times as many with boxes.
     ///
     /// # Errors
-    /// [`Error::BadTolerance`] unless the tolerance is positive.
+    /// [`Error::BadTolerance`] unless the tolerance is positive, [`Error::OffSurface`] for a part that is not in its polygon's plane.
     ///
     /// # Panics
     /// When there is no polygon with one of the ids.
@@ -87,20 +89,21 @@ impl Enclosure {
     /// assert!(f.is_some_and(|f| (f.value - 0.199_824_895_698_387_4).abs() < 1e-9));
     /// # Ok::<(), formfactor::Error>(())
     /// ```
-    pub fn area_form_factor(
+    pub fn area_form_factor<'p>(
         &self,
-        from: usize,
-        to: usize,
+        from: impl Into<Part<'p>>,
+        to: impl Into<Part<'p>>,
         tolerance: impl Into<Tolerance>,
         limits: &Limits,
     ) -> Result<Option<AreaFormFactor>, Error> {
         let tolerance = Tolerance { row: f64::INFINITY, ..tolerance.into() };
         tolerance.check()?;
-        let [first, second] = [from.min(to), from.max(to)];
-        let outlook = Outlook::from(self.surfaces(), first);
+        let [from, to] = [End::of(self, from.into())?, End::of(self, to.into())?];
+        let [first, second] = if from.id <= to.id { [&from, &to] } else { [&to, &from] };
+        let outlook = Outlook::from(self.surfaces(), &first.surface);
         let limits = limits.with(limits.in_all);
         let found = self.pair(&outlook, [first, second], &tolerance, &limits, &mut Eye::default());
-        Ok(found.map(|found| found.map_or_else(AreaFormFactor::default, |f| factor(&f, self.area(from)))))
+        Ok(found.map(|found| found.map_or_else(AreaFormFactor::default, |f| factor(&f, from.surface.area))))
     }
 
     /// The form factors from polygon `from` to all polygons that it sees. In a closed room they add to 1 within the row's
@@ -119,15 +122,17 @@ impl Enclosure {
     ) -> Result<Option<Row>, Error> {
         let tolerance = tolerance.into();
         tolerance.check()?;
-        let own = Outlook::from(self.surfaces(), from);
+        let (own, end) = (self.outlook(from), End::whole(self, from));
         let all: Vec<usize> = (0..self.polygons().len()).collect();
         let (mut row, mut left) = (Row::new(), limits.in_all);
         for block in all.chunks(BLOCK) {
             let limits = limits.with(left);
             let found = each(block, |eye, to| {
-                let before = (*to < from).then(|| Outlook::from(self.surfaces(), *to));
-                let pair = [from.min(*to), from.max(*to)];
-                self.pair(before.as_ref().unwrap_or(&own), pair, &tolerance, &limits, eye)
+                let other = End::whole(self, *to);
+                if *to < from {
+                    return self.pair(&self.outlook(*to), [&other, &end], &tolerance, &limits, eye);
+                }
+                self.pair(&own, [&end, &other], &tolerance, &limits, eye)
             });
             for (to, found) in block.iter().zip(found) {
                 let Some(found) = found else { return Ok(None) };
@@ -185,6 +190,10 @@ impl Enclosure {
         Ok(found.map(|found| found.into_iter().map(|(to, f)| (to, f.value, f.error)).collect()))
     }
 
+    fn outlook(&self, id: usize) -> Outlook<'_> {
+        Outlook::from(self.surfaces(), &self.surfaces().surfaces[id])
+    }
+
     fn area(&self, id: usize) -> f64 {
         self.surfaces().surfaces[id].area
     }
@@ -197,55 +206,40 @@ impl Enclosure {
         limits: &Limits,
         eye: &mut Eye,
     ) -> Option<Vec<(usize, Integral)>> {
-        let outlook = Outlook::from(self.surfaces(), from);
+        let (outlook, end) = (self.outlook(from), End::whole(self, from));
         let mut found = Vec::new();
         for to in from + 1..self.polygons().len() {
-            found.extend(self.pair(&outlook, [from, to], tolerance, limits, eye)?.map(|pair| (to, pair)));
+            let pair = self.pair(&outlook, [&end, &End::whole(self, to)], tolerance, limits, eye)?;
+            found.extend(pair.map(|pair| (to, pair)));
         }
         Some(found)
     }
 
-    /// The integral over two polygons, the first of which has the lower id; nothing where they do not see each other. `None` when
+    /// The integral over two ends, the first of which has the lower id; nothing where they do not see each other. `None` when
     /// stopped.
     fn pair(
         &self,
         outlook: &Outlook,
-        [first, second]: [usize; 2],
+        [first, second]: [&End; 2],
         tolerance: &Tolerance,
         limits: &Limits,
         eye: &mut Eye,
     ) -> Option<Option<Integral>> {
-        if !self.face([first, second]) {
+        if !first.faces(second) {
             return Some(None);
         }
-        let areas = [first, second].map(|id| self.area(id));
+        let area = first.surface.area.min(second.surface.area);
+        // Squares of independent errors add up: those of the shares of all entries give the row's.
         let allowed = Allowed {
-            absolute: tolerance.absolute * areas[0].min(areas[1]),
+            absolute: tolerance.absolute * area,
             relative: tolerance.relative,
-            of_whole: tolerance.row / 2.0,
-            equal: tolerance.row / 2.0 * areas[0].min(areas[1]) / self.polygons().len() as f64,
+            of_root: tolerance.row / 2.0 * area.sqrt(),
+            equal: tolerance.row / 2.0 * area / (self.polygons().len() as f64).sqrt(),
             evaluations: limits.per_pair,
         };
-        let found = outlook.exchange(second, &allowed, eye, limits.stop)?;
+        let found = outlook.exchange(&second.surface, &allowed, eye, limits.stop)?;
         let is_seen = found.value > 0.0 || found.error > 0.0;
         Some(is_seen.then_some(found))
-    }
-
-    /// Whether two polygons see each other as far as their planes say.
-    fn face(&self, [i, j]: [usize; 2]) -> bool {
-        let [one, other] = [i, j].map(|id| &self.surfaces().surfaces[id]);
-        one.plane != other.plane && self.is_before(i, other, j) && self.is_before(j, one, i)
-    }
-
-    /// Whether some of polygon `id` is before another one's plane: exactly.
-    fn is_before(&self, id: usize, other: &Surface, other_id: usize) -> bool {
-        let own = &self.surfaces().surfaces[id];
-        let height = other.face[1].dot(own.middle - other.face[0]);
-        if height.abs() > own.radius * (1.0 + 1e-9) {
-            return height > 0.0;
-        }
-        let plane = self.polygons()[other_id].plane();
-        self.polygons()[id].points().iter().any(|p| plane.side_of(*p) == Ordering::Greater)
     }
 }
 

@@ -21,7 +21,7 @@ const EASY: f64 = 0.1;
 #[derive(Debug)]
 pub(super) struct Outlook<'e> {
     surfaces: &'e Surfaces,
-    id: usize,
+    own: &'e Surface,
     /// What of each occluder is before it.
     near: Vec<Option<(Origin, Near<'e>)>>,
     /// The numbers of those that some is of.
@@ -29,8 +29,7 @@ pub(super) struct Outlook<'e> {
 }
 
 impl<'e> Outlook<'e> {
-    pub(super) fn from(surfaces: &'e Surfaces, id: usize) -> Self {
-        let own = &surfaces.surfaces[id];
+    pub(super) fn from(surfaces: &'e Surfaces, own: &'e Surface) -> Self {
         let seen = |hider: &'e Hider| {
             if own.is_of(hider.of) {
                 return None;
@@ -39,18 +38,18 @@ impl<'e> Outlook<'e> {
         };
         let near: Vec<_> = surfaces.hiders.iter().map(seen).collect();
         let all = (0..near.len()).filter(|id| near[*id].is_some()).collect();
-        Self { surfaces, id, near, all }
+        Self { surfaces, own, near, all }
     }
 
     /// The double integral of the kernel over this polygon and another one that it faces.
     pub(super) fn exchange(
         &self,
-        target: usize,
+        target: &Surface,
         allowed: &Allowed,
         eye: &mut Eye,
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
-        let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
+        let [one, other] = [self.own, target];
         let Some(occluders) = self.between(other, eye) else { return Some(Integral::default()) };
         if occluders.is_empty() {
             let found = unobstructed(one, other, &allowed.part(EASY));
@@ -67,12 +66,12 @@ impl<'e> Outlook<'e> {
     /// The same as an interval that holds. What is given may lie `deviation` from where it stands.
     pub(super) fn proven(
         &self,
-        target: usize,
+        target: &Surface,
         allowed: &Allowed,
         deviation: f64,
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
-        let [one, other] = [self.id, target].map(|id| &self.surfaces.surfaces[id]);
+        let [one, other] = [self.own, target];
         let between = self.between(other, &mut Eye::default());
         let occluders = between.as_deref().unwrap_or_default();
         let (one, other) = in_order(one, other, occluders);
@@ -94,7 +93,7 @@ impl<'e> Outlook<'e> {
         if self.near.len() <= FEW {
             return Cow::Borrowed(&self.all);
         }
-        let one = &self.surfaces.surfaces[self.id];
+        let one = self.own;
         let mut found = self.surfaces.tree.find(|extent| {
             let middle = extent.low.midpoint(extent.high);
             to_hull(one, other, middle, middle.distance(extent.high)).is_none()
@@ -105,7 +104,7 @@ impl<'e> Outlook<'e> {
 
     /// What can stand between this polygon and another one; `None` where one occluder hides all of it.
     fn between(&self, other: &Surface, eye: &mut Eye) -> Option<Vec<Near<'_>>> {
-        let one = &self.surfaces.surfaces[self.id];
+        let one = self.own;
         // What hid the last one may hide this one.
         let may_cover = |id: usize| self.near.get(id)?.as_ref().filter(|near| !other.is_of(near.0));
         if let Some(part) =

@@ -3,14 +3,13 @@ use crate::error::Error;
 
 /// What form factors between areas may err by.
 ///
-/// An entry is refined until its estimated error is within `absolute`, or within `relative` of its value. In rows and matrices
-/// the estimated errors of a row's entries also add to `row` at most: half of it goes to all in equal shares, half in proportion to what
-/// they were with nothing in between, so that large factors, which cost as much to know to a digit as small ones, may err by more and
-/// faint ones cost next to nothing. The looser, the cheaper.
+/// An entry is refined until its estimated error is within `absolute`, or within `relative` of its value. In rows and matrices the
+/// squares of the estimated errors of a row's entries also add to that of `row` at most, as those of independent errors do: half
+/// of it goes to all in equal shares, half by the square roots of what they were with nothing in between, so that large factors, which cost
+/// as much to know to a digit as small ones, may err by more and faint ones cost next to nothing. The looser, the cheaper.
 ///
-/// Estimates add up, errors cancel: in rooms with boxes of 100 to 1 000 surfaces no entry was off by more than 1e-4 and no row by more than
-/// 3e-4 at `absolute` 1e-3 and `row` 0.2, where the estimates of a row added to 0.03. Ask for about a hundred times what rows may be
-/// off by in truth, if no more than that is wanted.
+/// In rooms with boxes of 100 to 2 640 surfaces no entry was off by more than 1e-4 and no row by more than 3e-4 at `absolute` 1e-3 and
+/// `row` 8e-3. Ask for about thirty times what rows may be off by in truth, if no more than that is wanted.
 ///
 /// A plain number is a tolerance for each entry and for each row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +18,7 @@ pub struct Tolerance {
     pub absolute: f64,
     /// Of each entry, as a share of it.
     pub relative: f64,
-    /// Of the sum of a row.
+    /// Of the sum of a row, were its entries' errors independent.
     pub row: f64,
 }
 

@@ -119,6 +119,11 @@ impl Surface {
         }
     }
 
+    /// A part of it, whose front is on the same side.
+    pub(crate) fn part(&self, polygon: &PlanarPolygon) -> Self {
+        Self { face: self.face, ..Self::new(polygon, self.plane, self.body) }
+    }
+
     /// Whether it is a part of an occluder, or lies in its plane: then the occluder hides nothing of it.
     pub(crate) fn is_of(&self, owner: Origin) -> bool {
         match owner {

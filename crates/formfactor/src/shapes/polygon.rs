@@ -122,6 +122,14 @@ impl PlanarPolygon {
         self.deviation
     }
 
+    /// The same of a polygon that should lie in this one's plane.
+    pub(crate) fn deviation_of(&self, part: &Self) -> Result<f64, Error> {
+        let points = [&self.points[..], &part.points].concat();
+        let ends = part.ends.iter().map(|end| end + self.points.len());
+        let ends: Vec<usize> = std::iter::once(self.points.len()).chain(ends).collect();
+        deviation(&points, &ends, &self.plane, self.normal)
+    }
+
     /// Whether it is one convex loop; decided exactly, in the two kept coordinates.
     pub(crate) fn is_convex(&self) -> bool {
         self.convex
@@ -277,13 +285,14 @@ fn deviation(points: &[DVec3], ends: &[usize], plane: &Plane, normal: DVec3) -> 
     let length = plane.normal.round().length();
     let mut worst = 0.0_f64;
     for (index, point) in points.iter().enumerate() {
-        let distance = plane.side(*point).value.hi.abs() / length + (*point - points[0]).dot(normal).abs();
+        let off = [plane.side(*point).value.hi.abs() / length, (*point - points[0]).dot(normal).abs()];
+        let distance = off[0].max(off[1]);
         if distance > allowed {
             let loop_index = ends.partition_point(|end| *end <= index);
             let start = if loop_index == 0 { 0 } else { ends[loop_index - 1] };
             return Err(Error::NotPlanar { loop_index, vertex: index - start, distance, allowed });
         }
-        worst = worst.max(distance);
+        worst = worst.max(off[0] + off[1]);
     }
     // The dropped axis meets the plane at no more than acos(1/sqrt 3): moving along it is at most sqrt 3 times as far.
     Ok(3.0 * worst)

@@ -1,5 +1,6 @@
 //! The expression: what the user states, and the state of a walk that tells where it holds.
 
+mod apart;
 pub(crate) mod bounds;
 pub(crate) mod circuit;
 pub(crate) mod csg;

@@ -6,10 +6,11 @@
 //! decides. Opposite edges of one counter cancel, so that such operands dissolve quickly. Whether raw rings wind so is asked where
 //! they are many, and of few only where edges coincide.
 
+use super::apart::{operands_are_apart, rings_wind_once};
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
 use super::simple_ring::winds_once;
-use crate::{base::id::index, region::rings::Rings};
+use crate::{base::id::index, region::rings::Rings, spatial::strips::Strips};
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
 /// ask it at each crossing.
@@ -80,6 +81,8 @@ pub(crate) struct WindingNumbers {
     operands: Vec<Option<u32>>,
     /// Whether raw rings share counters, too.
     raw_share: bool,
+    /// Whether more operands might share counters.
+    more_may_share: bool,
     open: Vec<Open>,
 }
 
@@ -96,7 +99,7 @@ impl WindingNumbers {
     pub(crate) fn compile(&mut self, csg: &Csg<'_>) {
         self.raw_share = csg.len() > 2 * FEW;
         if !self.compile_pair(csg) {
-            self.compile_shared(csg);
+            self.compile_shared(csg, None);
         }
     }
 
@@ -113,6 +116,7 @@ impl WindingNumbers {
             let is_union = rule == Rule::NON_ZERO && *operator == Operator::Union;
             Counter { winding: 0, rule, holds: false, gate: ROOT, is_union }
         };
+        self.more_may_share = true;
         self.counters.clear();
         self.counters.extend([of(Rule::of(*second)), of(Rule::of(*first))]);
         self.operands.clear();
@@ -128,14 +132,16 @@ impl WindingNumbers {
         true
     }
 
-    /// Compiles it anew where raw rings that wind once do not share counters yet: their operands may have other counters then.
-    pub(crate) fn share(&mut self, csg: &Csg<'_>) {
-        if !std::mem::replace(&mut self.raw_share, true) {
-            self.compile_shared(csg);
+    /// Compiles it anew where operands that wind once might share counters and do not yet: operands may have other counters then.
+    pub(crate) fn share(&mut self, csg: &Csg<'_>, strips: &mut Strips) {
+        if self.more_may_share && csg.len() > 1 {
+            self.raw_share = true;
+            self.compile_shared(csg, Some(strips));
         }
     }
 
-    fn compile_shared(&mut self, csg: &Csg<'_>) {
+    fn compile_shared(&mut self, csg: &Csg<'_>, mut strips: Option<&mut Strips>) {
+        self.more_may_share = false;
         self.counters.clear();
         self.gates.clear();
         self.shared.clear();
@@ -147,7 +153,7 @@ impl WindingNumbers {
         self.add_gate(root, None);
         self.open.clear();
         self.open.push(Open { remaining: 1, first: 0, rest: 0 });
-        for token in csg.postfix().rev() {
+        for (token, place) in csg.postfix().rev().zip((0..csg.len()).rev()) {
             while self.open.last().is_some_and(|top| top.remaining == 0) {
                 self.open.pop();
             }
@@ -156,11 +162,14 @@ impl WindingNumbers {
             let gate = if top.remaining == 0 { top.first } else { top.rest };
             match token {
                 Token::Operator(operator, count) => {
-                    let gate = self.gate_for(*operator, *count, gate);
+                    let operands = csg.postfix().skip(place.saturating_sub(*count)).take(*count);
+                    let operator = self.simpler(*operator, operands, gate, strips.as_deref_mut());
+                    let gate = self.gate_for(operator, *count, gate);
                     self.open.push(gate);
                 }
                 Token::Region(_) | Token::Prepared(_) => self.add_once(1, gate),
-                Token::Rings(rings, rule) => match self.winds_once(rings, *rule, gate) {
+                Token::Rings(rings, rule) => match self.winds_once(rings, *rule, gate, strips.as_deref_mut())
+                {
                     Some(winds) => self.add_once(winds, gate),
                     None => self.add_rings(*rule, gate),
                 },
@@ -221,12 +230,40 @@ impl WindingNumbers {
         self.operands.push(Some(counter));
     }
 
+    /// A union of operands that lie apart is their symmetric difference, which may be a part of another one.
+    fn simpler<'t, 'c: 't>(
+        &mut self,
+        operator: Operator,
+        operands: impl Iterator<Item = &'t Token<'c>>,
+        above: u32,
+        strips: Option<&mut Strips>,
+    ) -> Operator {
+        if operator != Operator::Union || self.gates.kind(above) != Kind::Odd {
+            return operator;
+        }
+        self.more_may_share |= strips.is_none();
+        let apart = strips.is_some_and(|strips| operands_are_apart(operands, strips));
+        if apart { Operator::SymmetricDifference } else { operator }
+    }
+
     /// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold; sought where they may share a counter.
-    fn winds_once(&self, rings: &Rings, rule: FillRule, gate: u32) -> Option<i32> {
-        if !self.raw_share || rings.len() != 1 || self.gates.kind(gate) == Kind::All {
+    fn winds_once(
+        &mut self,
+        rings: &Rings,
+        rule: FillRule,
+        gate: u32,
+        strips: Option<&mut Strips>,
+    ) -> Option<i32> {
+        if self.gates.kind(gate) == Kind::All {
             return None;
         }
-        winds_once(rings.closed(0)).filter(|&winds| winds > 0 || rule != FillRule::Positive)
+        self.more_may_share |= strips.is_none() && !self.raw_share;
+        let winds = match (strips, rings.len()) {
+            (_, 1) if self.raw_share => winds_once(rings.closed(0)),
+            (Some(strips), 2..) => rings_wind_once(rings, strips),
+            _ => None,
+        };
+        winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)
     }
 
     fn add_rings(&mut self, rule: FillRule, gate: u32) {

@@ -108,7 +108,7 @@ fn arrange<'s>(
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
     request: Request<'_>,
 ) -> Result<LabelledArrangement<'s>, Error> {
-    coincident.unite(edges, csg, winding, request.rings);
+    coincident.unite(edges, csg, winding, strips, request.rings);
     let candidates = Candidates::index(edges, coincident, chains, strips, request)?;
     contacts.find(candidates, slabs, close_pairs, request)?;
     let (edges, chains, strips) = (&*edges, &*chains, &*strips);

@@ -51,6 +51,7 @@ fn axis(plan: &Plan, name: &str, cases: impl Iterator<Item = BooleanCase>) -> Ve
         amount: case.at,
         error: Deviation::of(&[(case.off)(&result)]),
         bound: None,
+        defect: None,
         points: None,
         in_part: None,
         valid: Some(result.validate().is_ok()),

@@ -57,6 +57,7 @@ impl QuerySet {
                 amount: step.amount,
                 error: certified.unwrap_or_else(|| self.deviations(&answers)),
                 bound: bound.map(|bound| bound.max),
+                defect: None,
                 points: Some(self.queries.len()),
                 in_part: Some(in_part),
                 valid: None,

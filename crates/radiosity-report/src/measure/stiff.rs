@@ -131,6 +131,7 @@ impl Room<'_> {
             amount: self.at,
             error: Deviation::of(&off.collect::<Vec<_>>()),
             bound: solution.bound.first().map(|bound| bound / largest).filter(|bound| bound.is_finite()),
+            defect: None,
             points: None,
             in_part: None,
             valid: Some(solution.converged),

@@ -1,7 +1,7 @@
 //! The chapters of points, of stability, of solvers and of Booleans.
 use super::plot::{Curve, Plot, Point};
 use super::table::{error, seconds};
-use super::work_precision::{against_time, every, largest, time_to_error};
+use super::work_precision::{OF_A_POINT, against_time, every, largest, time_to_error};
 use super::{escape::escape, style::style};
 use crate::analysis::{Line, lines, subjects};
 use crate::methods::EXACT;
@@ -17,7 +17,7 @@ pub(crate) fn points(report: &Report) -> String {
         let plot = against_time(
             &lines,
             &format!("{kind}: largest error against time"),
-            "largest error of F",
+            [OF_A_POINT, "largest error of F"],
             largest,
         );
         let tables = time_to_error(&lines).html()

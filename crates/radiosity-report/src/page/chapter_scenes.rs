@@ -1,7 +1,7 @@
 //! The chapter of scenes: error against time, pictures, and the time to an error.
 use super::escape::escape;
 use super::table::{error, percent, seconds};
-use super::work_precision::{against_time, every, largest, mean, time_to_error};
+use super::work_precision::{OF_A_POINT, against_time, every, largest, mean, time_to_error};
 use crate::analysis::{Verdict, lines, subjects, verdict};
 use crate::measure::error_image::scale;
 use crate::results::Report;
@@ -44,8 +44,8 @@ fn section(report: &Report, name: &str, rows: &[&Measured]) -> String {
     }
     text += "</div>\n<div class=\"plots\">\n";
     let titled = |what: &str| format!("{name}: {what} error against time");
-    text += &against_time(&lines, &titled("largest"), "largest error of F", largest);
-    text += &against_time(&lines, &titled("mean"), "mean error of F", mean);
+    text += &against_time(&lines, &titled("largest"), [OF_A_POINT, "largest error of F"], largest);
+    text += &against_time(&lines, &titled("mean"), [OF_A_POINT, "mean error of F"], mean);
     text += "</div>\n";
     text += &time_to_error(&lines).html();
     text + "<details><summary>every setting</summary>\n" + &every(rows).html() + "</details>\n"

@@ -1,13 +1,15 @@
 //! The page: one HTML file with all plots, pictures and tables in it.
 //!
 //! ```text
-//! chapter_scenes, chapter_axes, chapter_tables, peers    the chapters
+//! chapter_scenes, chapter_axes, chapter_matrices,
+//! chapter_tables, peers                                  the chapters
 //! work_precision                                         error against time: the plot and its tables
 //! plot, axis, style                                      plots as SVG
 //! table                                                  tables as Markdown and as HTML
 //! ```
 mod axis;
 mod chapter_axes;
+pub(crate) mod chapter_matrices;
 mod chapter_scenes;
 pub(crate) mod chapter_tables;
 mod escape;
@@ -36,6 +38,7 @@ pub(crate) fn page(report: &Report, peers: Option<&Peers>) -> String {
         chapter_axes::stability(report),
         chapter_axes::solvers(report),
         chapter_axes::booleans(report),
+        chapter_matrices::html(report),
         peers.map(Peers::html).unwrap_or_default(),
         chapter_tables::left_out(report),
         chapter_tables::published(report),

@@ -17,6 +17,11 @@ pub(crate) fn style(name: &str) -> usize {
     const OTHERS: [&str; 4] = ["shooting", "full matrix", "conjugate gradients", "GMRES"];
     let at = |names: &[&str]| names.iter().position(|known| *known == name);
     match name {
+        "area to area" => 0,
+        "points, exact" => 4,
+        "points, hemicube" => 6,
+        "points, rays" => 11,
+        "View3D" => 3,
         "rays, random" => 10,
         "rays, stratified" => 11,
         _ => at(&NAMES).or_else(|| at(&OTHERS).map(|index| [2, 3, 0, 4][index])).unwrap_or(0),

@@ -5,11 +5,14 @@ use super::table::{Table, error, percent, seconds};
 use crate::analysis::{Line, TARGETS};
 use crate::rows::Measured;
 
-/// A work-precision plot.
+/// Where rows are of points.
+pub(crate) const OF_A_POINT: &str = "CPU time for one point (s)";
+
+/// A work-precision plot, with what its axes show.
 pub(crate) fn against_time(
     lines: &[Line<'_>],
     title: &str,
-    y: &str,
+    [x, y]: [&str; 2],
     error_of: impl Fn(&Measured) -> f64,
 ) -> String {
     let curve = |line: &Line<'_>| {
@@ -37,7 +40,7 @@ pub(crate) fn against_time(
         }
     };
     let curves = lines.iter().map(curve).collect();
-    Plot { title: title.to_owned(), x: "CPU time for one point (s)", y, curves }.svg()
+    Plot { title: title.to_owned(), x, y, curves }.svg()
 }
 
 /// The time in which each method reaches some errors.

@@ -5,7 +5,7 @@ mod labels;
 
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
-use crate::measure::{cases, published, query::exact, test_scene::TestScene};
+use crate::measure::{cases, matrices, published, query::exact, test_scene::TestScene};
 use crate::methods::{self, Step};
 use crate::page::table::Table;
 use crate::plan::Plan;
@@ -196,4 +196,26 @@ fn a_method_that_samples_everywhere_agrees_with_the_exact_references_of_points()
         let sampled = set.measure(std::slice::from_ref(rays), 1);
         assert!(sampled[0].error.max < 0.02, "{}: {:?}", set.subject, sampled[0].error);
     }
+}
+
+#[test]
+fn the_matrix_of_a_room_gets_better_with_its_tolerance_and_is_better_than_from_points() {
+    let rows = matrices::measure(&plan(&[]), |_| ());
+    let report = Report {
+        rows: rows.into_iter().map(Row::Measured).collect(),
+        machine: Machine::here(),
+        quick: true,
+        images: Vec::new(),
+    };
+    let rows: Vec<&Measured> = report.measured(Chapter::Matrices).collect();
+    for line in lines(&rows) {
+        let (first, last) = (line.rows[0], line.rows[line.rows.len() - 1]);
+        assert!(last.error.max < first.error.max, "{}", line.name);
+        assert_eq!(line.name == matrices::AREAS, last.error.max < 1e-6, "{}: {}", line.name, last.error.max);
+    }
+    let defect = |row: &Measured| row.defect.unwrap();
+    let rooms: Vec<&&Measured> = rows.iter().filter(|row| row.series == matrices::AREAS).collect();
+    assert!(rooms.windows(2).all(|pair| defect(pair[1]) < defect(pair[0])) && defect(rooms[4]) < 1e-7);
+    let page = report.page(None);
+    assert!(page.contains("a room of 108 surfaces, 2 boxes: error of rows") && page.contains("View3D"));
 }

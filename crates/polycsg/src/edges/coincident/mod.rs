@@ -28,6 +28,7 @@ use crate::base::meter::Meter;
 use crate::edges::{Change, END, EdgeRing, Edges};
 use crate::error::Error;
 use crate::expression::{csg::Csg, winding::WindingNumbers};
+use crate::spatial::strips::Strips;
 use covered::CoveredRings;
 use intervals::Intervals;
 use lines::Lines;
@@ -93,12 +94,13 @@ impl CoincidentEdges {
         edges: &mut Edges,
         csg: &Csg<'_>,
         winding: &mut WindingNumbers,
+        strips: &mut Strips,
         joins: bool,
     ) {
         self.joins = joins;
         self.drop_covered(edges, winding);
         if self.sample.pays(edges) {
-            winding.share(csg);
+            winding.share(csg, strips);
             edges.count_by(winding);
             self.table.group(edges, &mut self.fates);
             self.decide(edges);

@@ -1,0 +1,121 @@
+//! Parts of polygons: their factors add up to the whole's.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+use formfactor::{DVec3, Enclosure, Error, Limits, Part, PlanarPolygon};
+
+fn polygon(corners: &[DVec3]) -> PlanarPolygon {
+    PlanarPolygon::new([corners]).unwrap()
+}
+
+/// The corners of a box, low and high along each axis.
+fn corner([low, high]: [DVec3; 2], which: [usize; 3]) -> DVec3 {
+    DVec3::from([0, 1, 2].map(|axis| [low, high][which[axis]][axis]))
+}
+
+/// The six sides of a box with their fronts outward.
+fn sides(ends: [DVec3; 2]) -> Vec<PlanarPolygon> {
+    let side = |(axis, end): (usize, usize)| {
+        let [u, v] = if end == 1 { [1, 2] } else { [2, 1] }.map(|next| (axis + next) % 3);
+        let ring = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[i, j]| {
+            let mut which = [end; 3];
+            (which[u], which[v]) = (i, j);
+            corner(ends, which)
+        });
+        polygon(&ring)
+    };
+    (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]).map(side).collect()
+}
+
+/// A tilted rectangle, a box above it and a wall beside it.
+fn room() -> Enclosure {
+    let [a, along, up] = [DVec3::ZERO, DVec3::new(2.0, 0.5, 0.25), DVec3::new(-0.25, 1.0, 0.0)];
+    let floor = polygon(&[a, a + along, a + along + up, a + up]);
+    let block = sides([DVec3::new(0.5, 0.3, 1.0), DVec3::new(1.5, 1.2, 1.5)]);
+    let wall = polygon(&[
+        DVec3::new(3.0, -1.0, 0.0),
+        DVec3::new(3.0, -1.0, 4.0),
+        DVec3::new(3.0, 3.0, 4.0),
+        DVec3::new(3.0, 3.0, 0.0),
+    ]);
+    Enclosure::new([vec![floor, wall], block].concat())
+}
+
+/// A convex quad cut by two lines between opposite sides.
+fn quarters(quad: &PlanarPolygon) -> Vec<PlanarPolygon> {
+    let corners: Vec<DVec3> = quad.loops().next().unwrap().to_vec();
+    let at = |u: f64, v: f64| corners[0].lerp(corners[1], u).lerp(corners[3].lerp(corners[2], u), v);
+    let (us, vs) = ([0.0, 0.375, 1.0], [0.0, 0.625, 1.0]);
+    let cells = (0..4).map(|i| (i % 2, i / 2));
+    cells
+        .map(|(i, j)| {
+            polygon(&[at(us[i], vs[j]), at(us[i + 1], vs[j]), at(us[i + 1], vs[j + 1]), at(us[i], vs[j + 1])])
+        })
+        .collect()
+}
+
+fn estimate<'p>(room: &Enclosure, from: impl Into<Part<'p>>, to: impl Into<Part<'p>>) -> [f64; 2] {
+    let found = room.area_form_factor(from, to, 1e-7, &Limits::default()).unwrap().unwrap();
+    [found.value, found.error_estimate]
+}
+
+#[test]
+fn parts_of_the_target_add_up_and_parts_of_the_source_have_the_mean() {
+    let room = room();
+    for [from, to] in [[0, 1], [1, 0], [0, 6], [6, 0], [1, 3], [3, 1]] {
+        let [whole, error] = estimate(&room, from, to);
+        let parts = quarters(&room.polygons()[to]);
+        let sum: f64 = parts.iter().map(|part| estimate(&room, from, (to, part))[0]).sum();
+        assert!((sum - whole).abs() <= 4e-7 + error, "{from} to {to}: {sum} {whole}");
+        let own = &room.polygons()[from];
+        let mean: f64 = quarters(own)
+            .iter()
+            .map(|part| part.area() / own.area() * estimate(&room, (from, part), to)[0])
+            .sum();
+        assert!((mean - whole).abs() <= 2e-7 + error, "{from} to {to}: {mean} {whole}");
+    }
+}
+
+#[test]
+fn a_part_has_its_polygons_front_and_bounds_hold() {
+    let room = room();
+    let own = &room.polygons()[0];
+    let far = &quarters(&room.polygons()[1])[2];
+    for part in quarters(own) {
+        let turned: Vec<DVec3> = part.loops().next().unwrap().iter().rev().copied().collect();
+        let found = estimate(&room, (0, &part), (1, far));
+        assert_eq!(estimate(&room, (0, &polygon(&turned)), (1, far))[0].to_bits(), found[0].to_bits());
+        let bounded = room.bounded_area_form_factor((0, &part), (1, far), 1e-4, &Limits::default());
+        let bounded = bounded.unwrap().unwrap();
+        assert!(bounded.error_bound <= 1e-4);
+        assert!((bounded.value - found[0]).abs() <= bounded.error_bound + found[1], "{bounded:?} {found:?}");
+    }
+    // All of a polygon is a part of it; parts of one polygon do not see each other.
+    assert_eq!(estimate(&room, (0, own), 1), estimate(&room, 0, 1));
+    assert_eq!(estimate(&room, (0, &quarters(own)[0]), (0, &quarters(own)[3])), [0.0; 2]);
+}
+
+#[test]
+fn a_part_of_a_polygon_with_a_hole_may_have_one() {
+    let frame = |z: f64, at: f64| {
+        let square = |r: f64| [[-r, -r, z], [r, -r, z], [r, r, z], [-r, r, z]];
+        PlanarPolygon::new([square(2.0), square(at)]).unwrap()
+    };
+    let ceiling =
+        polygon(&[[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]].map(|[x, y]| DVec3::new(x, y, 1.0)));
+    let room = Enclosure::new(vec![frame(0.0, 0.5), ceiling]);
+    let inner =
+        PlanarPolygon::new([1.0, 0.5].map(|r| [[-r, -r, 0.0], [r, -r, 0.0], [r, r, 0.0], [-r, r, 0.0]]))
+            .unwrap();
+    let parts = [frame(0.0, 1.0), inner].map(|part| part.area() * estimate(&room, (0, &part), 1)[0]);
+    let whole = room.polygons()[0].area() * estimate(&room, 0, 1)[0];
+    assert!((parts[0] + parts[1] - whole).abs() < 1e-5, "{parts:?} {whole}");
+}
+
+#[test]
+fn a_part_off_its_polygons_plane_is_refused() {
+    let room = room();
+    let lifted: Vec<DVec3> =
+        room.polygons()[1].loops().next().unwrap().iter().map(|p| *p + DVec3::X * 1e-3).collect();
+    let error = room.area_form_factor(0, (1, &polygon(&lifted)), 1e-3, &Limits::default()).unwrap_err();
+    assert!(matches!(error, Error::OffSurface { loop_index: 0, .. }), "{error}");
+    assert!(error.to_string().starts_with("loop 0, vertex 0 of the part: 9.99999"), "{error}");
+}
