@@ -210,6 +210,20 @@ fn what_is_coplanar_but_for_rounding_hides_nothing_and_is_in_the_bound() {
     }
 }
 
+/// A sloping board before the whole target, one of whose corners rounding put off the plane of the others.
+#[test]
+fn a_cover_with_a_corner_off_its_plane_hides_everything() {
+    let lamp = PlanarPolygon::new([[[-1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, -1.0, 2.0], [-1.0, -1.0, 2.0]]])
+        .unwrap();
+    let floor = area_at([0.0; 3], [0.0, 0.0, 1.0]);
+    for slope in (1..30).map(|i| 0.01 * f64::from(i)) {
+        let corner = |x: f64, y: f64| [x, y, 1.1 + slope * x + 0.07 * y];
+        let board = [corner(-2.3, -2.1), corner(2.2, -2.4), corner(2.6, 2.1), corner(-2.3, 2.2)];
+        let found = form_factor(&floor, &lamp, &[PlanarPolygon::new([board]).unwrap()]);
+        assert!(found.value <= found.error_bound && found.error_bound < 1e-12, "{slope}: {found:?}");
+    }
+}
+
 /// A point on a plane whose numbers are no doubles may be on either side of it: beside the polygon it sees next to nothing,
 /// and in it the bound says that anything is possible.
 #[test]

@@ -45,8 +45,11 @@ pub(super) fn classify(
     let (origin, plane) = (target.from.position(), target.to.plane());
     let facing = occluder.plane().side_of(origin);
     // On which side of the target's plane its vertices are: what is behind it is cut off.
-    let sides = || occluder.points().iter().map(|p| plane.side_of(*p));
-    let is_clipped = sides().any(|side| side == Ordering::Less);
+    let (mut is_clipped, mut is_before) = (false, false);
+    for side in occluder.points().iter().map(|p| plane.side_of(*p)) {
+        is_clipped |= side == Ordering::Less;
+        is_before |= side == Ordering::Greater;
+    }
     if deviation > 0.0 {
         // Vertices stand for others nearby: near the planes that decide, the exact route bounds what that changes.
         let is_clear = |p: &DVec3| {
@@ -57,22 +60,29 @@ pub(super) fn classify(
             return None;
         }
     }
-    if facing == Ordering::Equal || !sides().any(|side| side == Ordering::Greater) {
+    if facing == Ordering::Equal || !is_before {
         return Some(Class::Misses { error: 0.0 });
     }
-    copy(occluder, origin, facing == Ordering::Less, corners);
-    if is_clipped {
-        clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
-    }
+    let is_reversed = facing == Ordering::Less;
     // From here on the occluder is what is left of it, counter-clockwise seen from dA.
-    let edges = cones.push(corners);
+    let edges = if is_clipped || occluder.deviation() > 0.0 {
+        copy(occluder, origin, is_reversed, corners);
+        if is_clipped {
+            clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
+        }
+        cones.push(corners.iter().copied())
+    } else {
+        corners.clear();
+        let given = occluder.points().iter().map(|p| Corner::given(*p, origin, 0.0));
+        if is_reversed { cones.push(given.rev()) } else { cones.push(given) }
+    };
     if edges.len() < 3 {
         // So little is in front of the target that its corners coincide.
         return None;
     }
     let error = deviation_error(corners, edges)?;
     if error == 0.0
-        && edges.iter().all(|edge| target.edges.iter().all(|t| edge.place(t.start) == Place::Inside))
+        && edges.iter().all(|edge| target.cone.edges.iter().all(|t| edge.place(t.start) == Place::Inside))
     {
         return Some(Class::Covers);
     }

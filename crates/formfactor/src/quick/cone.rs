@@ -9,9 +9,10 @@
 //!                     sum of its terms' magnitudes. Else the place is `Open`.
 //!        dA
 //! ```
+use super::interval::greater;
+use super::lanes::Corners;
 use crate::numeric::rounding::ROUNDING;
-use glam::{DVec2, DVec3, Vec3Swizzles};
-use std::ops::Range;
+use glam::DVec3;
 
 /// A vertex of a convex polygon, and how far it may lie from where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +25,10 @@ pub(super) struct Corner {
 }
 
 impl Corner {
+    pub(super) fn given(given: DVec3, origin: DVec3, deviation: f64) -> Self {
+        Self { at: given - origin, given: Some(given), deviation }
+    }
+
     /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
     fn along(&self, other: &Self) -> DVec3 {
         match (self.given, other.given) {
@@ -46,12 +51,6 @@ pub(super) struct Edge {
     /// A bound on the error of `inward . p`, per component of p, and the sum over the components.
     pub(super) errors: DVec3,
     pub(super) error: f64,
-    /// The larger size of the two ends.
-    reach: f64,
-    /// (|start| + |along|) |along|, in sums of components: no direction turns faster than by this over |inward|.
-    pub(super) spread: f64,
-    /// Scales dot products of directions to it to at most 1: the inverse square of the larger size.
-    pub(super) scale: f64,
 }
 
 /// A component of `inward` has the terms |along_j start_k| + |along_k start_j|. Rounding of both factors, the product and
@@ -70,41 +69,16 @@ pub(super) enum Place {
 }
 
 impl Edge {
-    pub(super) fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
+    fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
         let errors = ERROR * terms;
-        let reach = size(start).max(size(end));
-        let spread = (size(start) + size(along)) * size(along);
-        Self {
-            start,
-            end,
-            along,
-            inward: along.cross(start),
-            errors,
-            error: errors.element_sum(),
-            reach,
-            spread,
-            scale: 1.0 / (reach * reach),
-        }
+        Self { start, end, along, inward: along.cross(start), errors, error: errors.element_sum() }
     }
 
     /// A coarser bound on the error of `inward`, which costs less.
     pub(super) fn coarse_error(&self) -> f64 {
         coarse_error(self.along, self.start)
-    }
-
-    /// The side on which both ends of an edge lie for certain, by a coarser bound.
-    pub(super) fn side_of(&self, edge: &Edge) -> Option<Place> {
-        let (start, end) = (self.inward.dot(edge.start), self.inward.dot(edge.end));
-        let error = self.error * edge.reach + UNDERFLOW;
-        if start > error && end > error {
-            Some(Place::Inside)
-        } else if start < -error && end < -error {
-            Some(Place::Outside)
-        } else {
-            None
-        }
     }
 
     /// How far inside a point is, given relative to dA, and a bound on the error.
@@ -140,78 +114,12 @@ pub(super) fn size(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// How slopes of directions are measured: two of three coordinates, divided by the depth along one vector.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
-    forward: DVec3,
-    /// The size of `forward`.
-    size: f64,
-    dropped: usize,
-}
-
-/// A rectangle of slopes, around the directions to something.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Slopes {
-    pub(super) low: DVec2,
-    pub(super) high: DVec2,
-}
-
-impl Slopes {
-    const ALL: Self = Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
-
-    pub(super) fn join(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    pub(super) fn meets(&self, other: &Self) -> bool {
-        self.low.x <= other.high.x
-            && other.low.x <= self.high.x
-            && self.low.y <= other.high.y
-            && other.low.y <= self.high.y
-    }
-}
-
-impl Frame {
-    /// Slopes by the depth along `forward`, the axis `dropped` left out.
-    pub(super) fn new(forward: DVec3, dropped: usize) -> Self {
-        Self { forward, size: size(forward), dropped }
-    }
-
-    /// A small rectangle around the slopes of a direction; everything where it does not lead forward enough.
-    ///
-    /// From a thousandth of its largest value on, the depth is known within 2^-40 of itself, and the slopes are below a
-    /// thousand by the size of `forward`: 1e-9 of that is far more than their error.
-    fn slopes(&self, toward: DVec3) -> Slopes {
-        let depth = self.forward.dot(toward);
-        if depth < 1e-3 * self.size * toward.abs().max_element() {
-            return Slopes::ALL;
-        }
-        let kept = match self.dropped {
-            0 => toward.yz(),
-            1 => toward.xz(),
-            _ => toward.xy(),
-        };
-        let (slopes, margin) = (kept / depth, DVec2::splat(1e-6 / self.size));
-        Slopes { low: slopes - margin, high: slopes + margin }
-    }
-
-    /// Adds a rectangle around the slopes of each edge.
-    pub(super) fn measure(&self, edges: &[Edge], extents: &mut Vec<Slopes>) {
-        let Some(last) = edges.last() else { return };
-        let mut around = self.slopes(last.end);
-        for edge in edges {
-            let next = self.slopes(edge.end);
-            extents.push(around.join(next));
-            around = next;
-        }
-    }
-}
-
-/// Adds the edges of a convex polygon whose corners are counter-clockwise as dA sees them.
-pub(super) fn faces(corners: &[Corner], edges: &mut Vec<Edge>) {
-    let Some(mut before) = corners.last() else { return };
+/// Adds the edges of a convex polygon whose corners are counter-clockwise as dA sees them. Each starts where the one before it
+/// ends.
+pub(super) fn faces(corners: impl DoubleEndedIterator<Item = Corner> + Clone, edges: &mut Vec<Edge>) {
+    let Some(mut before) = corners.clone().next_back() else { return };
     for corner in corners {
-        let along = before.along(corner);
+        let along = before.along(&corner);
         if along != DVec3::ZERO {
             edges.push(Edge::new(before.at, corner.at, along));
         }
@@ -219,60 +127,72 @@ pub(super) fn faces(corners: &[Corner], edges: &mut Vec<Edge>) {
     }
 }
 
-/// The cones of occluders: the edges of all, and where those of each end.
+/// The cone of a convex polygon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OneCone<'c> {
+    /// Each starts where the one before it ends.
+    pub(super) edges: &'c [Edge],
+    pub(super) spread: &'c Spread,
+}
+
+/// Where the corners of a cone are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Spread {
+    pub(super) corners: Corners,
+    /// The largest size of a corner.
+    pub(super) reach: f64,
+    /// Which of all edges are its own: from `first` on.
+    first: usize,
+}
+
+impl Spread {
+    /// Of the cone of those edges that come last, from `first` on.
+    pub(super) fn of(edges: &[Edge], first: usize) -> Self {
+        let edges = &edges[first..];
+        let reach = edges.iter().fold(0.0, |reach, edge| greater(reach, size(edge.start)));
+        Self { corners: Corners::of(edges.iter().map(|edge| edge.start)), reach, first }
+    }
+}
+
+/// The cones of occluders: the edges of all, and where the corners of each are.
 #[derive(Debug, Default)]
 pub(super) struct Cones {
     edges: Vec<Edge>,
-    ends: Vec<usize>,
-    edge_extents: Vec<Slopes>,
-    extents: Vec<Slopes>,
+    spreads: Vec<Spread>,
 }
 
 impl Cones {
     pub(super) fn clear(&mut self) {
         self.edges.clear();
-        self.ends.clear();
-        self.edge_extents.clear();
-        self.extents.clear();
+        self.spreads.clear();
     }
 
     /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
-    pub(super) fn push(&mut self, corners: &[Corner]) -> &[Edge] {
+    pub(super) fn push(&mut self, corners: impl DoubleEndedIterator<Item = Corner> + Clone) -> &[Edge] {
         let first = self.edges.len();
         faces(corners, &mut self.edges);
-        self.ends.push(self.edges.len());
+        self.spreads.push(Spread::of(&self.edges, first));
         &self.edges[first..]
     }
 
-    /// Finds the rectangle of slopes around every edge and every cone.
-    pub(super) fn measure(&mut self, frame: &Frame) {
-        let mut start = 0;
-        for end in &self.ends {
-            frame.measure(&self.edges[start..*end], &mut self.edge_extents);
-            let extent = self.edge_extents[start..].iter().copied().reduce(Slopes::join);
-            self.extents.push(extent.unwrap_or(Slopes::ALL));
-            start = *end;
-        }
-    }
-
     pub(super) fn len(&self) -> usize {
-        self.ends.len()
+        self.spreads.len()
     }
 
-    fn range(&self, cone: usize) -> Range<usize> {
-        let start = if cone == 0 { 0 } else { self.ends[cone - 1] };
-        start..self.ends[cone]
+    /// The edges of all cones.
+    pub(super) fn edges(&self) -> &[Edge] {
+        &self.edges
     }
 
-    pub(super) fn edges(&self, cone: usize) -> &[Edge] {
-        &self.edges[self.range(cone)]
+    /// The number of the first edge of a cone among all.
+    #[inline]
+    pub(super) fn first(&self, cone: usize) -> usize {
+        self.spreads[cone].first
     }
 
-    pub(super) fn edge_extents(&self, cone: usize) -> &[Slopes] {
-        &self.edge_extents[self.range(cone)]
-    }
-
-    pub(super) fn extent(&self, cone: usize) -> &Slopes {
-        &self.extents[cone]
+    #[inline]
+    pub(super) fn cone(&self, cone: usize) -> OneCone<'_> {
+        let spread = &self.spreads[cone];
+        OneCone { edges: &self.edges[spread.first..][..spread.corners.count], spread }
     }
 }

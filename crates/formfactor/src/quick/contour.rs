@@ -1,10 +1,10 @@
 //! Lambert's sum in plain doubles, with a bound.
 use super::cone::{Edge, coarse_error};
-use super::interval::{Interval, greater};
+use super::interval::{Interval, greater, lesser};
 use crate::form_factor::FormFactor;
-use crate::numeric::{predicates::place, rounding::ROUNDING};
+use crate::numeric::{angle::angle, predicates::place, rounding::ROUNDING};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::{cmp::Ordering, f64::consts::TAU};
 
 /// Roundings of a term besides those of its edge's normal: the dot products, the root, the quotients, the arc tangent, the
@@ -31,7 +31,7 @@ pub(crate) fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> Option<
         let (end, along) = (point - origin, point - before);
         if point != before {
             let line = sum.line(along.cross(start), coarse_error(along, start));
-            sum.add_angle(&line, line.sine.atan2(start.dot(end)), 0.0);
+            sum.add_angle(&line, angle(line.sine, start.dot(end)), 0.0);
         }
         (before, start) = (point, end);
     }
@@ -54,49 +54,35 @@ pub(super) struct Sum {
 /// What the parts of an edge have in common.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
-    /// |along x start|, its inverse, and its relative error.
+    /// |along x start|, and its relative error.
     sine: f64,
-    inverse: f64,
     turned: f64,
     /// The cosine between dA's normal and that of the plane.
     pub(super) cosine: f64,
 }
 
-/// Angles between the ends of parts of an edge, added by multiplying (cosine, sine) as complex numbers: one arc tangent serves
-/// many. The parts are disjoint, so that the sum is below a half turn; each product errs by less than 4 roundings of the sum.
+/// The angle that parts of an edge span together, and what bounds its error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts {
-    product: DVec2,
-    count: u8,
-}
-
-impl Default for Parts {
-    fn default() -> Self {
-        Self { product: DVec2::X, count: 0 }
-    }
+    angle: f64,
+    count: f64,
+    /// No direction to the edge turns faster along it, per unit of the parameter.
+    speed: f64,
+    /// The squares of the lengths that are added to a point of the edge, in sum, by the least square of a point's.
+    spread: f64,
 }
 
 impl Parts {
-    /// At most so many parts, so that the product does not underflow.
-    const MOST: u8 = 8;
-
-    fn is_full(&self) -> bool {
-        self.count == Self::MOST || self.product.abs().max_element() < 1e-60
-    }
-}
-
-impl Line {
-    /// A bound on the angle by which the directions to two ends turn in all when their parameters err by so much.
+    /// The direction to a point turns by sine / |point|^2.
     ///
-    /// Per unit of the parameter the direction to an end turns by sine / |end|^2, which is below `stretch` everywhere
-    /// and known to a few hundredths where the error itself turns it by no more than a hundredth.
-    fn turns(&self, [start, end]: [DVec3; 2], [first, last]: [f64; 2], stretch: f64) -> f64 {
-        if (first + last) * stretch < 0.01 {
-            let (near, far) = (start.length_squared(), end.length_squared());
-            1.05 * self.sine * (first * far + last * near) / (near * far)
-        } else {
-            (first + last) * stretch
-        }
+    /// Over the base of an isosceles triangle no point is nearer than |mid|^2 = |side|^2 - |base|^2 / 4, and no point of an edge is
+    /// nearer than if both ends were as near as the nearer one. Of a long edge, the distance of the line bounds it.
+    pub(super) fn of(edge: &Edge, line: &Line) -> Self {
+        let [start, end, along] = [edge.start, edge.end, edge.along].map(DVec3::length_squared);
+        let ends = lesser(start, end);
+        let nearest = if ends > 0.5 * along { ends - 0.25 * along } else { line.sine * line.sine / along };
+        let inverse = 1.01 / nearest;
+        Self { angle: 0.0, count: 0.0, speed: line.sine * inverse, spread: (start + along) * inverse }
     }
 }
 
@@ -110,43 +96,35 @@ impl Sum {
     pub(super) fn line(&self, inward: DVec3, error: f64) -> Line {
         let sine = inward.length();
         let inverse = 1.0 / sine;
-        Line { sine, inverse, turned: error * inverse, cosine: self.normal.dot(inward) * inverse }
+        Line { sine, turned: error * inverse, cosine: self.normal.dot(inward) * inverse }
     }
 
     /// A whole edge.
     pub(super) fn add_whole(&mut self, edge: &Edge, line: &Line) {
-        self.add_angle(line, line.sine.atan2(edge.start.dot(edge.end)), 0.0);
+        self.add_angle(line, angle(line.sine, edge.start.dot(edge.end)), 0.0);
     }
 
     /// Adds a part of an edge to those before it, and to the error what its ends leave open.
     #[inline]
     pub(super) fn add_part(&mut self, edge: &Edge, line: &Line, part: Interval, parts: &mut Parts) {
-        let stretch = edge.spread * line.inverse;
-        let ends = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
-        self.add_error(line.turns(ends, [part.low.error(), part.high.error()], stretch));
+        self.add_error((part.low.error + part.high.error) * parts.speed);
         if part.low.at < part.high.at {
-            let turn = DVec2::new(ends[0].dot(ends[1]), (part.high.at - part.low.at) * line.sine);
-            if parts.is_full() {
-                self.add_parts(edge, line, std::mem::take(parts));
-            }
-            parts.product = (turn * edge.scale).rotate(parts.product);
-            parts.count += 1;
+            let [start, end] = [part.low, part.high].map(|mark| edge.start + edge.along * mark.at);
+            parts.angle += angle((part.high.at - part.low.at) * line.sine, start.dot(end));
+            parts.count += 1.0;
         }
     }
 
     /// The angle that parts of an edge span together.
-    pub(super) fn add_parts(&mut self, edge: &Edge, line: &Line, parts: Parts) {
-        if parts.count > 0 {
-            let stretch = edge.spread * line.inverse;
-            let cut = (6.0 * stretch * stretch + 4.0 * f64::from(Parts::MOST)) * ROUNDING;
-            // Rounding may turn almost a half turn into a little more. Clamped it is nearer to the true angle.
-            self.add_angle(line, parts.product.y.max(0.0).atan2(parts.product.x), cut);
-        }
+    ///
+    /// A component of an end errs by 2 roundings of its terms, the dot product of two ends by 7 of the square of their sum, at most
+    /// twice the sum of their squares.
+    pub(super) fn add_parts(&mut self, line: &Line, parts: &Parts) {
+        self.add_angle(line, parts.angle, (14.0 * parts.spread + parts.count) * ROUNDING);
     }
 
-    /// An angle spanned on a line. It and the cosine err by no more than 4.1/9 of `turned` each and some roundings; the
-    /// angle of a part also by those of its ends, 6 of their terms by their lengths, which are no less than the distance of
-    /// the line, `sine` / |along|: in all by the share `cut`.
+    /// An angle spanned on a line. It and the cosine err by no more than 4.1/9 of `turned` each and some roundings, and the
+    /// angle of parts also by the share `cut`.
     fn add_angle(&mut self, line: &Line, angle: f64, cut: f64) {
         let term = angle * line.cosine;
         self.value += term;

@@ -8,8 +8,7 @@ use glam::DVec3;
 /// Copies the vertices of a convex polygon, in reverse order when it turns its back, so that they run counter-clockwise seen
 /// from `origin`.
 pub(super) fn copy(polygon: &PlanarPolygon, origin: DVec3, is_reversed: bool, corners: &mut Vec<Corner>) {
-    let corner =
-        |given: &DVec3| Corner { at: *given - origin, given: Some(*given), deviation: polygon.deviation() };
+    let corner = |given: &DVec3| Corner::given(*given, origin, polygon.deviation());
     corners.clear();
     if is_reversed {
         corners.extend(polygon.points().iter().rev().map(corner));

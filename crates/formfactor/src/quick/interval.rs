@@ -1,47 +1,42 @@
 //! Intervals of an edge whose ends are known within bounds, and what is left between them.
 
-/// A parameter along an edge, 0 at its start and 1 at its end: somewhere from `least` to `most`.
+/// A parameter along an edge, 0 at its start and 1 at its end, within an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Parameter {
     pub(super) at: f64,
-    pub(super) least: f64,
-    pub(super) most: f64,
+    pub(super) error: f64,
 }
 
 impl Parameter {
-    const START: Self = Self { at: 0.0, least: 0.0, most: 0.0 };
-    const END: Self = Self { at: 1.0, least: 1.0, most: 1.0 };
+    const START: Self = Self { at: 0.0, error: 0.0 };
+    const END: Self = Self { at: 1.0, error: 0.0 };
 
-    pub(super) fn new(at: f64, error: f64) -> Self {
-        Self { at, least: at - error, most: at + error }
+    fn least(&self) -> f64 {
+        self.at - self.error
+    }
+
+    fn most(&self) -> f64 {
+        self.at + self.error
     }
 
     /// The one of two that comes first, as far as they are known.
     pub(super) fn first(self, other: Self) -> Self {
-        Self {
-            at: lesser(self.at, other.at),
-            least: lesser(self.least, other.least),
-            most: lesser(self.most, other.most),
-        }
+        if self.at < other.at { self.beside(other) } else { other.beside(self) }
     }
 
     /// The one of two that comes last.
     pub(super) fn last(self, other: Self) -> Self {
-        Self {
-            at: greater(self.at, other.at),
-            least: greater(self.least, other.least),
-            most: greater(self.most, other.most),
-        }
+        if self.at > other.at { self.beside(other) } else { other.beside(self) }
     }
 
-    /// How far it may be from `at`.
-    pub(super) fn error(&self) -> f64 {
-        greater(self.at - self.least, self.most - self.at)
+    /// Itself, with an error that allows for another one that may lie beyond it.
+    fn beside(self, other: Self) -> Self {
+        Self { at: self.at, error: greater(self.error, other.error - (other.at - self.at).abs()) }
     }
 }
 
 // `f64::min` and `max` cost more, as they look for NaN, which no parameter is.
-fn lesser(a: f64, b: f64) -> f64 {
+pub(super) fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
@@ -61,12 +56,12 @@ impl Interval {
 
     /// Whether it is empty for certain.
     pub(super) fn is_empty(&self) -> bool {
-        self.low.least >= self.high.most
+        self.low.least() >= self.high.most()
     }
 
     /// Whether another one lies in it for certain.
     pub(super) fn covers(&self, other: &Self) -> bool {
-        self.low.most <= other.low.least && self.high.least >= other.high.most
+        self.low.most() <= other.low.least() && self.high.least() >= other.high.most()
     }
 }
 
@@ -83,7 +78,9 @@ impl Interval {
 /// start: the others start no earlier. The gap begins between the largest of the ends so far, least and most.
 #[inline]
 pub(super) fn for_each_gap(whole: Interval, hidden: &mut [Interval], mut found: impl FnMut(Interval)) {
-    hidden.sort_unstable_by(|a, b| a.low.least.total_cmp(&b.low.least));
+    if hidden.len() > 1 {
+        hidden.sort_unstable_by(|a, b| a.low.least().total_cmp(&b.low.least()));
+    }
     let last = Interval { low: whole.high, high: whole.high };
     let mut low = whole.low;
     for interval in hidden.iter().chain(std::iter::once(&last)) {

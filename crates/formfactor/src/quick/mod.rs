@@ -2,14 +2,16 @@
 //!
 //! A convex polygon seen from dA is a cone, the intersection of the half-spaces inside its edges' planes through dA. A piece of
 //! an edge of the target is visible where no occluder's cone contains it. A piece of an occluder's edge is part of the visible
-//! boundary where it is inside the target's cone and no other occluder's cone contains it. So every edge is clipped against the
-//! cones that it may meet, and Lambert's sum is taken over what is left: nothing is projected and no arrangement is built
-//! [vertex tracing: Stark and Riesenfeld 2000].
+//! boundary where it is inside the target's cone and no other occluder's cone contains it. So the edges of every two cones that
+//! may meet are clipped against each other, and Lambert's sum is taken over what is left: nothing is projected and no arrangement
+//! is built [vertex tracing: Stark and Riesenfeld 2000]. The signs of all corners against all planes of two cones are found first;
+//! they tell which edges cross, and divisions are needed for those alone.
 //!
 //! Every sign comes with a bound on its error. Where one end of an edge may lie on either side of a plane, the parameter of the
 //! crossing errs by little, and the bound counts it. Where a whole edge may lie in a plane, the two edges must be one and the
 //! same; if not, the exact route takes over. It does so too where a polygon is not convex, and where the bound would be too
 //! large.
+mod boundary;
 mod classify;
 mod clip;
 mod cone;
@@ -17,7 +19,10 @@ mod contour;
 mod corners;
 mod inside;
 mod interval;
+mod lanes;
 mod neighbours;
+mod sides;
+mod slopes;
 pub(crate) mod target;
 mod trace;
 
@@ -27,7 +32,7 @@ use crate::form_factor::FormFactor;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use classify::{Class, classify};
-use cone::{Cones, Corner, Edge};
+use cone::{Cones, Corner, Edge, Spread};
 use target::{HalfSpace, Target};
 
 /// The quick route's buffers, to be used again.
@@ -36,6 +41,7 @@ pub(crate) struct QuickBuffers {
     corners: [Vec<Corner>; 2],
     edges: Vec<Edge>,
     sides: Vec<HalfSpace>,
+    spread: Spread,
     cones: Cones,
     trace: trace::TraceBuffers,
 }
@@ -51,8 +57,8 @@ pub(crate) fn form_factor<'a, I>(
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
-    let QuickBuffers { corners, edges, sides, cones, trace } = buffers;
-    let target = Target::new(from, to, corners, edges, sides)?;
+    let QuickBuffers { corners, edges, sides, spread, cones, trace } = buffers;
+    let target = Target::new(from, to, corners, edges, sides, spread)?;
     let mut open = 0.0;
     cones.clear();
     for occluder in occluders(&target) {

@@ -1,7 +1,8 @@
 //! A convex target as dA sees it, and the half-spaces in which something must be to hide any of it.
 use super::clip::clip;
-use super::cone::{Corner, ERROR, Edge, Place, UNDERFLOW, faces, size};
+use super::cone::{Corner, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, size};
 use super::corners::{copy, deviation_error};
+use super::interval::greater;
 use crate::exact::deviation;
 use crate::numeric::predicates::{over_horizon, place, turn};
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
@@ -13,7 +14,7 @@ use std::cmp::Ordering;
 pub(crate) struct Target<'a> {
     pub(super) from: &'a DifferentialArea,
     pub(super) to: &'a PlanarPolygon,
-    pub(super) edges: &'a [Edge],
+    pub(super) cone: OneCone<'a>,
     /// The half-spaces in which a part of an occluder must be to hide any of the target.
     sides: &'a [HalfSpace],
     /// A bound on the form factor of what its vertices' deviation leaves open.
@@ -48,20 +49,17 @@ impl HalfSpace {
 
     /// Whether a point is outside for certain, from the product with the normal and its size.
     fn is_out(&self, product: f64, size: f64) -> bool {
-        product + self.shift < -self.error * size - self.least
+        product + self.shift < -self.margin(size)
     }
 
-    /// Where a point lies that may be off by some distance; `more` is that distance as an addition to the point's size.
-    fn place(&self, point: DVec3, more: f64) -> Place {
-        let (product, size) = (self.normal.dot(point), size(point) + more);
-        let (height, margin) = (product + self.shift, self.error * size + self.least);
-        if height > margin {
-            Place::Inside
-        } else if height < -margin {
-            Place::Outside
-        } else {
-            Place::Open
-        }
+    /// How far inside a point is.
+    fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) + self.shift
+    }
+
+    /// How far from the plane a point of some size at most must be for its side to be certain.
+    fn margin(&self, size: f64) -> f64 {
+        self.error * size + self.least
     }
 }
 
@@ -89,6 +87,7 @@ impl<'a> Target<'a> {
         [corners, spare]: &mut [Vec<Corner>; 2],
         edges: &'a mut Vec<Edge>,
         sides: &'a mut Vec<HalfSpace>,
+        spread: &'a mut Spread,
     ) -> Option<Self> {
         let (origin, normal) = (from.position(), from.given_normal());
         if !to.is_convex() || to.plane().quick_side(origin) != Some(Ordering::Greater) {
@@ -104,16 +103,17 @@ impl<'a> Target<'a> {
             return None;
         }
         edges.clear();
-        faces(corners, edges);
+        faces(corners.iter().copied(), edges);
         if edges.len() < 3 {
             // So little is above the horizon that its corners coincide: anything would seem to cover it.
             return None;
         }
         let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to);
+        *spread = Spread::of(edges, 0);
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
-        Some(Self { from, to, edges, sides, error })
+        Some(Self { from, to, cone: OneCone { edges, spread }, sides, error })
     }
 
     /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons
@@ -132,24 +132,26 @@ impl<'a> Target<'a> {
     ///
     /// Neighbours of a target in a mesh touch its sides; exact turns decide that they hide nothing.
     pub(super) fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
-        let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
+        let (origin, points) = (self.from.position(), occluder.points());
+        let reach = points.iter().fold(0.0, |reach, p| greater(reach, size(*p - origin)));
+        let reach = reach + occluder.deviation() * INVERSE;
         let mut touched = None;
         for (index, side) in self.sides.iter().enumerate() {
-            let mut is_outside = true;
+            let (margin, mut highest) = (side.margin(reach), f64::NEG_INFINITY);
             // Stops at the first vertex inside, as this side separates nothing then.
-            let is_inside = occluder.points().iter().any(|p| {
-                let place = side.place(*p - origin, more);
-                is_outside &= place == Place::Outside;
-                place == Place::Inside
-            });
-            if is_inside {
-                continue;
+            for point in points {
+                highest = greater(highest, side.height(*point - origin));
+                if highest > margin {
+                    break;
+                }
             }
-            if is_outside {
+            if highest < -margin {
                 return Some(Apart::Outside);
             }
-            let edge = index.checked_sub(BEFORE_EDGES).map(|index| &self.edges[index]);
-            touched = touched.or(edge.filter(|edge| self.is_touched(edge, occluder)));
+            if highest <= margin {
+                let edge = index.checked_sub(BEFORE_EDGES).map(|index| &self.cone.edges[index]);
+                touched = touched.or(edge.filter(|edge| self.is_touched(edge, occluder)));
+            }
         }
         touched.map(Apart::Touching)
     }
@@ -160,7 +162,7 @@ impl<'a> Target<'a> {
         occluder.points().iter().all(|point| {
             let p = *point - origin;
             let (depth, error) = edge.depth(p);
-            depth < -error - edge.errors.element_sum() * more
+            depth < -error - edge.error * more
                 || p == edge.start
                 || p == edge.end
                 || (depth <= error && more == 0.0 && self.is_outside(edge, *point))

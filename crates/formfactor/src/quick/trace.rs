@@ -1,10 +1,12 @@
 //! The visible boundary, edge by edge: what the occluders leave of the target's edges, and what they and the target leave of
 //! the occluders' edges.
-use super::cone::{Cones, Edge, Frame, Slopes};
+use super::boundary::Boundary;
+use super::cone::{Cones, Edge};
 use super::contour::{Parts, Sum};
-use super::inside::{Inside, inside};
 use super::interval::{Interval, for_each_gap};
-use super::{neighbours::Neighbours, target::Target};
+use super::neighbours::Neighbours;
+use super::slopes::Frame;
+use super::target::Target;
 use crate::exact::whole::unhidden;
 use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
@@ -14,8 +16,8 @@ use crate::stats::Stats;
 #[derive(Debug, Default)]
 pub(super) struct TraceBuffers {
     neighbours: Neighbours,
+    boundary: Boundary,
     hidden: Vec<Interval>,
-    extents: Vec<Slopes>,
 }
 
 /// The error up to which the sum is good enough, by the angle that the target's boundary subtends where that is less than 1:
@@ -27,97 +29,62 @@ const FINE_ALONE: f64 = FINE / 4.0;
 /// from what was culled and cut. `None` where doubles leave more open.
 pub(super) fn sum(
     target: &Target,
-    cones: &mut Cones,
+    cones: &Cones,
     open: f64,
-    TraceBuffers { neighbours, hidden, extents }: &mut TraceBuffers,
+    buffers: &mut TraceBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
     let mut sum = Sum::new(target.from.normal());
     let error = target.error + open;
     if cones.len() == 0 {
         stats.none += 1;
-        target.edges.iter().for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
+        let edges = target.cone.edges.iter();
+        edges.for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
         return sum.fine(error).or_else(|| unhidden(target.from, target.to, open));
     }
-    let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
-    cones.measure(&frame);
-    extents.clear();
-    frame.measure(target.edges, extents);
-    neighbours.find(cones);
-    for (edge, extent) in target.edges.iter().zip(&*extents) {
-        let near = (0..cones.len()).filter(|other| cones.extent(*other).meets(extent));
-        trace(edge, Interval::WHOLE, Owner::Target, near, cones, hidden, &mut sum)?;
-    }
-    let whole = extents.iter().copied().reduce(Slopes::join)?;
-    for cone in 0..cones.len() {
-        let edges = cones.edges(cone).iter().zip(cones.edge_extents(cone));
-        for (edge, extent) in edges.filter(|(_, extent)| whole.meets(extent)) {
-            // An occluder's edge counts only where the target is behind it. One along an edge of the target is that edge's.
-            let Inside::Part(before) = inside(edge, target.edges)? else { continue };
-            let near = neighbours.of(cone).filter(|other| cones.extent(*other).meets(extent));
-            trace(edge, before, Owner::Occluder(cone), near, cones, hidden, &mut sum)?;
-        }
-    }
+    trace(target, cones, buffers, &mut sum)?;
     stats.partial += 1;
     stats.traced += 1;
-    let perimeter: f64 = target.edges.iter().map(Edge::least_angle).sum();
+    let perimeter: f64 = target.cone.edges.iter().map(Edge::least_angle).sum();
     let scale = perimeter.min(1.0);
     let is_fine = sum.worst() <= FINE_ALONE * scale && error <= FINE_ALONE * scale;
     sum.form_factor(error).filter(|factor| is_fine && factor.error_bound <= FINE * scale)
 }
 
-/// The polygon whose edge is traced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Owner {
-    Target,
-    Occluder(usize),
-}
-
-impl Owner {
-    /// Whether an edge that cone `other` shares is no part of the visible boundary. The other polygon runs along it the same
-    /// way or the other way.
-    ///
-    /// The same way, both polygons are on one side of the edge. Two occluders have it on the boundary of their union: the first of
-    /// the two keeps it. An edge of the target is hidden. The other way, the polygons are on either side: the edge is inside the
-    /// union of two occluders, and both lose it.
-    fn loses(self, other: usize, is_same_way: bool) -> bool {
-        match self {
-            Owner::Target => is_same_way,
-            Owner::Occluder(cone) => !is_same_way || other < cone,
+/// Clips all edges, and adds what is left of them.
+fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
+    let TraceBuffers { neighbours, boundary, hidden } = buffers;
+    let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
+    boundary.begin(target.cone, cones);
+    neighbours.clear();
+    for cone in 0..cones.len() {
+        if boundary.clip(target.cone, cones, cone) {
+            neighbours.push(frame.around(cones.cone(cone).edges), cone);
         }
     }
-}
-
-/// Adds what the cones leave of a part of an edge to the sum.
-fn trace(
-    edge: &Edge,
-    whole: Interval,
-    owner: Owner,
-    near: impl Iterator<Item = usize>,
-    cones: &Cones,
-    hidden: &mut Vec<Interval>,
-    sum: &mut Sum,
-) -> Option<()> {
-    hidden.clear();
-    for other in near {
-        match inside(edge, cones.edges(other))? {
-            Inside::Part(part) if part.covers(&whole) => return Some(()),
-            Inside::Part(part) => hidden.push(part),
-            Inside::Twin { is_same_way } if owner.loses(other, is_same_way) => return Some(()),
-            Inside::Twin { .. } | Inside::Nothing => (),
-        }
+    neighbours.for_each_pair(|pair| boundary.hide(cones, pair));
+    let (of_target, of_cones) = boundary.rests();
+    for (edge, rest) in target.cone.edges.iter().zip(of_target) {
+        let Some(whole) = boundary.left(rest, hidden)? else { continue };
+        add(edge, 1.0, whole, hidden, sum);
     }
-    let mut line = sum.line(edge.inward, edge.error);
-    if owner != Owner::Target {
+    for (edge, rest) in cones.edges().iter().zip(of_cones) {
+        let Some(whole) = boundary.left(rest, hidden)? else { continue };
         // An occluder's edge has the visible part on its other side.
-        line.cosine = -line.cosine;
+        add(edge, -1.0, whole, hidden, sum);
     }
+    Some(())
+}
+
+/// Adds what is hidden leaves of a part of an edge to the sum, with a sign.
+fn add(edge: &Edge, sign: f64, whole: Interval, hidden: &mut [Interval], sum: &mut Sum) {
+    let mut line = sum.line(edge.inward, edge.error);
+    line.cosine *= sign;
     if hidden.is_empty() && whole == Interval::WHOLE {
         sum.add_whole(edge, &line);
     } else {
-        let mut parts = Parts::default();
+        let mut parts = Parts::of(edge, &line);
         for_each_gap(whole, hidden, |gap| sum.add_part(edge, &line, gap, &mut parts));
-        sum.add_parts(edge, &line, parts);
+        sum.add_parts(&line, &parts);
     }
-    Some(())
 }

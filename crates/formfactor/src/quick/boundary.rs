@@ -1,0 +1,206 @@
+//! What is left of each edge: that of an occluder is clipped to the target, and each is hidden by the cones that it meets.
+use super::cone::{Cones, OneCone};
+use super::inside::{Inside, inside};
+use super::interval::Interval;
+use super::lanes::MOST;
+use super::sides::{Sides, Standing};
+
+/// What is left of every edge so far: those of the target, and then those of the cones.
+#[derive(Debug, Default)]
+pub(super) struct Boundary {
+    rests: Vec<Rest>,
+    /// How many edges the target has.
+    sides: usize,
+    /// Hidden parts of edges, each with the one before it of the same edge.
+    parts: Vec<(Interval, u32)>,
+    /// The sides of the corners of a cone, and of those of another one.
+    within: [Sides; 2],
+}
+
+/// No part.
+const NONE: u32 = u32::MAX;
+
+/// What is left of an edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    /// The part that borders on the target.
+    whole: Interval,
+    /// The last of its hidden parts.
+    last: u32,
+    /// Whether nothing is left.
+    is_lost: bool,
+    /// Whether doubles leave open what is left.
+    is_open: bool,
+}
+
+/// How two cones lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Relation {
+    Apart,
+    FirstInside,
+    SecondInside,
+    /// All signs are certain.
+    Crossing,
+    Open,
+}
+
+/// Two cones that cross, and on which sides of the planes of each the corners of the other one are.
+struct Meeting<'m> {
+    cones: [OneCone<'m>; 2],
+    sides: [&'m Sides; 2],
+    relation: Relation,
+}
+
+impl Meeting<'_> {
+    fn reversed(&self) -> Self {
+        let ([first, second], [there, back]) = (self.cones, self.sides);
+        Self { cones: [second, first], sides: [back, there], ..*self }
+    }
+
+    /// Calls back with what of each edge of the first cone is inside the second, where anything is left of the edge.
+    #[inline]
+    fn for_each_part(&self, rests: &mut [Rest], mut found: impl FnMut(&mut Rest, Inside)) {
+        let ([first, second], [there, back]) = (self.cones, self.sides);
+        for (index, (edge, rest)) in first.edges.iter().zip(rests).enumerate() {
+            if rest.is_lost {
+                continue;
+            }
+            let part = match self.relation {
+                Relation::Crossing => there.part(edge, index, second.edges, back),
+                _ => inside(edge, first.spread.reach, second.edges),
+            };
+            found(rest, part);
+        }
+    }
+}
+
+impl Rest {
+    const WHOLE: Self = Self { whole: Interval::WHOLE, last: NONE, is_lost: false, is_open: false };
+
+    /// Keeps only what is inside the target. An edge along one of the target is that edge's.
+    fn clip(&mut self, inside: Inside) {
+        match inside {
+            Inside::Part(part) => self.whole = part,
+            Inside::Nothing | Inside::Twin { .. } => self.is_lost = true,
+            Inside::Open => self.is_open = true,
+        }
+    }
+
+    /// Hides what is inside a cone. `loses` says whether the edge is lost to one that the cone has along it, by whether that runs
+    /// the same way.
+    fn hide(&mut self, inside: Inside, loses: impl Fn(bool) -> bool, parts: &mut Vec<(Interval, u32)>) {
+        match inside {
+            Inside::Part(part) if part.covers(&self.whole) => self.is_lost = true,
+            Inside::Part(part) => {
+                parts.push((part, self.last));
+                self.last = u32::try_from(parts.len() - 1).unwrap_or(NONE);
+            }
+            Inside::Twin { is_same_way } => self.is_lost = loses(is_same_way),
+            Inside::Nothing => (),
+            Inside::Open => self.is_open = true,
+        }
+    }
+}
+
+impl Boundary {
+    pub(super) fn begin(&mut self, target: OneCone, cones: &Cones) {
+        self.sides = target.edges.len();
+        self.rests.clear();
+        self.rests.resize(self.sides + cones.edges().len(), Rest::WHOLE);
+        self.parts.clear();
+    }
+
+    /// Clips a cone's edges to the target, and hides the target's behind it. Returns whether they meet.
+    pub(super) fn clip(&mut self, target: OneCone, cones: &Cones, index: usize) -> bool {
+        let (cone, first) = (cones.cone(index), self.sides + cones.first(index));
+        let relation = self.compare(cone, target);
+        match relation {
+            Relation::Apart => self.lose(first, cone),
+            Relation::Crossing | Relation::Open => {
+                let Self { rests, parts, within: [there, back], .. } = self;
+                let (of_target, of_cones) = rests.split_at_mut(first);
+                let crossing = Meeting { cones: [cone, target], sides: [there, back], relation };
+                crossing.for_each_part(of_cones, Rest::clip);
+                // The same way, both are on one side of the edge, and it is hidden.
+                let hide = |rest: &mut Rest, part| rest.hide(part, |is_same_way| is_same_way, parts);
+                crossing.reversed().for_each_part(of_target, hide);
+            }
+            Relation::FirstInside => (),
+            Relation::SecondInside => {
+                self.lose(0, target);
+                self.lose(first, cone);
+            }
+        }
+        relation != Relation::Apart
+    }
+
+    /// Hides the edges of two cones behind each other.
+    pub(super) fn hide(&mut self, cones: &Cones, [a, b]: [usize; 2]) {
+        let [first, second] = [a, b].map(|index| cones.cone(index));
+        let [at_first, at_second] = [a, b].map(|index| self.sides + cones.first(index));
+        let relation = self.compare(first, second);
+        match relation {
+            Relation::Apart => (),
+            Relation::FirstInside => self.lose(at_first, first),
+            Relation::SecondInside => self.lose(at_second, second),
+            Relation::Crossing | Relation::Open => {
+                let Self { rests, parts, within: [there, back], .. } = self;
+                let meeting = Meeting { cones: [first, second], sides: [there, back], relation };
+                // Edges that both have the same way are on the boundary of their union: the first of the two keeps it. The other
+                // way, the cones are on either side: the edge is inside the union, and both lose it.
+                meeting.for_each_part(&mut rests[at_first..], |rest, part| {
+                    rest.hide(part, |is_same_way| !is_same_way || b < a, parts);
+                });
+                meeting.reversed().for_each_part(&mut rests[at_second..], |rest, part| {
+                    rest.hide(part, |is_same_way| !is_same_way || a < b, parts);
+                });
+            }
+        }
+    }
+
+    /// Nothing is left of a cone's edges, the first of which is at `first`.
+    fn lose(&mut self, first: usize, cone: OneCone) {
+        self.rests[first..][..cone.edges.len()].iter_mut().for_each(|rest| rest.is_lost = true);
+    }
+
+    /// How two cones lie. Where they cross, on which sides of their planes the corners of the other one are.
+    #[inline]
+    fn compare(&mut self, first: OneCone, second: OneCone) -> Relation {
+        let [there, back] = &mut self.within;
+        if first.edges.len().max(second.edges.len()) > MOST {
+            return Relation::Open;
+        }
+        let standing = there.find(second.edges, first.spread);
+        match standing {
+            Standing::Apart => return Relation::Apart,
+            Standing::Contained => return Relation::FirstInside,
+            Standing::Certain | Standing::Open => (),
+        }
+        match (standing, back.find(first.edges, second.spread)) {
+            (_, Standing::Apart) => Relation::Apart,
+            (_, Standing::Contained) => Relation::SecondInside,
+            (Standing::Certain, Standing::Certain) => Relation::Crossing,
+            _ => Relation::Open,
+        }
+    }
+
+    /// What is left of the target's edges, and of the cones'.
+    pub(super) fn rests(&self) -> (&[Rest], &[Rest]) {
+        self.rests.split_at(self.sides)
+    }
+
+    /// The part of an edge that borders on the target, if any of it is left, and its hidden parts; `None` where doubles leave that
+    /// open.
+    pub(super) fn left(&self, rest: &Rest, hidden: &mut Vec<Interval>) -> Option<Option<Interval>> {
+        if rest.is_lost {
+            return Some(None);
+        }
+        hidden.clear();
+        let mut last = rest.last;
+        while let Some((part, before)) = self.parts.get(last as usize) {
+            hidden.push(*part);
+            last = *before;
+        }
+        (!rest.is_open).then_some(Some(rest.whole))
+    }
+}
