@@ -62,9 +62,9 @@ pub(crate) fn is_entered(
     let others = tree.find(|extent| extent.misses(&around)).into_iter().filter(|id| !faces.contains(id));
     let mut inward: Option<&PlanarPolygon> = None;
     for other in others.map(|id| &polygons[id]) {
-        match sides.iter().map(|side| standing(other, side)).max() {
-            Some(Standing::Outside) => (),
-            Some(Standing::Inward) if inward.is_none_or(|first| other.lies_in_plane_of(first)) => {
+        match sides.iter().map(|side| stance(other, side)).max() {
+            Some(Stance::Outside) => (),
+            Some(Stance::Inward) if inward.is_none_or(|first| other.lies_in_plane_of(first)) => {
                 inward = Some(other);
             }
             _ => return true,
@@ -75,7 +75,7 @@ pub(crate) fn is_entered(
 
 /// Where a polygon is as far as one face of a convex solid says, from the worst on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Standing {
+enum Stance {
     /// Some of it is behind the face.
     Behind,
     /// In the face's plane, and looks into the solid.
@@ -84,11 +84,11 @@ enum Standing {
     Outside,
 }
 
-fn standing(other: &PlanarPolygon, side: &PlanarPolygon) -> Standing {
+fn stance(other: &PlanarPolygon, side: &PlanarPolygon) -> Stance {
     let heights = other.points().iter().map(|p| side.plane().side_of(*p));
     match [heights.clone().min(), heights.max()] {
-        [Some(Ordering::Less), _] => Standing::Behind,
-        [_, Some(Ordering::Equal)] if other.normal().dot(side.normal()) < 0.0 => Standing::Inward,
-        _ => Standing::Outside,
+        [Some(Ordering::Less), _] => Stance::Behind,
+        [_, Some(Ordering::Equal)] if other.normal().dot(side.normal()) < 0.0 => Stance::Inward,
+        _ => Stance::Outside,
     }
 }
