@@ -1,5 +1,5 @@
 //! Whole matrices from area to area: by cubature, by rows from points on each surface, and View3D's figures beside them.
-use super::rooms::Room;
+use super::rooms::ClosedRoom;
 use crate::clock::{Job, interleaved};
 use crate::plan::Plan;
 use crate::rows::{Chapter, Deviation, Measured, Spread, Time};
@@ -35,7 +35,7 @@ pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Vec<Measured> {
     rows
 }
 
-fn of_room(room: Room, view3d: &[View3d], plan: &Plan) -> Vec<Measured> {
+fn of_room(room: ClosedRoom, view3d: &[View3d], plan: &Plan) -> Vec<Measured> {
     let (ways, enclosure) = (ways(), room.enclosure());
     let reference = by_areas(&enclosure, FINE);
     let unit: Job<'_, Dense> = Box::new(|| vec![vec![plain_quad()]]);
@@ -57,7 +57,7 @@ fn of_room(room: Room, view3d: &[View3d], plan: &Plan) -> Vec<Measured> {
     own.chain(peers).collect()
 }
 
-fn blank(room: Room) -> Measured {
+fn blank(room: ClosedRoom) -> Measured {
     Measured {
         chapter: Chapter::Matrices,
         subject: room.name(),
@@ -169,7 +169,7 @@ struct View3d {
 }
 
 impl View3d {
-    fn row(&self, room: Room, unit: f64) -> Measured {
+    fn row(&self, room: ClosedRoom, unit: f64) -> Measured {
         let seconds = self.units * unit;
         let cpu = Spread { median: seconds, low: seconds, high: seconds };
         Measured {
@@ -185,9 +185,9 @@ impl View3d {
 }
 
 /// The rooms with View3D's figures.
-const ROOMS: [(Room, &[View3d]); 3] = [
+const ROOMS: [(ClosedRoom, &[View3d]); 3] = [
     (
-        Room { tiles: 4, boxes: 2 },
+        ClosedRoom { tiles: 4, boxes: 2 },
         &[
             View3d { eps: "1e-2", units: 44.0, errors: [0.000844, 1.52e-05], defect: 0.00233 },
             View3d { eps: "1e-3", units: 44.0, errors: [0.000844, 6.38e-06], defect: 0.00235 },
@@ -197,7 +197,7 @@ const ROOMS: [(Room, &[View3d]); 3] = [
         ],
     ),
     (
-        Room { tiles: 6, boxes: 8 },
+        ClosedRoom { tiles: 6, boxes: 8 },
         &[
             View3d { eps: "1e-2", units: 70.1, errors: [0.00255, 6.05e-06], defect: 0.00462 },
             View3d { eps: "1e-3", units: 74.0, errors: [0.000494, 3.46e-06], defect: 0.00102 },
@@ -207,7 +207,7 @@ const ROOMS: [(Room, &[View3d]); 3] = [
         ],
     ),
     (
-        Room { tiles: 12, boxes: 20 },
+        ClosedRoom { tiles: 12, boxes: 20 },
         &[
             View3d { eps: "1e-2", units: 81.6, errors: [0.0013, 1.46e-06], defect: 0.00202 },
             View3d { eps: "1e-3", units: 80.5, errors: [0.000782, 1.05e-06], defect: 0.00108 },

@@ -3,12 +3,12 @@ use formfactor::{DVec3, Enclosure, PlanarPolygon};
 
 /// A room: a cube of side 10 with n × n quads on each wall, and boxes of half-size 0.3 to 0.7 in it that touch nothing.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Room {
+pub(crate) struct ClosedRoom {
     pub(crate) tiles: u32,
     pub(crate) boxes: usize,
 }
 
-impl Room {
+impl ClosedRoom {
     pub(crate) fn name(self) -> String {
         let surfaces = 6 * self.tiles as usize * self.tiles as usize + 6 * self.boxes;
         format!("a room of {surfaces} surfaces, {} boxes", self.boxes)
