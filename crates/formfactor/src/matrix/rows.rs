@@ -45,7 +45,12 @@ impl Enclosure {
     ) -> Result<Option<ExchangeRow>, Error> {
         let found = self.exchanges(from, &tolerance.into(), limits)?;
         let exchange = |(to, area, error)| Exchange { to: column(to), area, error };
-        Ok(found.map(|found| ExchangeRow { from, with: found.into_iter().map(exchange).collect() }))
+        Ok(found.map(|found| {
+            let mut with: Vec<Exchange> = found.into_iter().map(exchange).collect();
+            // Many rows are kept at once.
+            with.shrink_to_fit();
+            ExchangeRow { from, with }
+        }))
     }
 }
 

@@ -127,14 +127,35 @@ impl FactorMatrix {
     /// The same with one more receiver, whose number is that of the rows: space, or the sky, to which all that escapes goes, so
     /// that rows of open scenes add to 1. Its error is the sum of those of the row. A row that adds to more than 1 gets none.
     #[must_use]
-    pub fn with_space(&self) -> FactorMatrix {
-        let space = self.len();
-        self.by_rows(self.areas.clone(), |from| {
-            let row: Vec<Factor> = self.row(from).collect();
-            let sums = row.iter().fold([0.0; 2], |[value, error], f| [value + f.value, error + f.error]);
-            let escaped = Factor { to: space, value: (1.0 - sums[0]).max(0.0), error: sums[1] };
-            row.into_iter().chain((escaped.value > 0.0).then_some(escaped)).collect()
-        })
+    pub fn with_space(mut self) -> FactorMatrix {
+        let space = column(self.len());
+        let escaped = |from| {
+            let sums = self.row(from).fold([0.0; 2], |[value, error], f| [value + f.value, error + f.error]);
+            [(1.0 - sums[0]).max(0.0), sums[1]]
+        };
+        let escaped: Vec<[f64; 2]> = (0..self.len()).map(escaped).collect();
+        let more = escaped.iter().filter(|[value, _]| *value > 0.0).count();
+        let mut end = self.columns.len() + more;
+        self.columns.reserve_exact(more);
+        self.columns.resize(end, space);
+        for numbers in [&mut self.values, &mut self.errors] {
+            numbers.reserve_exact(more);
+            numbers.resize(end, 0.0);
+        }
+        // In place, from the last row on: each moves to where nothing is left.
+        for (from, [value, error]) in escaped.into_iter().enumerate().rev() {
+            let span = self.span(from);
+            self.starts[from + 1] = end;
+            if value > 0.0 {
+                end -= 1;
+                (self.columns[end], self.values[end], self.errors[end]) = (space, value, error);
+            }
+            end -= span.len();
+            self.columns.copy_within(span.clone(), end);
+            self.values.copy_within(span.clone(), end);
+            self.errors.copy_within(span, end);
+        }
+        self
     }
 
     /// A matrix from rows of factors, each in the order of the receivers.

@@ -18,5 +18,5 @@ mod surface;
 pub mod vs3;
 
 pub use error::{Fault, FileError};
-pub use save::save;
+pub use save::{save, save_with};
 pub use source::Source;

@@ -1,6 +1,7 @@
 //! Files are written completely or not at all.
 use super::error::FileError;
-use std::io::Write;
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file completely or not at all: into a temporary file of the same folder, which is renamed at the end.
@@ -11,21 +12,38 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// [`FileError::Write`]; an older file at `path` is then unchanged.
 pub fn save(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
+    save_with(path, |file| file.write_all(bytes))
+}
+
+/// [`save`] of what is written bit by bit, for files that should not be in memory as a whole.
+///
+/// # Errors
+/// [`FileError::Write`], also with what `write` returns; an older file at `path` is then unchanged.
+pub fn save_with(
+    path: impl AsRef<Path>,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), FileError> {
     let path = path.as_ref();
     let written = match path.metadata() {
-        Ok(found) if !found.is_file() => std::fs::write(path, bytes),
-        Ok(_) => path.canonicalize().and_then(|place| replace(&place, bytes)),
-        Err(_) => replace(path, bytes),
+        Ok(found) if !found.is_file() => File::create(path).and_then(|file| buffered(&file, write)),
+        Ok(_) => path.canonicalize().and_then(|place| replace(&place, write)),
+        Err(_) => replace(path, write),
     };
     written.map_err(|source| FileError::Write { path: path.into(), source })
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = temporary().tempfile_in(folder(path))?;
-    file.write_all(bytes)?;
+fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> std::io::Result<()> {
+    let file = temporary().tempfile_in(folder(path))?;
+    buffered(file.as_file(), write)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|refused| refused.error)?;
     Ok(())
+}
+
+fn buffered(file: &File, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> std::io::Result<()> {
+    let mut buffer = BufWriter::new(file);
+    write(&mut buffer)?;
+    buffer.flush()
 }
 
 fn folder(path: &Path) -> PathBuf {

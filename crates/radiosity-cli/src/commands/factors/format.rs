@@ -21,7 +21,7 @@ impl Table<'_> {
     /// Columns for people; a row's factors that are 0 are left out where there are several rows.
     pub(super) fn text(&self) -> String {
         let mut text = String::new();
-        for row in &self.found.rows {
+        for row in self.found.rows.iter() {
             // Writing to a string cannot fail.
             if let Some(patch) = row.from {
                 let _ = writeln!(text, "from {} {}", patch + 1, self.name(patch));
@@ -37,12 +37,12 @@ impl Table<'_> {
     }
 
     /// A line for every factor that is not 0.
-    pub(super) fn csv(&self) -> Vec<u8> {
+    pub(super) fn csv(&self) -> String {
         let header = ["from_number", "from", "to_number", "to", "form_factor", "error", "row_sum"];
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut write = |row: &[String]| writer.write_record(row).expect("all rows have the header's length");
         write(&header.map(Into::into));
-        for row in &self.found.rows {
+        for row in self.found.rows.iter() {
             let (sum, _) = row.sum();
             let (number, name) = row.from.map_or((0, "point"), |patch| (patch + 1, self.name(patch)));
             for entry in row.entries.iter().filter(|entry| entry.value != 0.0) {
@@ -57,14 +57,15 @@ impl Table<'_> {
                 ]);
             }
         }
-        writer.into_inner().expect("memory takes what is written")
+        let bytes = writer.into_inner().expect("memory takes what is written");
+        String::from_utf8(bytes).expect("names and numbers are text")
     }
 
     /// Of a point `{"rows": […], "sum"}`; of patches `{"tolerance", "rows": [{"from", "number", "area", "factors", "sum"}]}`.
     pub(super) fn json(&self) -> String {
-        if let [row @ Row { from: None, .. }] = &self.found.rows[..] {
+        if let Some(row) = self.found.rows.iter().next().filter(|row| row.from.is_none()) {
             let (sum, error) = row.sum();
-            return json::line(&json!({"rows": self.entries(row), "sum": sum, "error_bound": error}));
+            return json::line(&json!({"rows": self.entries(&row), "sum": sum, "error_bound": error}));
         }
         let rows = self.found.rows.iter().filter_map(|row| Some((row.from?, row)));
         let rows: Vec<Value> = rows
@@ -73,7 +74,7 @@ impl Table<'_> {
                 let area = self.found.areas[patch];
                 json!({
                     "from": self.name(patch), "number": patch + 1, "area": area,
-                    "factors": self.entries(row), "sum": sum, self.error(): error,
+                    "factors": self.entries(&row), "sum": sum, self.error(): error,
                 })
             })
             .collect();
@@ -102,7 +103,7 @@ impl Table<'_> {
         let line = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<_>>().join(" ");
         let mut lines = vec![format!("{header:<30}"), line(&mut areas.iter().map(|area| six_digits(*area)))];
         let row = |row: &Row| line(&mut (0..rows.len()).map(|to| format!("{:.6}", row.to(to))));
-        lines.extend(rows.iter().map(row));
+        lines.extend(rows.iter().map(|from| row(&from)));
         lines.push(line(&mut emittances.iter().map(|emittance| format!("{emittance:.3}"))));
         lines.join("\n") + "\n"
     }

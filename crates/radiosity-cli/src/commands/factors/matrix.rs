@@ -1,6 +1,6 @@
 //! The matrix from area to area: surfaces of several patches, and the changes asked for.
 use super::names::place;
-use super::row::{Entry, Row};
+use super::row::{Row, Rows};
 use crate::failure::Failure;
 use crate::parse::positive;
 use clap::Args;
@@ -39,7 +39,7 @@ pub(super) struct Found {
     /// Of each surface.
     pub(super) areas: Vec<f64>,
     pub(super) emittances: Vec<f64>,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Rows,
     /// Whether the rows were closed, and whether they hold reflections.
     pub(super) is_closed: bool,
     pub(super) is_gray: bool,
@@ -53,7 +53,7 @@ impl Found {
             names: patches().map(|patch| patch.name.clone()).collect(),
             areas: patches().map(|patch| patch.polygon.area()).collect(),
             emittances: patches().map(|patch| 1.0 - patch.reflectance[0]).collect(),
-            rows,
+            rows: Rows::Listed(rows),
             ..Found::default()
         }
     }
@@ -69,7 +69,10 @@ pub(super) fn finish(
     let asked = request.unwrap_or_default();
     let surfaces = Surfaces::of(scene, &asked.combined, &changes.group)?;
     let areas: Vec<f64> = scene.patches.iter().map(|patch| patch.polygon.area()).collect();
-    let mut matrix = FactorMatrix::new(&areas, pairs).grouped(&surfaces.group);
+    let mut matrix = FactorMatrix::new(&areas, pairs);
+    if surfaces.group.iter().enumerate().any(|(patch, group)| patch != *group) {
+        matrix = matrix.grouped(&surfaces.group);
+    }
     report_defects(&matrix, &surfaces);
     if let Some(threshold) = changes.drop_below {
         let before = matrix.values().len();
@@ -99,12 +102,9 @@ pub(super) fn finish(
             .map_err(|error| Failure::scene(format!("emit=1: {error}")))?;
         eprintln!("emit=1 in the file: total exchange factors of gray surfaces, with all reflections");
     }
-    let rows = (0..surfaces.count).map(|from| Row {
-        from: Some(from),
-        entries: matrix.row(from).map(|f| Entry { to: f.to, value: f.value, error: f.error }).collect(),
-    });
-    let (rows, areas) = (rows.collect(), matrix.areas()[..surfaces.count].to_vec());
+    let areas = matrix.areas()[..surfaces.count].to_vec();
     let emittances = emittances[..surfaces.count].to_vec();
+    let rows = Rows::Matrix(matrix, surfaces.count);
     Ok(Found { names, areas, emittances, rows, is_closed, is_gray: asked.emittances })
 }
 

@@ -110,16 +110,19 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
         _ => Found::of(&scene, rows(arguments, &scene, &enclosure)?),
     };
     let table = Table { found: &found, tolerance: arguments.area };
-    let bytes = match format {
-        Format::Text => table.text().into_bytes(),
+    let text = match format {
+        Format::Text => table.text(),
         Format::Csv => table.csv(),
-        Format::Json => table.json().into_bytes(),
-        Format::View3d => table.view3d().into_bytes(),
-        Format::Npz => npz::bytes(&found).map_err(Failure::internal)?,
+        Format::Json => table.json(),
+        Format::View3d => table.view3d(),
+        Format::Npz => String::new(),
     };
     match &arguments.output {
-        Some(path) => io::save(path, &bytes)?,
-        None => print(&String::from_utf8_lossy(&bytes))?,
+        Some(path) if format == Format::Npz => {
+            io::save_with(path, |file| npz::write(&found, file).map_err(std::io::Error::from))?;
+        }
+        Some(path) => io::save(path, text.as_bytes())?,
+        None => print(&text)?,
     }
     if arguments.area.is_some() && is_whole(arguments) {
         pairs::forget(arguments.output.as_deref());

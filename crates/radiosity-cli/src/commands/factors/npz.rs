@@ -1,43 +1,56 @@
 //! A matrix for numpy and scipy.
 use super::matrix::Found;
-use std::io::{Cursor, Write};
-use zip::write::{SimpleFileOptions, ZipWriter};
+use super::row::Entry;
+use std::io::{BufWriter, Write};
+use zip::write::{SimpleFileOptions, StreamWriter, ZipWriter};
 use zip::{CompressionMethod, result::ZipResult};
 
-/// A `.npz` file: `data`, `indices`, `indptr`, `shape` and `format` as `scipy.sparse.load_npz` takes them; and for
+/// Writes a `.npz` file: `data`, `indices`, `indptr`, `shape` and `format` as `scipy.sparse.load_npz` takes them; and for
 /// `numpy.load` the `errors` of the data, the `areas` and `emittances` of the rows, and the `names` of the columns.
-pub(super) fn bytes(found: &Found) -> ZipResult<Vec<u8>> {
-    let mut file = ZipWriter::new(Cursor::new(Vec::new()));
-    let entries = || found.rows.iter().flat_map(|row| &row.entries);
+pub(super) fn write(found: &Found, file: &mut dyn Write) -> ZipResult<()> {
+    let mut file = ZipWriter::new_stream(file);
     let starts = found.rows.iter().scan(0, |end, row| {
         *end += row.entries.len();
         Some(*end)
     });
-    let starts = std::iter::once(0).chain(starts);
-    let shape = [found.rows.len(), found.names.len()].into_iter();
-    integers(&mut file, "indices", entries().map(|entry| entry.to))?;
-    integers(&mut file, "indptr", starts)?;
-    integers(&mut file, "shape", shape)?;
+    let starts: Vec<usize> = std::iter::once(0).chain(starts).collect();
+    let count = starts.last().copied().unwrap_or_default();
+    let entries = || found.rows.iter().flat_map(|row| row.into_owned().entries);
+    let number = |entry: Entry| integer(entry.to);
+    add(&mut file, "indices", "<i8", count, entries().map(number))?;
+    add(&mut file, "indptr", "<i8", starts.len(), starts.iter().copied().map(integer))?;
+    add(&mut file, "shape", "<i8", 2, [found.rows.len(), found.names.len()].into_iter().map(integer))?;
     text(&mut file, "format", "()", &["csr"])?;
-    reals(&mut file, "data", entries().map(|entry| entry.value))?;
-    reals(&mut file, "errors", entries().map(|entry| entry.error))?;
-    reals(&mut file, "areas", found.areas.iter().copied())?;
-    reals(&mut file, "emittances", found.emittances.iter().copied())?;
+    add(&mut file, "data", "<f8", count, entries().map(|entry| entry.value.to_le_bytes()))?;
+    add(&mut file, "errors", "<f8", count, entries().map(|entry| entry.error.to_le_bytes()))?;
+    for (name, numbers) in [("areas", &found.areas), ("emittances", &found.emittances)] {
+        add(&mut file, name, "<f8", numbers.len(), numbers.iter().copied().map(f64::to_le_bytes))?;
+    }
     let names: Vec<&str> = found.names.iter().map(String::as_str).collect();
     text(&mut file, "names", &format!("({},)", names.len()), &names)?;
-    Ok(file.finish()?.into_inner())
+    file.finish().map(|_| ())
 }
 
-type Archive = ZipWriter<Cursor<Vec<u8>>>;
+type Archive<'f> = ZipWriter<StreamWriter<&'f mut dyn Write>>;
 
-fn integers(file: &mut Archive, name: &str, numbers: impl Iterator<Item = usize>) -> ZipResult<()> {
-    let bytes: Vec<u8> = numbers.flat_map(|number| (number as u64).to_le_bytes()).collect();
-    add(file, name, "<i8", &format!("({},)", bytes.len() / 8), &bytes)
+fn integer(number: usize) -> [u8; 8] {
+    (number as u64).to_le_bytes()
 }
 
-fn reals(file: &mut Archive, name: &str, numbers: impl Iterator<Item = f64>) -> ZipResult<()> {
-    let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
-    add(file, name, "<f8", &format!("({},)", bytes.len() / 8), &bytes)
+/// Numbers of eight bytes in one dimension.
+fn add(
+    file: &mut Archive,
+    name: &str,
+    kind: &str,
+    count: usize,
+    numbers: impl Iterator<Item = [u8; 8]>,
+) -> ZipResult<()> {
+    start(file, name, kind, &format!("({count},)"))?;
+    let mut buffer = BufWriter::new(file);
+    for number in numbers {
+        buffer.write_all(&number)?;
+    }
+    Ok(buffer.flush()?)
 }
 
 /// Words of UTF-32, filled up with zeros to the longest.
@@ -48,11 +61,12 @@ fn text(file: &mut Archive, name: &str, shape: &str, words: &[&str]) -> ZipResul
         word
     };
     let bytes: Vec<u8> = words.iter().flat_map(padded).flat_map(u32::to_le_bytes).collect();
-    add(file, name, &format!("<U{width}"), shape, &bytes)
+    start(file, name, &format!("<U{width}"), shape)?;
+    Ok(file.write_all(&bytes)?)
 }
 
-/// An array in numpy's format 1.0: magic, version, the header's length, the header filled up to 64 bytes, and the data.
-fn add(file: &mut Archive, name: &str, kind: &str, shape: &str, bytes: &[u8]) -> ZipResult<()> {
+/// An array in numpy's format 1.0: magic, version, the header's length, the header filled up to 64 bytes; the data follow.
+fn start(file: &mut Archive, name: &str, kind: &str, shape: &str) -> ZipResult<()> {
     const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     let length = (MAGIC.len() + 2 + header.len() + 1).next_multiple_of(64) - MAGIC.len() - 2;
@@ -61,6 +75,5 @@ fn add(file: &mut Archive, name: &str, kind: &str, shape: &str, bytes: &[u8]) ->
     file.start_file(format!("{name}.npy"), options)?;
     file.write_all(MAGIC)?;
     file.write_all(&length.to_le_bytes())?;
-    writeln!(file, "{header:<width$}", width = usize::from(length) - 1)?;
-    Ok(file.write_all(bytes)?)
+    Ok(writeln!(file, "{header:<width$}", width = usize::from(length) - 1)?)
 }

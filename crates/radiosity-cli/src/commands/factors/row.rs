@@ -1,8 +1,9 @@
 //! Rows of form factors.
 use crate::failure::Failure;
 use radiosity::Scene;
-use radiosity::formfactor::{DifferentialArea, Enclosure, Limits};
+use radiosity::formfactor::{DifferentialArea, Enclosure, FactorMatrix, Limits};
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// A form factor to a receiver, by its index.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,11 @@ impl Row {
         Row { from: None, entries: factors.map(entry).collect() }
     }
 
+    fn of_matrix(matrix: &FactorMatrix, from: usize) -> Row {
+        let entry = |f: radiosity::formfactor::Factor| Entry { to: f.to, value: f.value, error: f.error };
+        Row { from: Some(from), entries: matrix.row(from).map(entry).collect() }
+    }
+
     /// The sum of the factors, and of their errors.
     pub(super) fn sum(&self) -> (f64, f64) {
         let sum = |pick: fn(&Entry) -> f64| self.entries.iter().map(pick).sum();
@@ -44,6 +50,35 @@ impl Row {
     pub(super) fn to(&self, receiver: usize) -> f64 {
         let place = self.entries.binary_search_by_key(&receiver, |entry| entry.to);
         place.map_or(0.0, |place| self.entries[place].value)
+    }
+}
+
+/// Rows one by one, or the first ones of a matrix: one of many surfaces is large.
+#[derive(Debug)]
+pub(super) enum Rows {
+    Listed(Vec<Row>),
+    Matrix(FactorMatrix, usize),
+}
+
+impl Default for Rows {
+    fn default() -> Self {
+        Self::Listed(Vec::new())
+    }
+}
+
+impl Rows {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Listed(rows) => rows.len(),
+            Self::Matrix(_, count) => *count,
+        }
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = Cow<'_, Row>> {
+        (0..self.len()).map(|index| match self {
+            Self::Listed(rows) => Cow::Borrowed(&rows[index]),
+            Self::Matrix(matrix, _) => Cow::Owned(Row::of_matrix(matrix, index)),
+        })
     }
 }
 
