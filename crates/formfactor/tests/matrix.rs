@@ -1,6 +1,6 @@
 //! Matrices put together from rows, and the laws of what is done to them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-use formfactor::{Enclosure, Error, ExchangeRow, FactorMatrix, Limits, PlanarPolygon};
+use formfactor::{Enclosure, Error, ExchangeRow, Factor, FactorMatrix, Limits, PlanarPolygon};
 
 /// The faces of a box, seen from inside or from outside, as quadrangles.
 fn faces(low: [f64; 3], high: [f64; 3], inside: bool) -> Vec<PlanarPolygon> {
@@ -114,6 +114,26 @@ fn what_is_open_is_not_closed() {
     assert!(largest(&with_space.defects()) < 1e-15);
     assert!((with_space.factor(0, 5).value - 0.199_825).abs() < 1e-6, "the wall that is missing is space");
     assert!(matches!(with_space.closed(), Err(Error::NotClosed { .. })));
+}
+
+#[test]
+fn space_comes_after_what_a_row_had() {
+    // A closed box, whose rows add to about 1 from both sides, between two rows that see nothing but space.
+    let alone = |z: f64| PlanarPolygon::new([[[5.0, 5.0, z], [6.0, 5.0, z], [5.0, 6.0, z]]]).unwrap();
+    let surfaces = [vec![alone(0.0)], faces([0.0; 3], [1.0; 3], true), vec![alone(9.0)]].concat();
+    let factors = matrix(&Enclosure::new(surfaces), 1e-3);
+    let with_space = factors.clone().with_space();
+    for from in 0..factors.len() {
+        let before: Vec<Factor> = factors.row(from).collect();
+        let found: Vec<Factor> = with_space.row(from).collect();
+        let sum: f64 = before.iter().map(|f| f.value).sum();
+        assert_eq!(found[..before.len()], before, "row {from}");
+        let space: Vec<_> = found[before.len()..].iter().map(|f| (f.to, f.value, f.error)).collect();
+        let errors = before.iter().map(|f| f.error).sum();
+        let expected = (sum < 1.0).then_some((factors.len(), 1.0 - sum, errors));
+        assert_eq!(space, expected.into_iter().collect::<Vec<_>>(), "row {from}");
+    }
+    assert!(with_space.factor(0, factors.len()).value > 1.0 - 1e-6);
 }
 
 #[test]

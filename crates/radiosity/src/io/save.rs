@@ -91,6 +91,18 @@ mod tests {
         assert!(matches!(save(folder.path(), b"x"), Err(FileError::Write { .. })));
     }
 
+    #[test]
+    fn what_fails_half_way_leaves_the_old_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.bin");
+        save(&path, b"old").unwrap();
+        let half = |file: &mut dyn Write| file.write_all(&[7; 100_000]).and(Err(std::io::Error::other("no more")));
+        let failed = save_with(&path, half).unwrap_err();
+        assert!(failed.to_string().contains("out.bin"), "{failed}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
     #[cfg(unix)]
     #[test]
     fn a_link_stays_a_link() {
