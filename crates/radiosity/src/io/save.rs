@@ -96,7 +96,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("out.bin");
         save(&path, b"old").unwrap();
-        let half = |file: &mut dyn Write| file.write_all(&[7; 100_000]).and(Err(std::io::Error::other("no more")));
+        let half =
+            |file: &mut dyn Write| file.write_all(&[7; 100_000]).and(Err(std::io::Error::other("no more")));
         let failed = save_with(&path, half).unwrap_err();
         assert!(failed.to_string().contains("out.bin"), "{failed}");
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
