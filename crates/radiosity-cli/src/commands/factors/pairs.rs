@@ -6,9 +6,7 @@ use crate::failure::Failure;
 use radiosity::formfactor::{Enclosure, ExchangeRow, Limits};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-
-/// So many rows are found before they are written.
-const BLOCK: usize = 16;
+use std::sync::{Mutex, PoisonError};
 
 /// The rows of all polygons; none when stopped. With an output, rows are noted in a journal beside it as they are found, and
 /// those that are there already are not found again.
@@ -21,27 +19,40 @@ pub(super) fn find(
     let count = enclosure.polygons().len();
     let mut journal =
         output.and_then(beside).map(|path| Journal::open(&path, enclosure, tolerance)).transpose()?;
-    let mut rows = journal.as_mut().map(Journal::take_rows).unwrap_or_default();
-    let mut tally = Tally::new(count, rows.iter().map(|row| row.from));
+    let rows = journal.as_mut().map(Journal::take_rows).unwrap_or_default();
+    let tally = Tally::new(count, rows.iter().map(|row| row.from));
     let mut is_known = vec![false; count];
     rows.iter().for_each(|row| is_known[row.from] = true);
     let missing: Vec<usize> = (0..count).filter(|row| !is_known[*row]).collect();
     let limits = Limits { stop: &|| patience.is_over(), ..Limits::default() };
-    for block in missing.chunks(BLOCK) {
-        let row = |from: &usize| enclosure.exchange_row(*from, tolerance, &limits);
-        let found: Result<Vec<_>, _> = block.par_iter().map(row).collect();
-        for row in found.map_err(Failure::usage)?.into_iter().flatten() {
-            journal.as_mut().map(|journal| journal.add(&row)).transpose()?;
-            tally.advance(row.from);
-            rows.push(row);
-        }
-        if rows.len() < count && patience.is_over() {
-            tally.stop(journal.is_some());
-            return Ok(None);
-        }
+    let notes = Mutex::new(Notes { journal, tally, rows });
+    missing.par_iter().try_for_each(|from| {
+        let found = enclosure.exchange_row(*from, tolerance, &limits).map_err(Failure::usage)?;
+        found.map_or(Ok(()), |row| notes.lock().unwrap_or_else(PoisonError::into_inner).add(row))
+    })?;
+    let Notes { journal, tally, rows } = notes.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if rows.len() < count {
+        tally.stop(journal.is_some());
+        return Ok(None);
     }
     tally.end();
     Ok(Some(rows))
+}
+
+/// The rows found so far, in the order in which they were.
+struct Notes {
+    journal: Option<Journal>,
+    tally: Tally,
+    rows: Vec<ExchangeRow>,
+}
+
+impl Notes {
+    fn add(&mut self, row: ExchangeRow) -> Result<(), Failure> {
+        self.journal.as_mut().map(|journal| journal.add(&row)).transpose()?;
+        self.tally.advance(row.from);
+        self.rows.push(row);
+        Ok(())
+    }
 }
 
 /// The journal's place; none beside what is no file (`/dev/stdout`, a pipe).
