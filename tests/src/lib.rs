@@ -5,13 +5,15 @@
 //! cases of `tests/corpus`, [`company`] sends them down every path. [`against`] sets a result of `polycsg` beside the oracle's, [`shrink`] makes a failing case small, [`survey`] counts how a kind of
 //! input fares, [`trees`] makes expressions, [`near`] views that ask for digits, [`retelling`] tells expressions in other words,
 //! [`triangles`] checks triangulations. [`sweep`] is the oracle for form factors, [`precise`] the same with 90 digits for few
-//! polygons, and [`obstructed`] that for factors from area to area: they use nothing of `formfactor`.
+//! polygons, and [`obstructed`] that for factors from area to area: they use nothing of `formfactor`. [`light`] traces paths in rooms and uses nothing of
+//! `radiosity`.
 pub mod against;
 pub mod company;
 pub mod corpus;
 pub mod enclosures;
 pub mod exact;
 pub mod generators;
+pub mod light;
 pub mod near;
 pub mod obstructed;
 pub mod oracle;
