@@ -99,3 +99,76 @@ fn what_lies_on_a_bodys_faces_and_looks_inward_sees_what_does() {
         assert!((found - expected).abs() < 1e-9 && expected > 0.05, "{found}");
     }
 }
+
+/// A room of 4 x 3 x 2: floor, ceiling, and four walls, fronts inward.
+fn room() -> Vec<PlanarPolygon> {
+    let turned = |polygon: &PlanarPolygon| {
+        let ring: Vec<_> = polygon.loops().next().unwrap().iter().rev().copied().collect();
+        PlanarPolygon::new([ring]).unwrap()
+    };
+    sides([0.0; 3], [4.0, 3.0, 2.0]).iter().map(turned).collect()
+}
+
+/// A speck inside of a solid: with it walls count one by one.
+fn speck([x, y, z]: [f64; 3]) -> PlanarPolygon {
+    polygon(&[[x, y, z], [x + 1e-9, y, z], [x, y + 1e-9, z]])
+}
+
+/// Each pair as `solids` and with specks, and bounds of some.
+fn assert_alike(solids: &[PlanarPolygon], specks: &[PlanarPolygon], least: usize) {
+    let capped = all(&Enclosure::new(solids.to_vec()), solids.len());
+    let walled = all(&Enclosure::new([solids, specks].concat()), solids.len());
+    let seen = capped.iter().filter(|factor| factor.value > 1e-3).count();
+    assert!(seen >= least, "only {seen} factors");
+    for (pair, (capped, walled)) in capped.iter().zip(&walled).enumerate() {
+        let most = capped.error_estimate + walled.error_estimate + 1e-9;
+        let [i, j] = [pair / solids.len(), pair % solids.len()];
+        assert!((capped.value - walled.value).abs() <= most, "{i} {j}: {capped:?} {walled:?}");
+    }
+    let evaluations = |all: &[AreaFormFactor]| all.iter().map(|factor| factor.evaluations).sum::<u64>();
+    assert!(evaluations(&capped) < evaluations(&walled), "no solid was found");
+}
+
+/// The floor inside of the column sees the ceiling inside of it.
+#[test]
+fn a_column_from_floor_to_ceiling_is_a_solid_whose_inside_counts() {
+    let column = sides([1.5, 1.0, 0.0], [2.25, 1.5, 2.0])[..8].to_vec();
+    let scene = [room(), column].concat();
+    assert_alike(&scene, &[speck([1.8, 1.2, 1.0])], 100);
+    let enclosure = Enclosure::new(scene);
+    for (i, j) in [(8, 9), (0, 4), (9, 2)] {
+        let estimate = enclosure.area_form_factor(i, j, 1e-7, &Limits::default()).unwrap().unwrap();
+        let limits = Limits { per_pair: 20_000, ..Limits::default() };
+        let bounded = enclosure.bounded_area_form_factor(i, j, 1e-3, &limits).unwrap().unwrap();
+        let most = bounded.error_bound + estimate.error_estimate;
+        assert!((bounded.value - estimate.value).abs() <= most, "{i} {j}: {bounded:?} {estimate:?}");
+        assert!(bounded.error_bound < 1e-3, "{i} {j}: {bounded:?}");
+    }
+}
+
+/// Three faces of a wall's end, from floor to ceiling; it begins in another wall.
+#[test]
+fn a_wall_that_ends_in_the_room_is_a_solid() {
+    let quad = |corners: [[f64; 3]; 4]| polygon(&corners);
+    let wall = vec![
+        quad([[1.5, 1.0, 0.0], [1.5, 1.0, 2.0], [1.75, 1.0, 2.0], [1.75, 1.0, 0.0]]),
+        quad([[1.5, 0.0, 0.0], [1.5, 0.0, 2.0], [1.5, 1.0, 2.0], [1.5, 1.0, 0.0]]),
+        quad([[1.75, 0.0, 0.0], [1.75, 1.0, 0.0], [1.75, 1.0, 2.0], [1.75, 0.0, 2.0]]),
+    ];
+    assert_alike(&[room(), wall].concat(), &[speck([1.6, 0.5, 1.0])], 60);
+}
+
+/// The floor of an open box sees the ceiling, though no more than one side of the box is missing.
+#[test]
+fn a_lining_sees_out_of_an_open_box() {
+    let open = |sides: Vec<PlanarPolygon>| [&sides[..8], &sides[9..]].concat();
+    let lining = polygon(&[[1.5, 1.0, 0.5], [2.25, 1.0, 0.5], [2.25, 1.5, 0.5], [1.5, 1.5, 0.5]]);
+    let scene = [room(), open(sides([1.5, 1.0, 0.5], [2.25, 1.5, 1.0])), vec![lining]].concat();
+    let last = scene.len() - 1;
+    let found = all(&Enclosure::new(scene.clone()), scene.len());
+    let walled = all(&Enclosure::new([scene, vec![speck([1.8, 1.2, 0.75])]].concat()), last + 1);
+    assert!(found[last * (last + 1) + 8].value > 0.1, "{:?}", found[last * (last + 1) + 8]);
+    for (found, walled) in found.iter().zip(&walled) {
+        assert!((found.value - walled.value).abs() <= found.error_estimate + walled.error_estimate + 1e-9);
+    }
+}

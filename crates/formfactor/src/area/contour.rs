@@ -16,9 +16,9 @@ use std::f64::consts::TAU;
 /// A directed edge.
 type Segment = [DVec3; 2];
 
-/// `A1 F12` and an estimate of its error, rounding included; right only where each polygon is before the other's plane.
-pub(super) fn exchange(one: &Surface, other: &Surface, tolerance: f64) -> [f64; 2] {
-    let (ps, qs) = (&one.edges, &other.edges);
+/// `A1 F12` from the edges of two polygons and an estimate of its error, rounding included; right only where each is before the other's
+/// plane.
+pub(super) fn exchange(ps: &[Segment], qs: &[Segment], tolerance: f64) -> [f64; 2] {
     let size = ps.iter().chain(qs).flatten().fold(0.0, |size: f64, p| size.max(p.distance(ps[0][0])));
     let each = tolerance * TAU / f64::from(u32::try_from(ps.len() * qs.len()).unwrap_or(u32::MAX));
     let (mut sum, mut error) = (0.0, 0.0);

@@ -5,9 +5,9 @@ use super::events::cut;
 use super::integral::{Allowed, Integral, least_whole, most};
 use super::integrand::Integrand;
 use super::patch::Patch;
+use super::plan::{Planned, plan};
 use super::point::{Eye, Focus, Near};
 use super::queue::{Open, Queue};
-use super::uncut::{self, fair_share};
 use crate::scene::surfaces::{Surface, area as area_of};
 use crate::shapes::cell::{Cell, area, fan, halves};
 use glam::DVec3;
@@ -45,13 +45,10 @@ const CLOSE: f64 = 2.0;
 const FEW_NODES: usize = 64;
 
 /// What a rule of few nodes says is raised by this.
-const ROUGH: f64 = 2.0;
+const RAISED: f64 = 2.0;
 
-/// The rule for what is within the tolerance altogether.
-const FAINT: usize = 1;
-
-/// Into so many cells a piece is halved where it is not cut.
-const MOST_CELLS: usize = 16;
+/// What rules before this one err by where some is hidden mostly goes either way.
+const ROUGH: usize = 3;
 
 /// A cell is halved so often before cuts by events are given up.
 const BLIND_HALVINGS: u32 = 4;
@@ -90,7 +87,7 @@ impl<'p> Cubature<'p> {
         let roughly = || source.iter().map(|piece| of.roughly(piece)).sum();
         self.whole = unhidden.map_or_else(roughly, |unhidden| unhidden.value);
         // Where planes cut the polygons off, a few nodes may see little of them.
-        self.scale = if unhidden.is_some() { self.whole } else { ROUGH * self.whole };
+        self.scale = if unhidden.is_some() { self.whole } else { RAISED * self.whole };
         let known = unhidden.map_or(0.0, |unhidden| unhidden.error);
         let whole = self.whole.max(self.least);
         self.tolerance = allowed.error(self.whole, whole);
@@ -102,7 +99,7 @@ impl<'p> Cubature<'p> {
                 return None;
             }
             self.tolerance = allowed.error(self.seen(self.open.value), whole);
-            if known + self.open.error <= self.tolerance {
+            if known + self.open.error() <= self.tolerance {
                 break;
             }
             let Some(worst) = self.open.pop() else { break };
@@ -143,55 +140,33 @@ impl<'p> Cubature<'p> {
     /// Integrates over a piece of the source without cuts, if rules of few nodes are good enough for that.
     fn is_done_uncut(&mut self, piece: &[DVec3]) -> bool {
         let Some(cells) = self.uncut(piece) else { return false };
-        let mut found = Vec::with_capacity(cells.len());
-        for (cell, order, error) in cells {
+        for planned in cells {
+            let Planned { cell, order, error } = planned;
             let view = self.of.view(&cell, false);
             let sum = self.of.product(&cell, order, &view);
             // Gaps between several occluders may open in between nodes; past one, what is dark is convex.
             let may_gap =
                 sum.is_dark && self.of.occluders.len() > 1 && error < self.scale * area(&cell) / self.size;
             let unseen = if may_gap { self.of.unseen(&cell) } else { 0.0 };
-            found.push(Open { order, value: sum.value, error: error.max(unseen), ..Open::over(cell, None) });
+            self.open.push(Open {
+                order,
+                value: sum.value,
+                error: error.max(unseen),
+                ..Open::over(cell, None)
+            });
         }
-        let error: f64 = found.iter().map(|open| open.error).sum();
-        let is_good = error <= self.tolerance * area_of(piece) / self.size;
-        if is_good {
-            found.into_iter().for_each(|open| self.open.push(open));
-        }
-        is_good
+        true
     }
 
-    /// Cells of a piece with rules that are good enough without cuts, and what they may err by, if they take few nodes.
-    fn uncut(&self, piece: &[DVec3]) -> Option<Vec<(Cell, usize, f64)>> {
-        let mut left = FEW_NODES * self.of.occluders.len().pow(2);
-        let mut coarse = fan(piece);
-        let mut found = Vec::with_capacity(coarse.len());
-        while let Some(cell) = coarse.pop() {
-            if let Some((order, error)) = self.rule_uncut(&cell) {
-                left = left.checked_sub(RULES[order].len().pow(2))?;
-                found.push((cell, order, error));
-            } else if coarse.len() + found.len() < MOST_CELLS {
-                coarse.extend(halves(cell));
-            } else {
-                return None;
-            }
-        }
-        Some(found)
-    }
-
-    /// The cheapest rule that is good enough on a cell without cuts, if any, and what it may err by.
-    fn rule_uncut(&self, cell: &Cell) -> Option<(usize, f64)> {
-        let share = area(cell) / self.size;
-        let [skewness, apart] = self.of.shape(cell);
-        let view = CellView { focus: Focus::Part, is_cut: false, skewness, apart };
-        let slopes = self.of.slopes(cell);
-        let mut errors =
-            (0..RULES.len()).map(|order| self.scale * uncut::error(&view, slopes, order)).enumerate();
-        let fair = errors.find(|(order, error)| *error <= self.tolerance * fair_share(*order));
-        // Where all that could be seen is within the tolerance, it does not matter which.
-        let is_faint = self.scale <= self.tolerance * fair_share(RULES.len() - 1);
-        let (order, error) = fair.or_else(|| is_faint.then_some((FAINT, self.scale)))?;
-        Some((order, share * error))
+    /// Cells of a piece and rules that are good enough without cuts, if they take few nodes.
+    fn uncut(&self, piece: &[DVec3]) -> Option<Vec<Planned>> {
+        let share = |cell: &Cell| area(cell) / self.size;
+        let errors = |cell: &Cell| {
+            let each = self.of.errors_uncut(cell, self.scale / self.size);
+            each.map(|error| self.scale * share(cell) * error)
+        };
+        let most_nodes = FEW_NODES * self.of.occluders.len().pow(2);
+        plan(fan(piece), [self.tolerance, self.scale], most_nodes, share, errors)
     }
 
     /// Integrates over a patch cut at all events, but for those that change less than `least` there; whether they are few enough.
@@ -221,6 +196,7 @@ impl<'p> Cubature<'p> {
             let a_priori = |order| share * self.scale * a_priori(&view, order);
             open.order = (least..FINE).find(|order| a_priori(*order) <= allowed).unwrap_or(FINE.max(least));
             open.error = a_priori(open.order);
+            open.is_rough = open.order < ROUGH && view.focus == Focus::Part && left_out.is_some();
             let is_dark = if open.order < FINE {
                 self.by_few(&mut open, &view)
             } else {

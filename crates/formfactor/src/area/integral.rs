@@ -10,6 +10,16 @@ pub(super) struct Integral {
     pub(super) evaluations: u64,
 }
 
+impl Integral {
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            error: self.error + other.error,
+            evaluations: self.evaluations + other.evaluations,
+        }
+    }
+}
+
 /// What a pair is allowed to err by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowed {

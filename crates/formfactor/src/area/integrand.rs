@@ -3,8 +3,9 @@ use super::clip::before;
 use super::estimate::{CellView, RULES, Smoothness};
 use super::events::{Event, are_skew, events};
 use super::patch::Patch;
+use super::plan::Errors;
 use super::point::{Eye, Focus, Near, Seen};
-use super::uncut::{away_from, away_from_surface, slopes};
+use super::uncut::{away_from, away_from_surface, errors};
 use crate::numeric::gauss::RULE_2;
 use crate::scene::surfaces::Surface;
 use crate::shapes::cell::{Cell, area, fan, nodes};
@@ -63,9 +64,15 @@ impl<'p> Integrand<'p> {
         events(patch, &self.target, self.occluders)
     }
 
-    /// The slopes of ramps on a cell, added.
-    pub(super) fn slopes(&self, cell: &Cell) -> f64 {
-        slopes(cell, self.to, self.occluders)
+    /// What rules may err by on a cell without cuts, as a share of what it saw with nothing in between, `mean` by area.
+    pub(super) fn errors_uncut(&self, cell: &Cell, mean: f64) -> Errors {
+        let [skewness, _] = self.shape(cell);
+        let apart = if self.is_rest_known {
+            f64::INFINITY
+        } else {
+            2.0 * away_from_surface(self.to, cell) / longest_side(cell)
+        };
+        errors(cell, [skewness, apart], mean, self.to, self.occluders)
     }
 
     pub(super) fn is_skew(&self) -> bool {
@@ -79,10 +86,11 @@ impl<'p> Integrand<'p> {
         nodes.map(|(point, weight)| weight * self.eye.look(point, self.normal, &self.target, &[]).whole).sum()
     }
 
-    /// How far a cell is at least from what it looks at.
+    /// How far a cell is at least from what it looks at. What is hidden is behind an occluder.
     fn away(&self, cell: &Cell) -> f64 {
         let to_occluders = self.occluders.iter().map(|occluder| away_from(occluder, cell));
-        to_occluders.fold(away_from_surface(self.to, cell), f64::min)
+        let to_target = if self.is_rest_known { f64::INFINITY } else { away_from_surface(self.to, cell) };
+        to_occluders.fold(to_target, f64::min)
     }
 
     /// How a cell sees the target, all events on it cut or not.
@@ -99,7 +107,7 @@ impl<'p> Integrand<'p> {
     /// How far a cell is from a parallelogram, and from what it looks at.
     pub(super) fn shape(&self, cell: &Cell) -> [f64; 2] {
         let [a, b, c, d] = *cell;
-        let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
+        let longest = longest_side(cell);
         [(a - b + c - d).length() / longest, 2.0 * self.away(cell) / longest]
     }
 
@@ -145,4 +153,8 @@ impl<'p> Integrand<'p> {
             _ => seen.whole,
         }
     }
+}
+
+fn longest_side([a, b, c, d]: &Cell) -> f64 {
+    [*b - *a, *c - *b, *d - *c, *a - *d].map(DVec3::length).into_iter().fold(0.0, f64::max)
 }

@@ -9,6 +9,7 @@ mod contour;
 mod cubature;
 mod estimate;
 mod events;
+mod hollow;
 mod integral;
 mod integrand;
 mod kernel;
@@ -16,10 +17,12 @@ mod lambert;
 mod pair;
 mod part;
 mod patch;
+mod plan;
 mod point;
 mod proven;
 mod queue;
 mod silhouettes;
+mod swept;
 mod tolerance;
 mod uncut;
 
@@ -47,7 +50,8 @@ pub struct AreaFormFactor {
     /// distance, or the differences and roundings of contour integrals. Elsewhere, where that is good enough, it is what rules err by as
     /// shadows sweep over the edges of what is seen, by their pace and length. Else one polygon is cut along the lines on which
     /// edges and vertices seem to meet, so that the integrand is analytic on each cell but where three edges seem to meet. Rules of few
-    /// nodes take an a-priori share of what is hidden at most; finer ones take the differences between three rules, times what theory
+    /// nodes take an a-priori share of what is hidden at most, which on different cells goes either way: the root of the sum of squares and an
+    /// eighth of the sum. Finer ones take the differences between three rules, times what theory
     /// says is left of them: r^(-2n) for n nodes a side, r from the distance to what is looked at, or n^(-3) where three edges may
     /// meet. Cuts that are not made count with what they can change, and a cell that sees nothing with what its umbrae leave
     /// open.

@@ -4,7 +4,8 @@ use super::integral::{Allowed, Integral, least_whole};
 use super::lambert::lambert;
 use super::point::{Eye, Near};
 use super::proven::Proof;
-use super::{contact::contact, contour, kernel};
+use super::swept::{rounded, swept};
+use super::{contour, hollow, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
 use crate::scene::apart::are_apart;
 use crate::scene::occluder::{Before, Face};
@@ -49,6 +50,19 @@ impl<'e> Outlook<'e> {
         eye: &mut Eye,
         is_cancelled: &(impl Fn() -> bool + ?Sized),
     ) -> Option<Integral> {
+        let past = self.past_solids(target, allowed, eye, is_cancelled)?;
+        let through = hollow::exchange(self.own, target, EASY * allowed.error(past.value, past.value));
+        Some(past.plus(through))
+    }
+
+    /// The same past solids, as if none were hollow.
+    fn past_solids(
+        &self,
+        target: &Surface,
+        allowed: &Allowed,
+        eye: &mut Eye,
+        is_cancelled: &(impl Fn() -> bool + ?Sized),
+    ) -> Option<Integral> {
         let [one, other] = [self.own, target];
         let Some(occluders) = self.between(other, eye) else { return Some(Integral::default()) };
         if occluders.is_empty() {
@@ -76,16 +90,19 @@ impl<'e> Outlook<'e> {
         let occluders = between.as_deref().unwrap_or_default();
         let (one, other) = in_order(one, other, occluders);
         let deviation = deviation + rounded([one, other], occluders);
-        let swept = SWEPT * deviation * edges([one, other], occluders)
-            + touching([one, other], occluders, SWEPT * deviation);
+        let swept = swept([one, other], occluders, deviation);
+        let through = hollow::exchange(one, other, 0.0);
+        let through = Integral { error: SURE * through.error + swept, ..through };
         if between.is_none() {
-            return Some(Integral { error: swept, ..Integral::default() });
+            return Some(through);
         }
         if occluders.is_empty() && contour::is_closed(one, other) && are_before([one, other]) {
-            let [value, error] = contour::exchange(one, other, 0.0);
-            return Some(Integral { value, error: SURE * error + swept, evaluations: 0 });
+            let [value, error] = contour::exchange(&one.edges, &other.edges, 0.0);
+            return Some(through.plus(Integral { value, error: SURE * error, evaluations: 0 }));
         }
-        Proof::new(one, other, occluders, deviation).integrate(swept, allowed, is_cancelled)
+        let past =
+            Proof::new(one, other, occluders, deviation).integrate(through.error, allowed, is_cancelled)?;
+        Some(Integral { value: past.value + through.value, ..past })
     }
 
     /// The numbers of the occluders that balls do not show to be elsewhere than between this polygon and another one.
@@ -181,43 +198,6 @@ fn in_order<'s>(one: &'s Surface, other: &'s Surface, occluders: &[Near]) -> (&'
 /// Roundings of a closed form are raised by so much.
 const SURE: f64 = 8.0;
 
-/// A deviation moves what edges seem to meet by no more than so many times as much: to either side, and where vertices are joined.
-const SWEPT: f64 = 12.0;
-
-/// How far roundings of clipped corners and of what side they are on may move them.
-fn rounded(pair: [&Surface; 2], occluders: &[Near]) -> f64 {
-    let own = pair.iter().flat_map(|surface| surface.pieces.iter().flatten());
-    let points = own.chain(occluders.iter().flat_map(|occluder| &occluder.corners));
-    let (middle, mut extent, mut largest) = (pair[0].middle, 0.0_f64, 0.0_f64);
-    for point in points {
-        extent = extent.max(point.distance(middle));
-        largest = largest.max(point.abs().max_element());
-    }
-    1e-12 * extent + 8.0 * f64::EPSILON * largest
-}
-
-/// The length of all edges. What passes the strip that an edge sweeps is no more than the strip's area.
-fn edges(pair: [&Surface; 2], occluders: &[Near]) -> f64 {
-    let own = pair.iter().flat_map(|surface| &surface.edges).map(|[a, b]| a.distance(*b));
-    let ridges = occluders.iter().flat_map(|occluder| &occluder.ridges);
-    own.chain(ridges.map(|ridge| ridge.ends[0].distance(ridge.ends[1]))).sum()
-}
-
-/// The area of the parts of two surfaces that lie within `reach` of each other or of a plate: what they see there is not known.
-fn touching(pair: [&Surface; 2], occluders: &[Near], reach: f64) -> f64 {
-    let edges = |piece: &[DVec3]| -> Vec<[DVec3; 2]> {
-        piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]).collect()
-    };
-    let [one, other] = pair;
-    let mutual =
-        other.pieces.iter().map(|piece| contact(&one.pieces, edges(piece).into_iter(), other.face, reach));
-    let of_plates = occluders.iter().filter(|occluder| occluder.is_plate).map(|plate| {
-        let edges = || plate.ridges.iter().map(|ridge| ridge.ends);
-        pair.iter().map(|surface| contact(&surface.pieces, edges(), plate.faces[0], reach)).sum::<f64>()
-    });
-    mutual.chain(of_plates).sum()
-}
-
 /// Whether each of two is wholly before the other's plane.
 fn are_before([one, other]: [&Surface; 2]) -> bool {
     is_wholly_before(one, other.face) && is_wholly_before(other, one.face)
@@ -245,7 +225,7 @@ fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Int
         None
     };
     far.or_else(|| {
-        let [value, error] = contour::exchange(one, other, tolerance);
+        let [value, error] = contour::exchange(&one.edges, &other.edges, tolerance);
         (error <= tolerance).then_some(Integral { value: value.max(0.0), error, evaluations: 0 })
     })
 }

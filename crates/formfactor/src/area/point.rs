@@ -17,6 +17,7 @@ pub(super) type Near<'e> = Cow<'e, Occluder>;
 #[derive(Debug, Default)]
 pub(super) struct Eye {
     facing: Vec<bool>,
+    sides: Vec<[bool; 2]>,
     /// Of the occluders that hide something from a cell.
     silhouettes: Silhouettes,
     /// The half-spaces of all cones, and where those of each end.
@@ -149,17 +150,21 @@ impl Eye {
         seen
     }
 
-    /// The half-spaces of the parts of the cones that all of some points share, relative to the first.
-    fn cones(&mut self, points: &[DVec3], occluders: &[Near]) {
+    /// The half-spaces of the parts of the cones that all points of a cell share, from its corners and relative to the first.
+    fn cones(&mut self, corners: &[DVec3], occluders: &[Near]) {
         self.walls.clear();
         self.ends.clear();
-        occluders.iter().for_each(|occluder| self.cone(points, occluder));
+        occluders.iter().for_each(|occluder| self.cone(corners, occluder));
     }
 
     /// The half-spaces of one cone more.
     fn cone(&mut self, points: &[DVec3], occluder: &Near) {
+        occluder.sides(points, &mut self.sides);
         for from in points {
             occluder.facing(*from, &mut self.facing);
+            let sides = self.facing.iter_mut().zip(&self.sides);
+            // What all others see or do not see, one that is on the plane does not see otherwise.
+            sides.for_each(|(is_seen, [some, others])| *is_seen = *some && (!others || *is_seen));
             let before = self.walls.len();
             let shift = *from - points[0];
             let Self { walls, facing, .. } = &mut *self;

@@ -1,9 +1,9 @@
-//! Closed convex bodies among the polygons, and such as lack one face. Of such a body only the near side can occlude, and of the target's own body nothing.
+//! Closed convex bodies among the polygons, and such as lack a few faces. Of such a body only the near side can occlude, and of the target's own body nothing.
 //!
 //! With dA outside of a body, every ray that leaves it through its far side has entered it through its near side: the far side
 //! hides nothing more. The common edge of two faces of the near side is no part of the visible boundary, so that the body's
 //! silhouette remains.
-use super::cap::{Cap, lid};
+use super::cap::{Cap, lids};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::{cmp::Ordering, collections::BTreeMap};
@@ -14,7 +14,7 @@ pub(crate) struct Bodies {
     /// Which body each polygon belongs to.
     of: Vec<Option<usize>>,
     faces: Vec<Vec<usize>>,
-    /// Those that one more face would close.
+    /// Those that a few more faces would close.
     caps: Vec<Cap>,
 }
 
@@ -28,15 +28,16 @@ impl Bodies {
         let mut bodies = Self { of: vec![None; polygons.len()], ..Self::default() };
         let mut is_known = vec![false; polygons.len()];
         for first in 0..polygons.len() {
-            let faces = connected(first, &neighbours, &mut is_known);
+            let faces = connected(first, polygons, &neighbours, &mut is_known);
             if !(2..=MOST).contains(&faces.len()) || !is_convex(polygons, &faces) {
                 continue;
             }
-            if faces.iter().all(|face| neighbours[*face].iter().all(Option::is_some)) {
+            let is_own = |across: &Option<usize>| across.is_some_and(|other| faces.contains(&other));
+            if faces.iter().all(|face| neighbours[*face].iter().all(is_own)) {
                 faces.iter().for_each(|face| bodies.of[*face] = Some(bodies.faces.len()));
                 bodies.faces.push(faces);
-            } else if let Some(lid) = lid(polygons, &faces, &neighbours) {
-                bodies.caps.push(Cap { faces, lid });
+            } else if let Some(lids) = lids(polygons, &faces, &neighbours) {
+                bodies.caps.push(Cap { faces, lids });
             }
         }
         bodies
@@ -114,13 +115,22 @@ fn neighbours(polygons: &[PlanarPolygon]) -> Vec<Vec<Option<usize>>> {
     polygons.iter().map(across).collect()
 }
 
-/// The polygons that are connected with one by edges, if they are not known yet.
-fn connected(first: usize, neighbours: &[Vec<Option<usize>>], is_known: &mut [bool]) -> Vec<usize> {
+/// The polygons that are connected with one by edges that do not turn inward, if they are not known yet.
+fn connected(
+    first: usize,
+    polygons: &[PlanarPolygon],
+    neighbours: &[Vec<Option<usize>>],
+    is_known: &mut [bool],
+) -> Vec<usize> {
+    let is_behind = |id: usize, other: usize| {
+        polygons[other].points().iter().all(|p| polygons[id].plane().side_of(*p).is_le())
+    };
     let (mut found, mut open) = (Vec::new(), vec![first]);
     while let Some(id) = open.pop() {
         if !std::mem::replace(&mut is_known[id], true) {
             found.push(id);
-            open.extend(neighbours[id].iter().flatten());
+            let across = neighbours[id].iter().flatten().copied();
+            open.extend(across.filter(|other| is_behind(id, *other) && is_behind(*other, id)));
         }
     }
     found

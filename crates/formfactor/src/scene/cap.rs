@@ -1,94 +1,136 @@
-//! Caps: polygons that one more convex face would close around a convex solid, as walls and a roof on the ground.
+//! Caps: polygons that a few more convex faces would close around a convex solid, as walls and a roof on the ground, or
+//! the four walls of a column.
 //!
 //! ```text
 //!      _______
-//!     /|     /|      A line meets the solid's boundary twice, and the lid, which is flat, once at most: what passes
-//!    /_|____/ |      through the solid is blocked by the cap, wherever it enters. So from outside a cap hides what the
-//!    | :    | |      closed solid hides.
+//!     /|     /|      A line meets the solid's boundary twice. So what passes through the solid is blocked by the cap, or passes
+//!    /_|____/ |      through two lids. Where one of them only closes the cap and the others are closed off by what else is
+//!    | :    | |      there, that cannot be: from outside a cap hides what the closed solid hides.
 //!    | :....|_|
 //!    |/  lid|/
 //! ```
-use super::tree::Tree;
-use crate::shapes::{extent::Extent, polygon::PlanarPolygon};
-use std::{cmp::Ordering, collections::BTreeMap};
+use crate::numeric::predicates::{Plane, turn_in_plane};
+use crate::shapes::polygon::PlanarPolygon;
+use glam::{DVec2, DVec3};
+use std::{
+    cmp::Ordering,
+    collections::{BTreeMap, BTreeSet},
+};
 
-/// The polygons of a cap, and the face that it lacks, its front outward.
+/// The polygons of a cap, and the faces that it lacks, their fronts outward.
 #[derive(Clone, Debug)]
 pub(crate) struct Cap {
     pub(crate) faces: Vec<usize>,
-    pub(crate) lid: PlanarPolygon,
+    pub(crate) lids: Vec<PlanarPolygon>,
 }
 
-/// The face that convex faces lack, if one convex face closes them. `neighbours` has what is across each edge.
-pub(super) fn lid(
+/// Solids of more corners are not looked for: wrapping takes their square.
+const MOST_CORNERS: usize = 128;
+
+/// Nor such as lack more faces.
+const MOST_LIDS: usize = 16;
+
+/// A corner's bits.
+type Bits = [u64; 3];
+
+fn bits(p: DVec3) -> Bits {
+    p.to_array().map(f64::to_bits)
+}
+
+/// The faces that convex faces lack to close around the convex hull of their corners, if they are faces of it. `neighbours` has what is
+/// across each edge.
+pub(super) fn lids(
     polygons: &[PlanarPolygon],
     faces: &[usize],
     neighbours: &[Vec<Option<usize>>],
-) -> Option<PlanarPolygon> {
-    let bits = |p: glam::DVec3| p.to_array().map(f64::to_bits);
+) -> Option<Vec<PlanarPolygon>> {
+    let mut corners: Vec<DVec3> = faces.iter().flat_map(|face| polygons[*face].points()).copied().collect();
+    corners.sort_by_key(|p| bits(*p));
+    corners.dedup();
+    if corners.len() > MOST_CORNERS {
+        return None;
+    }
     let edges = faces.iter().flat_map(|face| polygons[*face].edges().zip(&neighbours[*face]));
-    let open = edges.filter(|(_, across)| across.is_none()).map(|(edge, _)| edge);
-    // The lid's edges run the other way.
-    let mut next = BTreeMap::new();
-    for (to, from) in open {
-        if next.insert(bits(from), to).is_some() {
+    let open = edges.filter(|(_, across)| across.is_none_or(|other| !faces.contains(&other)));
+    // A lid's edges run the other way.
+    let mut open: BTreeMap<[Bits; 2], [DVec3; 2]> =
+        open.map(|((a, b), _)| ([bits(b), bits(a)], [b, a])).collect();
+    let mut lids = Vec::new();
+    while let Some((_, edge)) = open.pop_first() {
+        let lid = wrap(edge, &corners)?;
+        for (a, b) in lid.edges().filter(|(a, b)| [*a, *b] != edge) {
+            if open.remove(&[bits(a), bits(b)]).is_none() {
+                open.insert([bits(b), bits(a)], [b, a]);
+            }
+        }
+        lids.push(lid);
+        if lids.len() > MOST_LIDS {
             return None;
         }
     }
-    let (start, mut ring) = (*next.keys().next()?, Vec::new());
-    let mut at = start;
-    while let Some(to) = next.remove(&at) {
-        ring.push(to);
-        at = bits(to);
-    }
-    let lid = PlanarPolygon::new([ring]).ok()?;
-    let is_lid = at == start && next.is_empty() && lid.is_convex() && lid.deviation() == 0.0;
-    let mut heights = faces.iter().flat_map(|face| polygons[*face].points()).map(|p| lid.plane().side_of(*p));
-    let is_behind = heights.clone().all(|side| side != Ordering::Greater);
-    (is_lid && is_behind && heights.any(|side| side == Ordering::Less)).then_some(lid)
+    is_closed(faces.iter().map(|face| &polygons[*face]).chain(&lids)).then_some(lids)
 }
 
-/// Whether other polygons may see each other through a convex solid: one that is not on the outer side of some face, or
-/// two on its faces that look inward and do not lie in one plane.
-pub(crate) fn is_entered(
-    polygons: &[PlanarPolygon],
-    tree: &Tree,
-    faces: &[usize],
-    lid: Option<&PlanarPolygon>,
-) -> bool {
-    let points = faces.iter().flat_map(|face| polygons[*face].points());
-    let around = points.fold(Extent::NOTHING, |all, p| all.with(Extent { low: *p, high: *p }));
-    let sides: Vec<&PlanarPolygon> = faces.iter().map(|face| &polygons[*face]).chain(lid).collect();
-    let others = tree.find(|extent| extent.misses(&around)).into_iter().filter(|id| !faces.contains(id));
-    let mut inward: Option<&PlanarPolygon> = None;
-    for other in others.map(|id| &polygons[id]) {
-        match sides.iter().map(|side| stance(other, side)).max() {
-            Some(Stance::Outside) => (),
-            Some(Stance::Inward) if inward.is_none_or(|first| other.lies_in_plane_of(first)) => {
-                inward = Some(other);
-            }
-            _ => return true,
+/// Whether each edge runs once each way.
+fn is_closed<'p>(sides: impl Iterator<Item = &'p PlanarPolygon>) -> bool {
+    let edges: Vec<[Bits; 2]> =
+        sides.flat_map(PlanarPolygon::edges).map(|(a, b)| [bits(a), bits(b)]).collect();
+    let known: BTreeSet<&[Bits; 2]> = edges.iter().collect();
+    known.len() == edges.len() && edges.iter().all(|[a, b]| known.contains(&[*b, *a]))
+}
+
+/// The face of the convex hull of corners that an edge of it belongs to, counter-clockwise seen from outside.
+fn wrap([from, to]: [DVec3; 2], corners: &[DVec3]) -> Option<PlanarPolygon> {
+    let mut planes = corners.iter().filter_map(|corner| Plane::through([from, to, *corner]));
+    let first = planes.next()?;
+    let outer =
+        planes.fold(
+            first,
+            |best, plane| {
+                if best.side_of(plane.corners[2]) == Ordering::Greater { plane } else { best }
+            },
+        );
+    let mut on = Vec::new();
+    for corner in corners {
+        match outer.side_of(*corner) {
+            Ordering::Greater => return None,
+            Ordering::Equal => on.push(*corner),
+            Ordering::Less => (),
         }
     }
-    false
+    let is_solid = on.len() < corners.len();
+    let face = PlanarPolygon::new([hull(&on, &outer)?]).ok()?;
+    (is_solid && face.is_convex() && face.deviation() == 0.0).then_some(face)
 }
 
-/// Where a polygon is as far as one face of a convex solid says, from the worst on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Stance {
-    /// Some of it is behind the face.
-    Behind,
-    /// In the face's plane, and looks into the solid.
-    Inward,
-    /// Before the face, or in its plane and looks away.
-    Outside,
-}
-
-fn stance(other: &PlanarPolygon, side: &PlanarPolygon) -> Stance {
-    let heights = other.points().iter().map(|p| side.plane().side_of(*p));
-    match [heights.clone().min(), heights.max()] {
-        [Some(Ordering::Less), _] => Stance::Behind,
-        [_, Some(Ordering::Equal)] if other.normal().dot(side.normal()) < 0.0 => Stance::Inward,
-        _ => Stance::Outside,
+/// The convex hull of points of a plane, without those within its sides, counter-clockwise seen from where its normal points to.
+fn hull(points: &[DVec3], plane: &Plane) -> Option<Vec<DVec3>> {
+    let normal = plane.rounded();
+    let dropped = normal.abs().max_position();
+    let [u, v] = [(dropped + 1) % 3, (dropped + 2) % 3];
+    let flat = |p: &DVec3| DVec2::new(p[u], p[v]);
+    let mut points = points.to_vec();
+    points.sort_by(|a, b| flat(a).to_array().partial_cmp(&flat(b).to_array()).unwrap_or(Ordering::Equal));
+    let mut ring = half_hull(points.iter(), flat);
+    ring.extend(half_hull(points.iter().rev(), flat));
+    if normal[dropped] < 0.0 {
+        ring.reverse();
     }
+    (ring.len() > 2).then_some(ring)
+}
+
+/// The right-hand side of a hull, from the first of its points on, without the last. [Andrew 1979]
+fn half_hull<'p>(points: impl Iterator<Item = &'p DVec3>, flat: impl Fn(&DVec3) -> DVec2) -> Vec<DVec3> {
+    let mut side: Vec<DVec3> = Vec::new();
+    for point in points {
+        while let [.., a, b] = &side[..] {
+            if turn_in_plane(flat(a), flat(b), flat(point)) == Ordering::Greater {
+                break;
+            }
+            side.pop();
+        }
+        side.push(*point);
+    }
+    side.pop();
+    side
 }

@@ -4,6 +4,7 @@ pub(crate) mod body;
 pub(crate) mod cap;
 pub(crate) mod coplanar;
 pub(crate) mod enclosure;
+pub(crate) mod inside;
 pub(crate) mod occluder;
 pub(crate) mod pool;
 pub(crate) mod shaft;

@@ -34,6 +34,8 @@ pub(crate) struct Occluder {
     pub(crate) is_plate: bool,
     pub(crate) middle: DVec3,
     pub(crate) radius: f64,
+    /// No shadow along parallel rays is larger: half of the area of all faces.
+    pub(crate) breadth: f64,
 }
 
 impl Occluder {
@@ -50,7 +52,8 @@ impl Occluder {
         corners.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
         corners.dedup();
         let (middle, radius) = ball(&corners);
-        Self { ridges, faces, corners, is_plate, middle, radius }
+        let breadth = breadth(&ridges, faces.len(), middle);
+        Self { ridges, faces, corners, is_plate, middle, radius, breadth }
     }
 
     /// Whether a point sees each face, as far as doubles say.
@@ -61,19 +64,19 @@ impl Occluder {
 
     /// Whether all points of a cell see the same faces.
     pub(crate) fn turns_alike(&self, cell: &[DVec3]) -> bool {
-        self.faces.iter().all(|[on, normal]| {
-            let heights = cell.iter().map(|p| normal.dot(*p - *on));
-            let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+        self.faces.iter().all(|face| {
+            let [low, high] = extent(cell, face);
             -low <= SLIGHT * high || high <= -SLIGHT * low
         })
     }
 
-    /// Whether some points of a cell see each face, and whether some do not.
+    /// Whether some points of a cell see each face, and whether some do not: inside of it, so that corners on a face's plane
+    /// see what the others see.
     pub(crate) fn sides(&self, cell: &[DVec3], sides: &mut Vec<[bool; 2]>) {
         sides.clear();
-        sides.extend(self.faces.iter().map(|[on, normal]| {
-            let heights = cell.iter().map(|p| normal.dot(*p - *on));
-            heights.fold([false; 2], |[seen, unseen], h| [seen || h > 0.0, unseen || h <= 0.0])
+        sides.extend(self.faces.iter().map(|face| {
+            let [low, high] = extent(cell, face);
+            [high > -SLIGHT * low, low < -SLIGHT * high || high == 0.0]
         }));
     }
 
@@ -145,6 +148,21 @@ impl Occluder {
     }
 }
 
+/// Half of the area of a convex body's faces; one that is never seen has what the others do not close.
+fn breadth(ridges: &[Ridge], faces: usize, middle: DVec3) -> f64 {
+    let mut areas = vec![DVec3::ZERO; faces];
+    for Ridge { ends: [a, b], sides } in ridges {
+        let part = (*a - middle).cross(*b - middle) / 2.0;
+        for (side, part) in sides.iter().zip([part, -part]) {
+            if let Some(area) = areas.get_mut(*side) {
+                *area += part;
+            }
+        }
+    }
+    let open: DVec3 = areas.iter().sum();
+    (areas.iter().map(|area| area.length()).sum::<f64>() + open.length()) / 2.0
+}
+
 /// Calls with each ridge that is an edge of the silhouette, as a point sees it that sees the faces `facing`: edges that run
 /// counter-clockwise.
 pub(crate) fn silhouette(ridges: &[Ridge], facing: &[bool], mut with: impl FnMut([DVec3; 2])) {
@@ -156,6 +174,12 @@ pub(crate) fn silhouette(ridges: &[Ridge], facing: &[bool], mut with: impl FnMut
             with(if is_left { [*a, *b] } else { [*b, *a] });
         }
     }
+}
+
+/// How far points are below a plane at most, and above it.
+fn extent(points: &[DVec3], [on, normal]: &Face) -> [f64; 2] {
+    let heights = points.iter().map(|p| normal.dot(*p - *on));
+    heights.fold([0.0; 2], |[low, high], h| [low.min(h), high.max(h)])
 }
 
 /// What lies behind a plane by no more than this of its distance from the plane's point counts as before it.

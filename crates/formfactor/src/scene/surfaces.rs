@@ -1,8 +1,8 @@
 //! What form factors from area to area need of the polygons, found once: their convex pieces, and the convex occluders among
 //! them.
 use super::body::Bodies;
-use super::cap::is_entered;
 use super::coplanar::planes;
+use super::inside::{Inward, Solid};
 use super::occluder::{Face, Occluder, Ridge, ball};
 use super::tree::Tree;
 use crate::shapes::cell::{Cell, Nodes, fan};
@@ -36,6 +36,30 @@ pub(crate) struct Surface {
     pub(crate) is_triangular: bool,
     /// Four nodes of each cell.
     pub(crate) nodes: Vec<Nodes>,
+    /// The hollow solids that it looks into.
+    pub(crate) hollows: Vec<Hollow>,
+}
+
+/// A convex solid that is an occluder though it is hollow, as what lies in the plane of one of its sides looks into it.
+#[derive(Clone, Debug)]
+pub(crate) struct Hollow {
+    /// The number of the solid, and of the side.
+    pub(crate) solid: usize,
+    pub(crate) side: usize,
+    /// The side, counter-clockwise seen from inside.
+    pub(crate) outline: Vec<DVec3>,
+}
+
+impl Hollow {
+    /// The sides of the side, one after the other.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
+        let next = self.outline.iter().cycle().skip(1);
+        self.outline.iter().zip(next).map(|(a, b)| [*a, *b])
+    }
+
+    pub(crate) fn perimeter(&self) -> f64 {
+        self.edges().map(|[a, b]| a.distance(b)).sum()
+    }
 }
 
 /// What may stand in between.
@@ -69,14 +93,22 @@ impl Surfaces {
         let planes = planes(polygons);
         let solids = solids(polygons, bodies, tree);
         let mut solid_of = vec![None; polygons.len()];
-        for (number, (faces, _)) in solids.iter().enumerate() {
-            faces.iter().for_each(|face| solid_of[*face] = Some(number));
+        for (number, (solid, _)) in solids.iter().enumerate() {
+            solid.faces.iter().for_each(|face| solid_of[*face] = Some(number));
         }
         let surface =
             |(polygon, (plane, solid)): (_, (&usize, &Option<usize>))| Surface::new(polygon, *plane, *solid);
-        let surfaces = polygons.iter().zip(planes.iter().zip(&solid_of)).map(surface).collect();
-        let hider = |(number, (faces, lid)): (usize, &Solid)| Hider {
-            shape: of_solid(polygons, &planes, faces, *lid),
+        let mut surfaces: Vec<Surface> =
+            polygons.iter().zip(planes.iter().zip(&solid_of)).map(surface).collect();
+        for (number, (solid, inward)) in solids.iter().enumerate() {
+            let sides: Vec<&PlanarPolygon> = solid.sides(polygons).collect();
+            for (id, side) in inward {
+                let outline = sides[*side].points().iter().rev().copied().collect();
+                surfaces[*id].hollows.push(Hollow { solid: number, side: *side, outline });
+            }
+        }
+        let hider = |(number, (solid, _)): (usize, &(Solid, Vec<Inward>))| Hider {
+            shape: of_solid(polygons, &planes, *solid),
             of: Origin::Body(number),
         };
         let mut hiders: Vec<Hider> = solids.iter().enumerate().map(hider).collect();
@@ -118,12 +150,13 @@ impl Surface {
             pieces,
             cells,
             nodes,
+            hollows: Vec::new(),
         }
     }
 
     /// A part of it, whose front is on the same side.
     pub(crate) fn part(&self, polygon: &PlanarPolygon) -> Self {
-        Self { face: self.face, ..Self::new(polygon, self.plane, self.body) }
+        Self { face: self.face, hollows: self.hollows.clone(), ..Self::new(polygon, self.plane, self.body) }
     }
 
     /// Whether it is a part of an occluder, or lies in its plane: then the occluder hides nothing of it.
@@ -182,26 +215,18 @@ fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
     true
 }
 
-/// The faces of a convex solid, and a lid for one that is a cap.
-type Solid<'b> = (&'b [usize], Option<&'b PlanarPolygon>);
-
-/// Closed bodies and caps with nothing in them: something inside sees what else is inside, and through a cap's open face.
-fn solids<'b>(polygons: &[PlanarPolygon], bodies: &'b Bodies, tree: &Tree) -> Vec<Solid<'b>> {
-    let closed = (0..bodies.count()).map(|body| (bodies.faces(body), None));
-    let caps = bodies.caps().iter().map(|cap| (&cap.faces[..], Some(&cap.lid)));
-    closed.chain(caps).filter(|(faces, lid)| !is_entered(polygons, tree, faces, *lid)).collect()
+/// Closed bodies and caps that hide what they would if they were full, and what looks into each.
+fn solids<'b>(polygons: &[PlanarPolygon], bodies: &'b Bodies, tree: &Tree) -> Vec<(Solid<'b>, Vec<Inward>)> {
+    let closed = (0..bodies.count()).map(|body| Solid { faces: bodies.faces(body), lids: &[] });
+    let caps = bodies.caps().iter().map(|cap| Solid { faces: &cap.faces, lids: &cap.lids });
+    closed.chain(caps).filter_map(|solid| Some((solid, solid.looked_into(polygons, tree)?))).collect()
 }
 
 /// A convex solid: the edges between faces in different planes.
-fn of_solid(
-    polygons: &[PlanarPolygon],
-    planes: &[usize],
-    ids: &[usize],
-    lid: Option<&PlanarPolygon>,
-) -> Occluder {
+fn of_solid(polygons: &[PlanarPolygon], planes: &[usize], solid: Solid) -> Occluder {
     let bits = |p: DVec3| p.to_array().map(f64::to_bits);
-    let own = ids.iter().map(|id| (planes[*id], &polygons[*id]));
-    let sides: Vec<(usize, &PlanarPolygon)> = own.chain(lid.map(|lid| (planes.len(), lid))).collect();
+    let own = solid.faces.iter().map(|id| planes[*id]).chain(planes.len()..);
+    let sides: Vec<(usize, &PlanarPolygon)> = own.zip(solid.sides(polygons)).collect();
     let mut numbers: Vec<usize> = sides.iter().map(|side| side.0).collect();
     numbers.sort_unstable();
     numbers.dedup();
