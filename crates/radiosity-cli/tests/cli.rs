@@ -214,6 +214,51 @@ fn inspect_tells_and_repairs() {
 }
 
 #[test]
+fn inspect_sums_up_by_kind_before_it_lists() {
+    let folder = Folder::new();
+    // A floor with an emitter in it, beside 24 small faces.
+    let mut rows = vec![
+        "V 1 0 0 0".to_owned(),
+        "V 2 24 0 0".into(),
+        "V 3 24 9 0".into(),
+        "V 4 0 9 0".into(),
+        "V 5 1 1 0".into(),
+        "V 6 2 1 0".into(),
+        "V 7 2 2 0".into(),
+        "V 8 1 2 0".into(),
+    ];
+    rows.extend(
+        (0..=24).flat_map(|i| [format!("V {} {i} 9 0", 9 + 2 * i), format!("V {} {i} 12 0", 10 + 2 * i)]),
+    );
+    rows.push("S 1 1 2 3 4 0 0 0.5 floor".into());
+    rows.push("S 2 5 6 7 8 0 0 0.5 mat".into());
+    rows.extend((0..24).map(|i| {
+        let v = 9 + 2 * i;
+        format!("S {} {v} {} {} {} 0 0 0.5 face{i}", 3 + i, v + 2, v + 3, v + 1)
+    }));
+    let file = folder.put("hall.vs3", &format!("T hall\nF 3\n{}\nEnd of Data\n", rows.join("\n")));
+    let output = radiosity(&["inspect", &file]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).expect("text");
+    let labels: Vec<&str> = text.lines().map(|line| line.split(' ').next().unwrap_or_default()).collect();
+    let at = |label: &str| {
+        labels.iter().position(|found| *found == label).unwrap_or_else(|| panic!("no {label}: {text}"))
+    };
+    assert!(
+        at("findings") < at("matters") && at("matters") < at("harmless") && at("harmless") < at("finding"),
+        "{text}"
+    );
+    assert!(text.contains("harmless   24 T-junctions: form factors do not mind"), "{text}");
+    assert!(
+        text.lines().next_back().is_some_and(|line| line.contains("t-junction: 14 more; --json lists them")),
+        "{text}"
+    );
+    let all = json(&radiosity(&["inspect", &file, "--json"]));
+    let count = |list: &str| all[list].as_array().expect("a list").len();
+    assert!(count("findings") > 23 && count("summary") < 5, "{all}");
+}
+
+#[test]
 fn view_writes_one_page_without_addresses() {
     let folder = Folder::new();
     let files = solved(&folder, &["a.json"]);

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 130] = [
+const ORDER: [&str; 131] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -23,7 +23,7 @@ const ORDER: [&str; 130] = [
     "io/surface/polygon", "io/save", "io/error",
     "viewer", "repair",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",
-    "inspect/orientation", "inspect/surface",
+    "inspect/orientation", "inspect/summary", "inspect/surface",
     "table", "record",
     "picture", "picture/raster", "picture/painting", "picture/png", "picture/framing",
     "expose",
