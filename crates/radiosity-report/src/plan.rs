@@ -1,6 +1,20 @@
 //! What to measure.
 use radiosity::Scene;
 
+/// How often what is timed takes its turn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rounds {
+    /// Turns of a short job.
+    pub(crate) count: usize,
+    /// What takes so many seconds of CPU is its own mean: it is not measured again.
+    pub(crate) long: f64,
+}
+
+impl Rounds {
+    /// One turn for every job.
+    pub(crate) const ONCE: Rounds = Rounds { count: 1, long: 0.0 };
+}
+
 /// A plan of what to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -15,8 +29,8 @@ pub struct Plan {
 
 impl Plan {
     /// Rounds in which all methods take turns.
-    pub(crate) fn rounds(&self) -> usize {
-        if self.quick { 3 } else { 5 }
+    pub(crate) fn rounds(&self) -> Rounds {
+        if self.quick { Rounds { count: 3, long: 0.01 } } else { Rounds { count: 5, long: 0.5 } }
     }
 
     /// A number for the full report, or a share of it.

@@ -1,5 +1,4 @@
 //! What was measured.
-use crate::analysis::subjects;
 use crate::machine::Machine;
 use crate::rows::{Chapter, ErrorImage, Measured, Row};
 
@@ -19,10 +18,5 @@ impl Report {
             Row::Measured(row) if row.chapter == chapter => Some(row),
             _ => None,
         })
-    }
-
-    /// The subjects of a chapter.
-    pub(crate) fn subjects(&self, chapter: Chapter) -> Vec<&str> {
-        subjects(self.measured(chapter)).into_iter().map(|(name, _)| name).collect()
     }
 }

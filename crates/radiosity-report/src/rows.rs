@@ -46,6 +46,8 @@ pub(crate) struct Measured {
     pub(crate) amount: f64,
     /// How wrong it is.
     pub(crate) error: Deviation,
+    /// Whether the error is a proven bound; others are measured.
+    pub(crate) certified: bool,
     /// A bound that the method itself gives with its result: on the largest error.
     pub(crate) bound: Option<f64>,
     /// Of a matrix of a closed room: the largest |sum - 1| of a row.

@@ -1,4 +1,5 @@
 //! Error against time: the plot, and its figures as tables.
+use super::marker::Sign;
 use super::plot::{Curve, Plot, Point};
 use super::style::style;
 use super::table::{Table, error, percent, seconds};
@@ -21,9 +22,10 @@ pub(crate) fn against_time(
             y: error_of(row),
             spread: Some([row.time.cpu.low, row.time.cpu.high]),
             hint: format!(
-                "{} {}: {}, {}",
+                "{} {}: {}{}, {}",
                 row.series,
                 row.setting,
+                below(row),
                 error(error_of(row)),
                 seconds(row.time.cpu.median)
             ),
@@ -31,8 +33,10 @@ pub(crate) fn against_time(
         let floor = line.floor(&error_of);
         let slope = line.slope(&error_of).map(|slope| format!("slope {}", signed(slope)));
         let stuck = floor.map(|floor| format!("floor {}", error(floor)));
+        let certified = line.rows.iter().any(|row| row.certified);
+        let own = style(line.name);
         Curve {
-            style: style(line.name),
+            sign: if certified { Sign::Bound(own) } else { Sign::Measured(own) },
             name: line.name.to_owned(),
             note: slope.into_iter().chain(stuck).collect::<Vec<_>>().join(", "),
             points: line.rows.iter().map(point).collect(),
@@ -40,7 +44,7 @@ pub(crate) fn against_time(
         }
     };
     let curves = lines.iter().map(curve).collect();
-    Plot { title: title.to_owned(), x, y, curves }.svg()
+    Plot { title: title.to_owned(), x, y, curves }.html()
 }
 
 /// The time in which each method reaches some errors.
@@ -50,12 +54,13 @@ pub(crate) fn time_to_error(lines: &[Line<'_>]) -> Table {
     for line in lines {
         let [a, b, c] = TARGETS.map(|target| line.time_to(target).map_or_else(|| "–".to_owned(), seconds));
         let [best, time] = line.best();
+        let below = line.rows.first().map_or("", |row| below(row));
         table.push([
             line.name.to_owned(),
             a,
             b,
             c,
-            format!("{}, {}", error(best), seconds(time)),
+            format!("{below}{}, {}", error(best), seconds(time)),
             line.slope(largest).map_or_else(|| "–".to_owned(), signed),
             line.floor(largest).map_or_else(|| "–".to_owned(), error),
         ]);
@@ -82,8 +87,8 @@ pub(crate) fn every(rows: &[&Measured]) -> Table {
         table.push([
             row.series.clone(),
             row.setting.clone(),
-            error(row.error.max),
-            error(row.error.mean),
+            format!("{}{}", below(row), error(row.error.max)),
+            format!("{}{}", below(row), error(row.error.mean)),
             percent(row.error.beyond),
             seconds(cpu.median),
             format!("{} – {}", seconds(cpu.low), seconds(cpu.high)),
@@ -92,6 +97,11 @@ pub(crate) fn every(rows: &[&Measured]) -> Table {
         ]);
     }
     table
+}
+
+/// What stands before an error that is a bound.
+pub(crate) fn below(row: &Measured) -> &'static str {
+    if row.certified { "≤ " } else { "" }
 }
 
 /// The largest error, and the mean: what plots are of.
