@@ -20,7 +20,7 @@ impl Rounds {
 pub struct Plan {
     /// The scenes, by name.
     pub scenes: Vec<(String, Scene)>,
-    /// Whether to use fewer points, settings and rounds: some minutes instead of half an hour.
+    /// Whether to use fewer points, settings and rounds: a minute or two instead of half an hour.
     pub quick: bool,
     /// Whether to measure also without a scene: single points, axes of stress, solvers, Booleans,
     /// matrices.

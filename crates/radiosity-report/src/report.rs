@@ -2,7 +2,9 @@
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
 use crate::measure::test_scene::TestScene;
-use crate::measure::{booleans, cases, error_image::images, left_out, matrices, published, stiff, stress};
+use crate::measure::{
+    booleans, cases, error_image::images, left_out, matrices, published, solutions, stiff, stress,
+};
 use crate::methods::{Step, middle, steps};
 use crate::page::chapter_matrices;
 use crate::page::chapter_scenes::summary;
@@ -42,8 +44,15 @@ pub fn report(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Report, Error> {
     if plan.general {
         rows.extend(general(plan, &steps, &mut say)?.into_iter().map(Row::Measured));
     }
+    rows.extend(solutions::measure(plan, &mut say)?.into_iter().map(Row::Measured));
     rows.extend(published::measure(plan, say)?.into_iter().map(Row::Published));
-    Ok(Report { rows, machine: Machine::here(), quick: plan.quick, images: pictures })
+    Ok(Report {
+        rows,
+        machine: Machine::here(),
+        quick: plan.quick,
+        images: pictures,
+        noise: solutions::noise(plan),
+    })
 }
 
 /// The measurements without a scene.

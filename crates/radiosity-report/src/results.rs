@@ -1,6 +1,6 @@
 //! What was measured.
 use crate::machine::Machine;
-use crate::rows::{Chapter, ErrorImage, Measured, Row};
+use crate::rows::{Chapter, Deviation, ErrorImage, Measured, Row};
 
 /// A report: what was measured.
 #[derive(Clone, Debug)]
@@ -9,6 +9,8 @@ pub struct Report {
     pub(crate) machine: Machine,
     pub(crate) quick: bool,
     pub(crate) images: Vec<ErrorImage>,
+    /// One standard error of what whole solutions are compared with.
+    pub(crate) noise: Option<Deviation>,
 }
 
 impl Report {

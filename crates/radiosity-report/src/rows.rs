@@ -17,6 +17,8 @@ pub(crate) enum Row {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Chapter {
+    /// Whole solutions against what faces truly receive.
+    Solutions,
     /// Light from the emitters at points of a scene.
     Scenes,
     /// Single points with references of 34 digits, by kind.

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! overview                                               what it comes to: a sentence and a plot
-//! chapter_scenes, chapter_axes, chapter_matrices,
-//! chapter_tables, peers                                  the chapters
+//! chapter_solutions, chapter_scenes, chapter_axes,
+//! chapter_matrices, chapter_tables, peers                the chapters
 //! section                                                a chapter's anchor, title and body
 //! work_precision                                         error against time: the plot and its tables
 //! plot, axis, marker, style                              plots as SVG
@@ -13,6 +13,7 @@ mod axis;
 mod chapter_axes;
 pub(crate) mod chapter_matrices;
 pub(crate) mod chapter_scenes;
+mod chapter_solutions;
 pub(crate) mod chapter_tables;
 mod escape;
 mod marker;
@@ -33,6 +34,7 @@ use section::Section;
 /// The whole page.
 pub(crate) fn page(report: &Report, peers: Option<&Peers>) -> String {
     let chapters = [
+        chapter_solutions::section(report),
         chapter_scenes::section(report),
         chapter_axes::points(report),
         chapter_axes::stability(report),

@@ -16,35 +16,33 @@ pub(crate) fn against_time(
     [x, y]: [&str; 2],
     error_of: impl Fn(&Measured) -> f64,
 ) -> String {
-    let curve = |line: &Line<'_>| {
-        let point = |row: &&Measured| Point {
-            x: row.time.cpu.median,
+    let curves = lines.iter().map(|line| curve(line, &error_of)).collect();
+    Plot { title: title.to_owned(), x, y, curves }.html()
+}
+
+/// A method's errors against its times, with slope and floor in the key.
+pub(crate) fn curve(line: &Line<'_>, error_of: impl Fn(&Measured) -> f64) -> Curve {
+    let point = |row: &&Measured| {
+        let (off, time) = (error(error_of(row)), row.time.cpu);
+        Point {
+            x: time.median,
             y: error_of(row),
-            spread: Some([row.time.cpu.low, row.time.cpu.high]),
-            hint: format!(
-                "{} {}: {}{}, {}",
-                row.series,
-                row.setting,
-                below(row),
-                error(error_of(row)),
-                seconds(row.time.cpu.median)
-            ),
-        };
-        let floor = line.floor(&error_of);
-        let slope = line.slope(&error_of).map(|slope| format!("slope {}", signed(slope)));
-        let stuck = floor.map(|floor| format!("floor {}", error(floor)));
-        let certified = line.rows.iter().any(|row| row.certified);
-        let own = style(line.name);
-        Curve {
-            sign: if certified { Sign::Bound(own) } else { Sign::Measured(own) },
-            name: line.name.to_owned(),
-            note: slope.into_iter().chain(stuck).collect::<Vec<_>>().join(", "),
-            points: line.rows.iter().map(point).collect(),
-            floor,
+            spread: Some([time.low, time.high]),
+            hint: format!("{} {}: {}{off}, {}", row.series, row.setting, below(row), seconds(time.median)),
         }
     };
-    let curves = lines.iter().map(curve).collect();
-    Plot { title: title.to_owned(), x, y, curves }.html()
+    let floor = line.floor(&error_of);
+    let slope = line.slope(&error_of).map(|slope| format!("slope {}", signed(slope)));
+    let stuck = floor.map(|floor| format!("floor {}", error(floor)));
+    let certified = line.rows.iter().any(|row| row.certified);
+    let own = style(line.name);
+    Curve {
+        sign: if certified { Sign::Bound(own) } else { Sign::Measured(own) },
+        name: line.name.to_owned(),
+        note: slope.into_iter().chain(stuck).collect::<Vec<_>>().join(", "),
+        points: line.rows.iter().map(point).collect(),
+        floor,
+    }
 }
 
 /// The time in which each method reaches some errors.
@@ -114,6 +112,6 @@ pub(crate) fn mean(row: &Measured) -> f64 {
 }
 
 /// With a sign as long as the digits.
-fn signed(value: f64) -> String {
+pub(crate) fn signed(value: f64) -> String {
     format!("{value:.2}").replace('-', "−")
 }

@@ -61,7 +61,7 @@ fn page() -> String {
         rows.extend(set.measure(&middle[..1], Rounds::ONCE).into_iter().map(Row::Measured));
     }
     rows.extend(booleans::measure(&plan).into_iter().map(Row::Measured));
-    Report { rows, machine, images, quick: true }.page(None)
+    Report { rows, machine, images, quick: true, noise: None }.page(None)
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn glance(names: &[&str]) -> Report {
         let test_scene = TestScene::new(name, scene, 120).unwrap();
         rows.extend(test_scene.queries(4).measure(&steps, Rounds::ONCE).into_iter().map(Row::Measured));
     }
-    Report { rows, machine: Machine::here(), quick: true, images: Vec::new() }
+    Report { rows, machine: Machine::here(), quick: true, images: Vec::new(), noise: None }
 }
 
 /// The tables of a text in Markdown, each with the heading above it.
@@ -230,6 +230,7 @@ fn the_matrix_of_a_room_gets_better_with_its_tolerance_and_is_better_than_from_p
         machine: Machine::here(),
         quick: true,
         images: Vec::new(),
+        noise: None,
     };
     let rows: Vec<&Measured> = report.measured(Chapter::Matrices).collect();
     for line in lines(&rows) {

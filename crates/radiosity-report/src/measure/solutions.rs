@@ -1,0 +1,164 @@
+//! Whole solutions of the Cornell box against what its faces truly receive: every method on finer and finer meshes, every quality,
+//! and path tracing beside them.
+use super::path_tracer::PathTracer;
+use super::truth::Truth;
+use crate::clock::{Job, interleaved};
+use crate::plan::{Plan, Rounds};
+use crate::rows::{Chapter, Deviation, Measured};
+use radiosity::{Error, Method, Options, Quality, Scene, Solution, solve};
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+
+/// The scene whose truth is known.
+const SCENE: &str = "cornell-box";
+/// The name of the series of path tracing.
+pub(crate) const PATHS: &str = "path tracing";
+/// The name of the series of qualities.
+pub(crate) const QUALITIES: &str = "draft, normal, high";
+
+/// What is solved, and how it is called.
+struct Task {
+    series: &'static str,
+    setting: String,
+    options: Options,
+}
+
+/// Nothing where the scene is not asked for.
+pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Measured>, Error> {
+    let Some((_, scene)) = plan.scenes.iter().find(|(name, _)| name == SCENE) else { return Ok(Vec::new()) };
+    say("whole solutions");
+    let truth = Truth::of_cornell_box(scene);
+    let mut rows = Vec::new();
+    for task in tasks(plan) {
+        rows.push(solved(scene, &truth, &task)?);
+    }
+    rows.extend(paths(plan).map(|paths| traced(scene, &truth, paths)));
+    Ok(rows)
+}
+
+/// How uncertain the truth is, as an error; `None` where nothing was measured against it.
+pub(crate) fn noise(plan: &Plan) -> Option<Deviation> {
+    let (_, scene) = plan.scenes.iter().find(|(name, _)| name == SCENE)?;
+    Some(Deviation::of(&Truth::of_cornell_box(scene).noise()))
+}
+
+/// Every method on every mesh, and every quality.
+fn tasks(plan: &Plan) -> Vec<Task> {
+    let first = if plan.quick { 200 } else { 400 };
+    let meshes = |count: u32| (0..count).map(move |step| first << step);
+    let [fine, coarse] = if plan.quick { [3, 3] } else { [5, 4] };
+    let on = |series, method, elements: usize| {
+        let options = Options { method, elements, ..Options::default() };
+        Task { series, setting: format!("{elements} elements"), options }
+    };
+    let hemicube = |elements| {
+        let Task { series, setting, options } = on("hemicubes, 64 × 64 cells", Method::Shoot, elements);
+        Task { series, setting, options: Options { hemicube: Some(64), ..options } }
+    };
+    let mut tasks: Vec<Task> = Vec::new();
+    tasks.extend(meshes(fine).map(|elements| on("shooting", Method::Shoot, elements)));
+    tasks.extend(meshes(fine).map(|elements| on("conjugate gradients", Method::Cg, elements)));
+    tasks.extend(meshes(fine).map(|elements| on("GMRES", Method::Gmres, elements)));
+    tasks.extend(meshes(coarse).map(|elements| on("full matrix", Method::Matrix, elements)));
+    tasks.extend(meshes(coarse).map(hemicube));
+    tasks.extend(qualities(plan));
+    tasks
+}
+
+/// As `--quality` names them; high takes minutes.
+fn qualities(plan: &Plan) -> impl Iterator<Item = Task> {
+    let all = [("draft", Quality::Draft), ("normal", Quality::Normal), ("high", Quality::High)];
+    let task = |(name, quality): (&str, Quality)| Task {
+        series: QUALITIES,
+        setting: name.to_owned(),
+        options: quality.options(),
+    };
+    all.into_iter().take(if plan.quick { 2 } else { 3 }).map(task)
+}
+
+/// Four times as many paths a face from step to step.
+fn paths(plan: &Plan) -> impl Iterator<Item = u32> {
+    (4..=if plan.quick { 7 } else { 10 }).map(|power| 4_u32.pow(power))
+}
+
+fn solved(scene: &Scene, truth: &Truth, task: &Task) -> Result<Measured, Error> {
+    let job: Job<'_, Result<Solution, Error>> =
+        Box::new(|| solve(scene, &task.options, |_| ControlFlow::Continue(())));
+    let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
+    let solution = solution?;
+    let (series, elements) = (task.series, solution.mesh.elements.len());
+    let setting = if series == QUALITIES {
+        format!("{}, {elements} elements", task.setting)
+    } else {
+        task.setting.clone()
+    };
+    let error = Deviation::of(&truth.deviations(&truth.of(scene, &solution)));
+    Ok(Measured {
+        amount: elements as f64,
+        valid: Some(solution.converged),
+        time,
+        ..row(series, setting, error)
+    })
+}
+
+/// So many paths from every face, each face with a sequence of its own.
+fn traced(scene: &Scene, truth: &Truth, paths: u32) -> Measured {
+    let tracer = PathTracer::new(scene);
+    let faces: Vec<&[usize]> = truth.faces().collect();
+    let job: Job<'_, Vec<[f64; 3]>> = Box::new(|| {
+        let face = |(index, patches): (usize, &&[usize])| tracer.irradiance(patches, paths, index as u64);
+        faces.par_iter().enumerate().map(face).collect()
+    });
+    let (found, time) = interleaved(&[job], Rounds::ONCE).remove(0);
+    let error = Deviation::of(&truth.deviations(&found));
+    Measured { amount: f64::from(paths), time, ..row(PATHS, format!("{paths} paths a face"), error) }
+}
+
+fn row(series: &str, setting: String, error: Deviation) -> Measured {
+    Measured {
+        chapter: Chapter::Solutions,
+        subject: SCENE.to_owned(),
+        series: series.to_owned(),
+        setting,
+        amount: 0.0,
+        error,
+        certified: false,
+        bound: None,
+        defect: None,
+        points: None,
+        in_part: None,
+        valid: None,
+        time: crate::rows::Time::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use radiosity::scenes;
+
+    #[test]
+    fn more_elements_and_more_paths_come_nearer_to_the_truth() {
+        let scene = scenes::scene(SCENE).unwrap();
+        let truth = Truth::of_cornell_box(&scene);
+        let task = |elements: usize| Task {
+            series: "shooting",
+            setting: String::new(),
+            options: Options { elements, ..Options::default() },
+        };
+        let [coarse, fine] = [200, 1000].map(|elements| solved(&scene, &truth, &task(elements)).unwrap());
+        let [few, many] = [64, 16_384].map(|paths| traced(&scene, &truth, paths));
+        for [worse, better] in [[&coarse, &fine], [&few, &many]] {
+            assert!(better.error.mean < worse.error.mean / 2.0, "{worse:?} {better:?}");
+        }
+        assert!(fine.error.mean < 0.03 && many.error.mean < 0.01, "{fine:?} {many:?}");
+        assert_eq!((fine.valid, fine.certified), (Some(true), false));
+    }
+
+    #[test]
+    fn nothing_is_measured_where_the_box_is_not_asked_for() {
+        let furnace = ("furnace".to_owned(), scenes::scene("furnace").unwrap());
+        let plan = Plan { scenes: vec![furnace], quick: true, general: false };
+        assert!(measure(&plan, |_| ()).unwrap().is_empty() && noise(&plan).is_none());
+    }
+}
