@@ -272,6 +272,46 @@ fn view_writes_one_page_without_addresses() {
 }
 
 #[test]
+fn plot_writes_a_line_as_table_and_drawing() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json"]);
+    let [table, drawing] = ["a.csv", "a.SVG"].map(|name| text_of(&folder.path(name)));
+    let line = ["plot", &files[0], "--from", "0,0,280", "--to", "549.6,0,280"];
+    let output = radiosity(&[&line[..], &["-o", &table, "-o", &drawing]].concat());
+    assert_eq!((code(&output), output.stdout.len()), (0, 0), "{}", stderr(&output));
+    let [rows, drawn] = [&table, &drawing].map(|file| std::fs::read_to_string(file).expect("a file"));
+    assert!(rows.starts_with(
+        "distance,x,y,z,patch,element,radiosity.0,radiosity.1,radiosity.2,element_radiosity.0,"
+    ));
+    assert!(rows.lines().skip(1).all(|row| row.contains(",floor,")) && rows.lines().count() > 20);
+    assert!(drawn.starts_with("<svg xmlns") && drawn.matches("class=\"interpolated\"").count() == 3);
+    let named = radiosity(&[&line[..], &["--on", "floor"]].concat());
+    assert_eq!(String::from_utf8(named.stdout).expect("text"), rows, "the table goes to stdout");
+}
+
+#[test]
+fn plot_says_why_there_is_no_line() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json"]);
+    let file = text_of(&folder.path("a.svg"));
+    let cases: [(&[&str], i32, &str); 7] = [
+        (&["--from", "0,0,0", "--to", "1,0"], 2, "three numbers"),
+        (&["--from", "9,0,9", "--to", "9,0,9"], 2, "no length"),
+        (&["--from", "9,9,9", "--to", "99,9,9"], 2, "any patch"),
+        (&["--from", "9,9,9", "--to", "99,9,9", "--on", "floor"], 2, "9.000e0 off its plane"),
+        (&["--from", "9,0,9", "--to", "99,0,9", "--on", "flor"], 2, "no patch is named flor"),
+        (&["--from", "0,0,559.2", "--to", "549.6,0,559.2"], 2, "name one of them"),
+        (&["--from", "9,0,9", "--to", "99,0,9", "-o", "a.png"], 2, ".csv or .svg"),
+    ];
+    for (line, exit, says) in cases {
+        let output = radiosity(&[&["plot", &files[0], "-o", &file], line].concat());
+        assert_eq!(code(&output), exit, "{line:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{line:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty() && !folder.path("a.svg").exists());
+    }
+}
+
+#[test]
 fn what_is_no_solution_is_refused() {
     let folder = Folder::new();
     let page = text_of(&folder.path("a.png"));
