@@ -6,9 +6,9 @@ use crate::measure::{
     booleans, cases, error_image::images, left_out, matrices, published, solutions, stiff, stress,
 };
 use crate::methods::{Step, middle, steps};
-use crate::page::chapter_matrices;
 use crate::page::chapter_scenes::summary;
 use crate::page::chapter_tables::{left_out_table, published_table};
+use crate::page::{chapter_matrices, chapter_solutions};
 use crate::page::{page, peers::Peers, work_precision::time_to_error};
 use crate::plan::Plan;
 use crate::results::Report;
@@ -103,7 +103,11 @@ impl Report {
     /// The tables as Markdown.
     #[must_use]
     pub fn tables(&self) -> String {
-        let mut text = format!("## Methods by scene\n\n{}", summary(self).markdown());
+        let mut text = String::new();
+        for (scene, table) in chapter_solutions::tables(self) {
+            text += &format!("## Whole solutions: {scene}\n\n{}\n", table.markdown());
+        }
+        text += &format!("## Methods by scene\n\n{}", summary(self).markdown());
         for (name, rows) in subjects(self.measured(Chapter::Scenes)) {
             let table = time_to_error(&lines(&rows));
             text += &format!("\n## Time to an error: {name}\n\n{}", table.markdown());

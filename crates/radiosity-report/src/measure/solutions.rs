@@ -12,15 +12,29 @@ use std::ops::ControlFlow;
 /// The scene whose truth is known.
 const SCENE: &str = "cornell-box";
 /// The name of the series of path tracing.
-pub(crate) const PATHS: &str = "path tracing";
+const PATHS: &str = "path tracing";
 /// The name of the series of qualities.
-pub(crate) const QUALITIES: &str = "draft, normal, high";
+const QUALITIES: &str = "draft, normal, high";
 
 /// What is solved, and how it is called.
 struct Task {
     series: &'static str,
     setting: String,
     options: Options,
+}
+
+/// The names of all series, in their order.
+#[cfg(test)]
+pub(crate) fn series(plan: &Plan) -> Vec<&'static str> {
+    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS]).collect();
+    series.dedup();
+    series
+}
+
+/// A row without figures.
+#[cfg(test)]
+pub(crate) fn blank(series: &str) -> Measured {
+    row(series, String::new(), Deviation { max: 0.1, mean: 0.01, beyond: 1.0 })
 }
 
 /// Nothing where the scene is not asked for.

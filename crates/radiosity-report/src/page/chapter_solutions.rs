@@ -29,6 +29,12 @@ pub(crate) fn section(report: &Report) -> Section {
     Section::new(["solutions", "Whole solutions"], body.collect()).opened_by(INTRO)
 }
 
+/// The table of each scene, by name.
+pub(crate) fn tables(report: &Report) -> Vec<(&str, Table)> {
+    let scenes = subjects(report.measured(Chapter::Solutions)).into_iter();
+    scenes.map(|(name, rows)| (name, table(&lines(&rows)))).collect()
+}
+
 fn of_scene(report: &Report, name: &str, rows: &[&Measured]) -> String {
     let lines = lines(rows);
     let plot = |what: &str, error_of: fn(&Measured) -> f64, level: fn(Deviation) -> f64| {
@@ -77,7 +83,7 @@ fn sentence(lines: &[Line<'_>]) -> String {
 }
 
 /// Times to errors of the worst face, and how errors fall.
-pub(crate) fn table(lines: &[Line<'_>]) -> Table {
+fn table(lines: &[Line<'_>]) -> Table {
     let header = [
         "method",
         "to 20 %",

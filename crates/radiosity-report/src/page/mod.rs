@@ -13,7 +13,7 @@ mod axis;
 mod chapter_axes;
 pub(crate) mod chapter_matrices;
 pub(crate) mod chapter_scenes;
-mod chapter_solutions;
+pub(crate) mod chapter_solutions;
 pub(crate) mod chapter_tables;
 mod escape;
 mod marker;
