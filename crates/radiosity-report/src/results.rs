@@ -9,8 +9,8 @@ pub struct Report {
     pub(crate) machine: Machine,
     pub(crate) quick: bool,
     pub(crate) images: Vec<ErrorImage>,
-    /// One standard error of what whole solutions are compared with.
-    pub(crate) noise: Option<Deviation>,
+    /// One standard error of what whole solutions are compared with, by scene.
+    pub(crate) noise: Vec<(String, Deviation)>,
 }
 
 impl Report {

@@ -106,6 +106,17 @@ fn ends_beside_the_surface_leave_a_gap_and_ends_a_little_off_it_do_not_matter() 
 }
 
 #[test]
+fn a_line_without_length_or_without_ends_is_refused() {
+    let record = solved("furnace", 12);
+    let [here, far] = [DVec3::new(0.5, 0.5, 0.0), DVec3::splat(f64::MAX)];
+    for ends in [[here, here], [here, DVec3::NAN], [DVec3::INFINITY, here], [far, -far]] {
+        assert_eq!(profile(&record, ends, None), Err(ProfileError::Ends), "{ends:?}");
+    }
+    let unknown = profile(&record, [here, DVec3::X], Some("no such patch"));
+    assert_eq!(unknown, Err(ProfileError::Patch { name: "no such patch".to_owned() }));
+}
+
+#[test]
 fn a_line_on_two_surfaces_is_refused_until_one_is_named() {
     let record = solved("furnace", 100);
     let edge = [DVec3::ZERO, DVec3::X];

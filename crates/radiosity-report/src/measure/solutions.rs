@@ -1,20 +1,18 @@
-//! Whole solutions of the Cornell box against what its faces truly receive: every method on finer and finer meshes, every quality,
+//! Whole solutions of scenes against what their faces truly receive: every method on finer and finer meshes, every quality,
 //! and path tracing beside them.
 use super::path_tracer::PathTracer;
 use super::truth::Truth;
 use crate::clock::{Job, interleaved};
 use crate::plan::{Plan, Rounds};
-use crate::rows::{Chapter, Deviation, Measured};
+use crate::rows::{Chapter, Deviation, Measured, Time};
 use radiosity::{Error, Method, Options, Quality, Scene, Solution, solve};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
-/// The scene whose truth is known.
-const SCENE: &str = "cornell-box";
 /// The name of the series of path tracing.
 const PATHS: &str = "path tracing";
 /// The name of the series of qualities.
-const QUALITIES: &str = "draft, normal, high";
+const QUALITIES: &str = "qualities";
 
 /// What is solved, and how it is called.
 struct Task {
@@ -33,27 +31,31 @@ pub(crate) fn series(plan: &Plan) -> Vec<&'static str> {
 
 /// A row without figures.
 #[cfg(test)]
-pub(crate) fn blank(series: &str) -> Measured {
-    row(series, String::new(), Deviation { max: 0.1, mean: 0.01, beyond: 1.0 })
+pub(crate) fn blank(subject: &str, series: &str) -> Measured {
+    row(subject, series, String::new(), Deviation { max: 0.1, mean: 0.01, beyond: 1.0 })
 }
 
-/// Nothing where the scene is not asked for.
+/// Of all scenes that are asked for and whose truth is known.
 pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Measured>, Error> {
-    let Some((_, scene)) = plan.scenes.iter().find(|(name, _)| name == SCENE) else { return Ok(Vec::new()) };
-    say("whole solutions");
-    let truth = Truth::of_cornell_box(scene);
     let mut rows = Vec::new();
-    for task in tasks(plan) {
-        rows.push(solved(scene, &truth, &task)?);
+    for (name, scene, truth) in known(plan) {
+        say(&format!("whole solutions: {name}"));
+        let subject = Subject { name, scene, truth };
+        for task in tasks(plan) {
+            rows.push(subject.solved(&task)?);
+        }
+        rows.extend(paths(plan).map(|paths| subject.traced(paths)));
     }
-    rows.extend(paths(plan).map(|paths| traced(scene, &truth, paths)));
     Ok(rows)
 }
 
-/// How uncertain the truth is, as an error; `None` where nothing was measured against it.
-pub(crate) fn noise(plan: &Plan) -> Option<Deviation> {
-    let (_, scene) = plan.scenes.iter().find(|(name, _)| name == SCENE)?;
-    Some(Deviation::of(&Truth::of_cornell_box(scene).noise()))
+/// How uncertain the truth of each scene is, as an error.
+pub(crate) fn noise(plan: &Plan) -> Vec<(String, Deviation)> {
+    known(plan).map(|(name, _, truth)| (name.to_owned(), Deviation::of(&truth.noise()))).collect()
+}
+
+fn known(plan: &Plan) -> impl Iterator<Item = (&str, &Scene, Truth)> {
+    plan.scenes.iter().filter_map(|(name, scene)| Some((name.as_str(), scene, Truth::of(name, scene)?)))
 }
 
 /// Every method on every mesh, and every quality.
@@ -95,43 +97,52 @@ fn paths(plan: &Plan) -> impl Iterator<Item = u32> {
     (4..=if plan.quick { 7 } else { 10 }).map(|power| 4_u32.pow(power))
 }
 
-fn solved(scene: &Scene, truth: &Truth, task: &Task) -> Result<Measured, Error> {
-    let job: Job<'_, Result<Solution, Error>> =
-        Box::new(|| solve(scene, &task.options, |_| ControlFlow::Continue(())));
-    let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
-    let solution = solution?;
-    let (series, elements) = (task.series, solution.mesh.elements.len());
-    let setting = if series == QUALITIES {
-        format!("{}, {elements} elements", task.setting)
-    } else {
-        task.setting.clone()
-    };
-    let error = Deviation::of(&truth.deviations(&truth.of(scene, &solution)));
-    Ok(Measured {
-        amount: elements as f64,
-        valid: Some(solution.converged),
-        time,
-        ..row(series, setting, error)
-    })
+/// A scene with what its faces receive.
+struct Subject<'s> {
+    name: &'s str,
+    scene: &'s Scene,
+    truth: Truth,
 }
 
-/// So many paths from every face, each face with a sequence of its own.
-fn traced(scene: &Scene, truth: &Truth, paths: u32) -> Measured {
-    let tracer = PathTracer::new(scene);
-    let faces: Vec<&[usize]> = truth.faces().collect();
-    let job: Job<'_, Vec<[f64; 3]>> = Box::new(|| {
-        let face = |(index, patches): (usize, &&[usize])| tracer.irradiance(patches, paths, index as u64);
-        faces.par_iter().enumerate().map(face).collect()
-    });
-    let (found, time) = interleaved(&[job], Rounds::ONCE).remove(0);
-    let error = Deviation::of(&truth.deviations(&found));
-    Measured { amount: f64::from(paths), time, ..row(PATHS, format!("{paths} paths a face"), error) }
+impl Subject<'_> {
+    fn solved(&self, task: &Task) -> Result<Measured, Error> {
+        let job: Job<'_, Result<Solution, Error>> =
+            Box::new(|| solve(self.scene, &task.options, |_| ControlFlow::Continue(())));
+        let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
+        let solution = solution?;
+        let (series, elements) = (task.series, solution.mesh.elements.len());
+        let setting = if series == QUALITIES {
+            format!("{}, {elements} elements", task.setting)
+        } else {
+            task.setting.clone()
+        };
+        let error = Deviation::of(&self.truth.deviations(&self.truth.received(self.scene, &solution)));
+        let valid = Some(solution.converged);
+        Ok(Measured { amount: elements as f64, valid, time, ..row(self.name, series, setting, error) })
+    }
+
+    /// So many paths from every face, each face with a sequence of its own.
+    fn traced(&self, paths: u32) -> Measured {
+        let tracer = PathTracer::new(self.scene);
+        let faces: Vec<&[usize]> = self.truth.faces().collect();
+        let job: Job<'_, Vec<[f64; 3]>> = Box::new(|| {
+            let face = |(index, patches): (usize, &&[usize])| tracer.irradiance(patches, paths, index as u64);
+            faces.par_iter().enumerate().map(face).collect()
+        });
+        let (found, time) = interleaved(&[job], Rounds::ONCE).remove(0);
+        let error = Deviation::of(&self.truth.deviations(&found));
+        Measured {
+            amount: f64::from(paths),
+            time,
+            ..row(self.name, PATHS, format!("{paths} paths a face"), error)
+        }
+    }
 }
 
-fn row(series: &str, setting: String, error: Deviation) -> Measured {
+fn row(subject: &str, series: &str, setting: String, error: Deviation) -> Measured {
     Measured {
         chapter: Chapter::Solutions,
-        subject: SCENE.to_owned(),
+        subject: subject.to_owned(),
         series: series.to_owned(),
         setting,
         amount: 0.0,
@@ -142,7 +153,7 @@ fn row(series: &str, setting: String, error: Deviation) -> Measured {
         points: None,
         in_part: None,
         valid: None,
-        time: crate::rows::Time::default(),
+        time: Time::default(),
     }
 }
 
@@ -153,26 +164,28 @@ mod tests {
 
     #[test]
     fn more_elements_and_more_paths_come_nearer_to_the_truth() {
-        let scene = scenes::scene(SCENE).unwrap();
-        let truth = Truth::of_cornell_box(&scene);
-        let task = |elements: usize| Task {
-            series: "shooting",
-            setting: String::new(),
-            options: Options { elements, ..Options::default() },
-        };
-        let [coarse, fine] = [200, 1000].map(|elements| solved(&scene, &truth, &task(elements)).unwrap());
-        let [few, many] = [64, 16_384].map(|paths| traced(&scene, &truth, paths));
-        for [worse, better] in [[&coarse, &fine], [&few, &many]] {
-            assert!(better.error.mean < worse.error.mean / 2.0, "{worse:?} {better:?}");
+        for name in ["cornell-box", "separating-wall"] {
+            let scene = &scenes::scene(name).unwrap();
+            let subject = Subject { name, scene, truth: Truth::of(name, scene).unwrap() };
+            let task = |elements: usize| Task {
+                series: "shooting",
+                setting: String::new(),
+                options: Options { elements, ..Options::default() },
+            };
+            let [coarse, fine] = [150, 1200].map(|elements| subject.solved(&task(elements)).unwrap());
+            let [few, many] = [64, 16_384].map(|paths| subject.traced(paths));
+            for [worse, better] in [[&coarse, &fine], [&few, &many]] {
+                assert!(better.error.mean < worse.error.mean / 1.5, "{worse:?} {better:?}");
+            }
+            assert!(fine.error.mean < 0.03 && many.error.mean < 0.01, "{fine:?} {many:?}");
+            assert_eq!((fine.valid, fine.certified), (Some(true), false));
         }
-        assert!(fine.error.mean < 0.03 && many.error.mean < 0.01, "{fine:?} {many:?}");
-        assert_eq!((fine.valid, fine.certified), (Some(true), false));
     }
 
     #[test]
-    fn nothing_is_measured_where_the_box_is_not_asked_for() {
+    fn nothing_is_measured_where_no_truth_is_known() {
         let furnace = ("furnace".to_owned(), scenes::scene("furnace").unwrap());
         let plan = Plan { scenes: vec![furnace], quick: true, general: false };
-        assert!(measure(&plan, |_| ()).unwrap().is_empty() && noise(&plan).is_none());
+        assert!(measure(&plan, |_| ()).unwrap().is_empty() && noise(&plan).is_empty());
     }
 }

@@ -46,7 +46,8 @@ fn sentence(verdicts: &[(&str, Verdict<'_>)]) -> String {
     format!(
         "In {scenes} the exact method finds form factors in {times} a point, proven right within {}; no other method comes \
          within 1e-6 in its time{but}.",
-        error(worst)
+        // A number does not break at the end of a line.
+        error(worst).replace('-', "\u{2011}")
     )
 }
 
@@ -61,7 +62,7 @@ fn plot(scenes: &[(&str, Vec<&Measured>)]) -> String {
         let Some(point) = middle(&places, series, setting) else { continue };
         match curves.iter_mut().find(|curve| curve.name == series) {
             Some(curve) => curve.points.push(point),
-            None => curves.push(curve(series, point)),
+            None => curves.push(curve(series, point, scenes.len())),
         }
     }
     let title = match scenes {
@@ -110,10 +111,10 @@ fn middle(places: &[Place], series: &str, setting: &str) -> Option<Point> {
     Some(Point { x: *x, y, spread: None, hint })
 }
 
-fn curve(series: &str, point: Point) -> Curve {
+fn curve(series: &str, point: Point, scenes: usize) -> Curve {
     let own = style(series);
     let (sign, note) = if series == EXACT {
-        (Sign::Bound(own), "the worst of all scenes")
+        (Sign::Bound(own), if scenes > 1 { "the worst of all scenes" } else { "" })
     } else {
         (Sign::Measured(own), "")
     };

@@ -22,7 +22,7 @@ pub(crate) fn style(name: &str) -> usize {
         "points, hemicube" => 6,
         "points, rays" => 11,
         "View3D" => 3,
-        "draft, normal, high" => 5,
+        "qualities" => 5,
         "hemicubes, 64 × 64 cells" => 6,
         "path tracing" => 10,
         "reference" => 1,

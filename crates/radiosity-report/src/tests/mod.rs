@@ -35,7 +35,7 @@ fn glance(names: &[&str]) -> Report {
         let test_scene = TestScene::new(name, scene, 120).unwrap();
         rows.extend(test_scene.queries(4).measure(&steps, Rounds::ONCE).into_iter().map(Row::Measured));
     }
-    Report { rows, machine: Machine::here(), quick: true, images: Vec::new(), noise: None }
+    Report { rows, machine: Machine::here(), quick: true, images: Vec::new(), noise: Vec::new() }
 }
 
 /// The tables of a text in Markdown, each with the heading above it.
@@ -95,12 +95,17 @@ fn benchmarks_has_the_tables_that_its_command_writes() {
     let shown = std::fs::read_to_string(path).expect("the benchmarks stand beside the library");
     let command = format!("radiosity report {} -o report", BARRETO.join(" "));
     assert!(shown.contains(&command), "benchmarks.md names no command: {command}");
-    assert!(shown.contains("radiosity report cornell-box -o report"), "benchmarks.md names no command");
+    assert!(
+        shown.contains("radiosity report cornell-box separating-wall -o report"),
+        "benchmarks.md names no command"
+    );
     let shown = tables(&shown);
     let mut report = glance(&BARRETO);
     report.rows.extend(published());
-    let solved = solutions::series(&plan(&[])).into_iter().map(solutions::blank);
-    report.rows.extend(solved.map(Row::Measured));
+    for scene in ["cornell-box", "separating-wall"] {
+        let solved = solutions::series(&plan(&[])).into_iter().map(|series| solutions::blank(scene, series));
+        report.rows.extend(solved.map(Row::Measured));
+    }
     let made = tables(&report.tables());
     for (heading, table) in made.iter().filter(|(_, table)| !table.rows.is_empty()) {
         let found = shown.iter().find(|(shown, _)| shown == heading);
@@ -233,7 +238,7 @@ fn the_matrix_of_a_room_gets_better_with_its_tolerance_and_is_better_than_from_p
         machine: Machine::here(),
         quick: true,
         images: Vec::new(),
-        noise: None,
+        noise: Vec::new(),
     };
     let rows: Vec<&Measured> = report.measured(Chapter::Matrices).collect();
     for line in lines(&rows) {
