@@ -30,7 +30,7 @@ pub struct Plan {
 impl Plan {
     /// Rounds in which all methods take turns.
     pub(crate) fn rounds(&self) -> Rounds {
-        if self.quick { Rounds { count: 3, long: 0.01 } } else { Rounds { count: 5, long: 0.5 } }
+        if self.quick { Rounds { count: 3, long: 0.005 } } else { Rounds { count: 5, long: 0.5 } }
     }
 
     /// A number for the full report, or a share of it.

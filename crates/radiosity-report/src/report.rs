@@ -36,7 +36,7 @@ pub fn report(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Report, Error> {
     for (name, scene) in &plan.scenes {
         say(name);
         let test_scene = TestScene::new(name, scene, plan.scaled(1500, 3))?;
-        let set = test_scene.queries(plan.scaled(128, 2));
+        let set = test_scene.queries(plan.scaled(128, 3));
         rows.extend(set.measure(&steps, plan.rounds()).into_iter().map(Row::Measured));
         rows.extend(left_out::measure(&test_scene, plan.rounds())?);
         pictures.extend(images(&test_scene, &pictured(plan)));
