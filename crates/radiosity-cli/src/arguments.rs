@@ -3,6 +3,7 @@ use crate::commands::compare::{self, Compare};
 use crate::commands::expose::{self, Expose};
 use crate::commands::factors::{self, Factors};
 use crate::commands::inspect::{self, Inspect};
+use crate::commands::plot::{self, Plot};
 use crate::commands::report::{self, Report};
 use crate::commands::scene::{self, BuiltIn};
 use crate::commands::solve::{self, options::Solve};
@@ -43,6 +44,8 @@ enum Command {
     Inspect(Inspect),
     /// Compare two solutions of one scene: relative L1, L2 and maximum difference of reflected light
     Compare(Compare),
+    /// Plot radiosity along a line that is drawn on a surface, as a table or as a drawing
+    Plot(Plot),
     /// Benchmark: measure error against time of every form factor method on every scene, and write it as a page
     Report(Report),
     /// Write one of the built-in scenes
@@ -65,6 +68,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Factors(arguments) => factors::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Scene(arguments) => scene::run(&arguments),
         Command::Completions { shell } => completions(shell),

@@ -113,7 +113,7 @@ impl Contents<'_> {
 }
 
 /// Refuses a path that is a folder, or whose folder is missing or takes no files.
-fn probe(path: &Path) -> Result<(), Failure> {
+pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let refused =
         |reason: String| Failure::internal(format!("{}: cannot be written: {reason}", path.display()));

@@ -214,6 +214,51 @@ fn inspect_tells_and_repairs() {
 }
 
 #[test]
+fn inspect_sums_up_by_kind_before_it_lists() {
+    let folder = Folder::new();
+    // A floor with an emitter in it, beside 24 small faces.
+    let mut rows = vec![
+        "V 1 0 0 0".to_owned(),
+        "V 2 24 0 0".into(),
+        "V 3 24 9 0".into(),
+        "V 4 0 9 0".into(),
+        "V 5 1 1 0".into(),
+        "V 6 2 1 0".into(),
+        "V 7 2 2 0".into(),
+        "V 8 1 2 0".into(),
+    ];
+    rows.extend(
+        (0..=24).flat_map(|i| [format!("V {} {i} 9 0", 9 + 2 * i), format!("V {} {i} 12 0", 10 + 2 * i)]),
+    );
+    rows.push("S 1 1 2 3 4 0 0 0.5 floor".into());
+    rows.push("S 2 5 6 7 8 0 0 0.5 mat".into());
+    rows.extend((0..24).map(|i| {
+        let v = 9 + 2 * i;
+        format!("S {} {v} {} {} {} 0 0 0.5 face{i}", 3 + i, v + 2, v + 3, v + 1)
+    }));
+    let file = folder.put("hall.vs3", &format!("T hall\nF 3\n{}\nEnd of Data\n", rows.join("\n")));
+    let output = radiosity(&["inspect", &file]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).expect("text");
+    let labels: Vec<&str> = text.lines().map(|line| line.split(' ').next().unwrap_or_default()).collect();
+    let at = |label: &str| {
+        labels.iter().position(|found| *found == label).unwrap_or_else(|| panic!("no {label}: {text}"))
+    };
+    assert!(
+        at("findings") < at("matters") && at("matters") < at("harmless") && at("harmless") < at("finding"),
+        "{text}"
+    );
+    assert!(text.contains("harmless   24 T-junctions: form factors do not mind"), "{text}");
+    assert!(
+        text.lines().next_back().is_some_and(|line| line.contains("t-junction: 14 more; --json lists them")),
+        "{text}"
+    );
+    let all = json(&radiosity(&["inspect", &file, "--json"]));
+    let count = |list: &str| all[list].as_array().expect("a list").len();
+    assert!(count("findings") > 23 && count("summary") < 5, "{all}");
+}
+
+#[test]
 fn view_writes_one_page_without_addresses() {
     let folder = Folder::new();
     let files = solved(&folder, &["a.json"]);
@@ -223,6 +268,46 @@ fn view_writes_one_page_without_addresses() {
     assert!(page.starts_with("<!doctype html>") && page.contains("short-top"));
     for address in ["http://", "https://", "src=", "@import"] {
         assert!(!page.contains(address), "{address}");
+    }
+}
+
+#[test]
+fn plot_writes_a_line_as_table_and_drawing() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json"]);
+    let [table, drawing] = ["a.csv", "a.SVG"].map(|name| text_of(&folder.path(name)));
+    let line = ["plot", &files[0], "--from", "0,0,280", "--to", "549.6,0,280"];
+    let output = radiosity(&[&line[..], &["-o", &table, "-o", &drawing]].concat());
+    assert_eq!((code(&output), output.stdout.len()), (0, 0), "{}", stderr(&output));
+    let [rows, drawn] = [&table, &drawing].map(|file| std::fs::read_to_string(file).expect("a file"));
+    assert!(rows.starts_with(
+        "distance,x,y,z,patch,element,radiosity.0,radiosity.1,radiosity.2,element_radiosity.0,"
+    ));
+    assert!(rows.lines().skip(1).all(|row| row.contains(",floor,")) && rows.lines().count() > 20);
+    assert!(drawn.starts_with("<svg xmlns") && drawn.matches("class=\"interpolated\"").count() == 3);
+    let named = radiosity(&[&line[..], &["--on", "floor"]].concat());
+    assert_eq!(String::from_utf8(named.stdout).expect("text"), rows, "the table goes to stdout");
+}
+
+#[test]
+fn plot_says_why_there_is_no_line() {
+    let folder = Folder::new();
+    let files = solved(&folder, &["a.json"]);
+    let file = text_of(&folder.path("a.svg"));
+    let cases: [(&[&str], i32, &str); 7] = [
+        (&["--from", "0,0,0", "--to", "1,0"], 2, "three numbers"),
+        (&["--from", "9,0,9", "--to", "9,0,9"], 2, "no length"),
+        (&["--from", "9,9,9", "--to", "99,9,9"], 2, "any patch"),
+        (&["--from", "9,9,9", "--to", "99,9,9", "--on", "floor"], 2, "9.000e0 off its plane"),
+        (&["--from", "9,0,9", "--to", "99,0,9", "--on", "flor"], 2, "no patch is named flor"),
+        (&["--from", "0,0,559.2", "--to", "549.6,0,559.2"], 2, "name one of them"),
+        (&["--from", "9,0,9", "--to", "99,0,9", "-o", "a.png"], 2, ".csv or .svg"),
+    ];
+    for (line, exit, says) in cases {
+        let output = radiosity(&[&["plot", &files[0], "-o", &file], line].concat());
+        assert_eq!(code(&output), exit, "{line:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{line:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty() && !folder.path("a.svg").exists());
     }
 }
 

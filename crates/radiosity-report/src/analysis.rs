@@ -130,6 +130,7 @@ mod tests {
             setting: String::new(),
             amount: 1.0,
             error: Deviation { max: error, mean: error, beyond: 0.0 },
+            certified: false,
             bound: None,
             defect: None,
             points: None,

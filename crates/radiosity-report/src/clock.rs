@@ -1,23 +1,22 @@
 //! Process CPU time and wall time of many jobs, interleaved, so that a neighbour's load hits all alike.
+use crate::plan::Rounds;
 use crate::rows::{Spread, Time};
 use cpu_time::ProcessTime;
 use std::time::Instant;
 
 /// A sample lasts at least so many seconds: short jobs are repeated.
 const SPAN: f64 = 2e-3;
-/// A job that takes so many seconds is its own mean: it is not measured again.
-const LONG: f64 = 0.5;
 
 /// What is timed; its result is that of its first run.
 pub(crate) type Job<'j, T> = Box<dyn Fn() -> T + 'j>;
 
 /// Runs all jobs once, then all again, for so many rounds: each result with its time.
-pub(crate) fn interleaved<T>(jobs: &[Job<'_, T>], rounds: usize) -> Vec<(T, Time)> {
+pub(crate) fn interleaved<T>(jobs: &[Job<'_, T>], rounds: Rounds) -> Vec<(T, Time)> {
     let mut results: Vec<T> = Vec::new();
     let mut samples: Vec<Vec<[f64; 2]>> = vec![Vec::new(); jobs.len()];
-    for round in 0..rounds.max(1) {
+    for round in 0..rounds.count.max(1) {
         for (job, samples) in jobs.iter().zip(&mut samples) {
-            if samples.first().is_some_and(|[cpu, _]| *cpu >= LONG) {
+            if samples.first().is_some_and(|[cpu, _]| *cpu >= rounds.long) {
                 continue;
             }
             let (result, sample) = sample(job);
@@ -61,7 +60,7 @@ mod tests {
             10 * name
         };
         let jobs: Vec<Job<'_, usize>> = vec![Box::new(|| spin(1)), Box::new(|| spin(2))];
-        let found = interleaved(&jobs, 3);
+        let found = interleaved(&jobs, Rounds { count: 3, long: 1e9 });
         assert_eq!(*turns.borrow(), [1, 2, 1, 2, 1, 2]);
         assert_eq!(found.iter().map(|(result, _)| *result).collect::<Vec<_>>(), [10, 20]);
         for (_, time) in found {

@@ -1,4 +1,4 @@
-//! A benchmark of form factors: the error of every method against its time, on every scene, as one page.
+//! A benchmark of form factors and whole solutions: the error of every method against its time, on every scene, as one page.
 //!
 //! [`report()`] measures what a [`Plan`] says; the [`Report`] is written as an HTML page, as JSON lines and as Markdown tables.
 //! The rows are the same in every run on every machine, but for the times.

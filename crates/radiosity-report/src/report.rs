@@ -2,11 +2,14 @@
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
 use crate::measure::test_scene::TestScene;
-use crate::measure::{booleans, cases, error_image::images, left_out, matrices, published, stiff, stress};
+use crate::measure::{
+    booleans, cases, error_image::images, left_out, matrices, published, solutions, stiff, stress,
+};
 use crate::methods::{Step, middle, steps};
-use crate::page::chapter_matrices;
+use crate::page::chapter_scenes::summary;
 use crate::page::chapter_tables::{left_out_table, published_table};
-use crate::page::{page, peers::Peers, summary, work_precision::time_to_error};
+use crate::page::{chapter_matrices, chapter_solutions};
+use crate::page::{page, peers::Peers, work_precision::time_to_error};
 use crate::plan::Plan;
 use crate::results::Report;
 use crate::rows::{Chapter, Measured, Row};
@@ -33,7 +36,7 @@ pub fn report(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Report, Error> {
     for (name, scene) in &plan.scenes {
         say(name);
         let test_scene = TestScene::new(name, scene, plan.scaled(1500, 3))?;
-        let set = test_scene.queries(plan.scaled(128, 2));
+        let set = test_scene.queries(plan.scaled(128, 3));
         rows.extend(set.measure(&steps, plan.rounds()).into_iter().map(Row::Measured));
         rows.extend(left_out::measure(&test_scene, plan.rounds())?);
         pictures.extend(images(&test_scene, &pictured(plan)));
@@ -41,8 +44,15 @@ pub fn report(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Report, Error> {
     if plan.general {
         rows.extend(general(plan, &steps, &mut say)?.into_iter().map(Row::Measured));
     }
+    rows.extend(solutions::measure(plan, &mut say)?.into_iter().map(Row::Measured));
     rows.extend(published::measure(plan, say)?.into_iter().map(Row::Published));
-    Ok(Report { rows, machine: Machine::here(), quick: plan.quick, images: pictures })
+    Ok(Report {
+        rows,
+        machine: Machine::here(),
+        quick: plan.quick,
+        images: pictures,
+        noise: solutions::noise(plan),
+    })
 }
 
 /// The measurements without a scene.
@@ -93,7 +103,11 @@ impl Report {
     /// The tables as Markdown.
     #[must_use]
     pub fn tables(&self) -> String {
-        let mut text = format!("## Methods by scene\n\n{}", summary(self).markdown());
+        let mut text = String::new();
+        for (scene, table) in chapter_solutions::tables(self) {
+            text += &format!("## Whole solutions: {scene}\n\n{}\n", table.markdown());
+        }
+        text += &format!("## Methods by scene\n\n{}", summary(self).markdown());
         for (name, rows) in subjects(self.measured(Chapter::Scenes)) {
             let table = time_to_error(&lines(&rows));
             text += &format!("\n## Time to an error: {name}\n\n{}", table.markdown());

@@ -1,7 +1,6 @@
 //! What was measured.
-use crate::analysis::subjects;
 use crate::machine::Machine;
-use crate::rows::{Chapter, ErrorImage, Measured, Row};
+use crate::rows::{Chapter, Deviation, ErrorImage, Measured, Row};
 
 /// A report: what was measured.
 #[derive(Clone, Debug)]
@@ -10,6 +9,8 @@ pub struct Report {
     pub(crate) machine: Machine,
     pub(crate) quick: bool,
     pub(crate) images: Vec<ErrorImage>,
+    /// One standard error of what whole solutions are compared with, by scene.
+    pub(crate) noise: Vec<(String, Deviation)>,
 }
 
 impl Report {
@@ -19,10 +20,5 @@ impl Report {
             Row::Measured(row) if row.chapter == chapter => Some(row),
             _ => None,
         })
-    }
-
-    /// The subjects of a chapter.
-    pub(crate) fn subjects(&self, chapter: Chapter) -> Vec<&str> {
-        subjects(self.measured(chapter)).into_iter().map(|(name, _)| name).collect()
     }
 }

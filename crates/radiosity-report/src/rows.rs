@@ -17,6 +17,8 @@ pub(crate) enum Row {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Chapter {
+    /// Whole solutions against what faces truly receive.
+    Solutions,
     /// Light from the emitters at points of a scene.
     Scenes,
     /// Single points with references of 34 digits, by kind.
@@ -46,6 +48,8 @@ pub(crate) struct Measured {
     pub(crate) amount: f64,
     /// How wrong it is.
     pub(crate) error: Deviation,
+    /// Whether the error is a proven bound; others are measured.
+    pub(crate) certified: bool,
     /// A bound that the method itself gives with its result: on the largest error.
     pub(crate) bound: Option<f64>,
     /// Of a matrix of a closed room: the largest |sum - 1| of a row.

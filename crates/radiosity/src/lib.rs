@@ -29,6 +29,7 @@
 //! | what will trouble a solution, and its repair | [`inspect`], [`repair()`] |
 //! | the scenes of the literature | [`scenes`] |
 //! | a solution as it is written, and tables | [`Record`], [`patch_table`], [`element_table`] |
+//! | radiosity along a line | [`profile`] |
 //! | how far two solutions are from each other | [`compare`] |
 //! | colours, pictures, a page | [`expose`], [`picture`], [`viewer`] |
 //!
@@ -38,6 +39,7 @@ pub use glam;
 
 pub mod compare;
 mod error;
+mod escape;
 pub mod expose;
 mod extent;
 mod image_file;
@@ -47,6 +49,7 @@ mod mesh;
 pub mod picture;
 mod plane;
 mod predicates;
+pub mod profile;
 mod record;
 mod repair;
 mod scene;

@@ -33,12 +33,12 @@ pub fn element_table(record: &Record) -> String {
 }
 
 /// `name.0`, `name.1`, … for each name.
-fn columns(names: &[&str], bands: usize) -> impl Iterator<Item = String> {
+pub(crate) fn columns(names: &[&str], bands: usize) -> impl Iterator<Item = String> {
     names.iter().flat_map(move |name| (0..bands).map(move |band| format!("{name}.{band}")))
 }
 
 /// A header and rows of the same length; what needs quotes gets them.
-fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> String {
+pub(crate) fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in std::iter::once(header).chain(rows) {
         writer.write_record(&row).expect("rows have the header's length, and memory takes them");

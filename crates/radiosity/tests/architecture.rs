@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 130] = [
+const ORDER: [&str; 138] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -21,9 +21,9 @@ const ORDER: [&str; 130] = [
     "io/collada/file", "io/collada/lit_mesh", "io/collada/xml", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
     "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish",
     "io/surface/polygon", "io/save", "io/error",
-    "viewer", "repair",
+    "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error", "repair",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",
-    "inspect/orientation", "inspect/surface",
+    "inspect/orientation", "inspect/summary", "inspect/surface",
     "table", "record",
     "picture", "picture/raster", "picture/painting", "picture/png", "picture/framing",
     "expose",
@@ -40,7 +40,7 @@ const ORDER: [&str; 130] = [
     "image_file", "extent",
     "scene", "scene/middle", "scene/patch", "scene/texture", "scene/camera", "scene/asset",
     "scene/finding",
-    "plane", "spectrum", "union_find", "predicates", "error",
+    "plane", "spectrum", "union_find", "escape", "predicates", "error",
 ];
 
 fn package() -> &'static Path {

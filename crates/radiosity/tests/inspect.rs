@@ -131,6 +131,25 @@ fn a_vertex_within_an_edge_is_a_t_junction() {
 }
 
 #[test]
+fn what_matters_comes_first_and_is_counted_by_kind() {
+    // A row of small faces along the edge of a long one, in which an emitter lies.
+    let small = (0..20).map(|i| level(&format!("{i}"), [f64::from(i), 1.0, f64::from(i) + 1.0, 2.0], 0.0));
+    let mut patches: Vec<Patch> = small.collect();
+    patches.push(level("long", [0.0, 0.0, 20.0, 1.0], 0.0));
+    patches.push(lamp(level("lamp", [0.25, 0.25, 0.75, 0.75], 0.0)));
+    let inspection = inspect(&scene(patches));
+    let counts: Vec<_> =
+        inspection.summary.iter().map(|kind| (kind.kind, kind.count, kind.matters)).collect();
+    assert_eq!(counts, [(Kind::EmitterInFace, 1, true), (Kind::TJunction, 20, false)]);
+    let kinds: Vec<Kind> = inspection.findings.iter().map(|finding| finding.kind).collect();
+    assert!(kinds.is_sorted() && kinds.len() == 21);
+    assert_eq!(
+        inspection.summary[1].to_string(),
+        "20 T-junctions: form factors do not mind; interpolated light may show a seam"
+    );
+}
+
+#[test]
 fn reflectance_darkness_and_slivers_are_told() {
     let mut dark = scene(vec![level("a", [0.0, 0.0, 1.0, 1.0], 0.0)]);
     dark.patches[0].reflectance = vec![1.2];

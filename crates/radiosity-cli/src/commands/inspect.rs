@@ -3,12 +3,14 @@ use crate::failure::Failure;
 use crate::outputs::print;
 use crate::{input, json};
 use clap::Args;
-use radiosity::inspect::{Inspection, inspect};
+use radiosity::inspect::{Finding, Inspection, KindSummary, inspect};
 use radiosity::io::{self, collada::Collada};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
 const EMITTERS: usize = 20;
+/// How many findings of a kind.
+const FINDINGS: usize = 10;
 /// How many patches of a finding.
 const NAMES: usize = 8;
 
@@ -73,14 +75,40 @@ fn text(inspection: &Inspection) -> String {
             cost.elements, cost.factors, cost.seconds
         ),
     );
-    for finding in &inspection.findings {
-        let who = names(&finding.patches);
-        let gap = if who.is_empty() { "" } else { ": " };
-        let (kind, what, repair) = (json::word(&finding.kind), &finding.what, &finding.repair);
-        line("finding", format!("{kind}: {who}{gap}{what}; repair: {repair}"));
+    text + &findings(inspection)
+}
+
+/// What was found by kind, one line each, then the findings themselves.
+fn findings(inspection: &Inspection) -> String {
+    let mut lines = vec![format!("{:<10} {}", "findings", inspection.findings.len())];
+    for kind in &inspection.summary {
+        let label = if kind.matters { "matters" } else { "harmless" };
+        lines.push(format!("{label:<10} {kind}"));
     }
-    line("findings", inspection.findings.len().to_string());
-    text
+    lines.extend(inspection.summary.iter().flat_map(|kind| of_kind(kind, &inspection.findings)));
+    lines.join("\n") + "\n"
+}
+
+/// The first findings of a kind, and how many more there are.
+fn of_kind(summary: &KindSummary, all: &[Finding]) -> Vec<String> {
+    let here = all.iter().filter(|finding| finding.kind == summary.kind);
+    let mut lines: Vec<String> = here.take(FINDINGS).map(detail).collect();
+    if let Some(more) = summary.count.checked_sub(FINDINGS).filter(|more| *more > 0) {
+        lines.push(format!(
+            "{:<10} {}: {more} more; --json lists them",
+            "finding",
+            json::word(&summary.kind)
+        ));
+    }
+    lines
+}
+
+/// A finding on a line.
+fn detail(finding: &Finding) -> String {
+    let who = names(&finding.patches);
+    let gap = if who.is_empty() { "" } else { ": " };
+    let (kind, what, repair) = (json::word(&finding.kind), &finding.what, &finding.repair);
+    format!("{:<10} {kind}: {who}{gap}{what}; repair: {repair}", "finding")
 }
 
 /// The first names, and how many more there are.

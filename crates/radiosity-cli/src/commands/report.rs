@@ -18,7 +18,7 @@ pub(crate) struct Report {
     /// The folder for report.html, report.jsonl and tables.md; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Use fewer points, settings and rounds: three minutes on two cores instead of forty
+    /// Use fewer points, settings and rounds: under two minutes on two cores instead of three quarters of an hour
     #[arg(long)]
     quick: bool,
     /// Add other libraries of polygon Booleans: the JSON lines that tests/peers writes

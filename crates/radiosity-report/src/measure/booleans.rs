@@ -50,6 +50,7 @@ fn axis(plan: &Plan, name: &str, cases: impl Iterator<Item = BooleanCase>) -> Ve
         setting: String::new(),
         amount: case.at,
         error: Deviation::of(&[(case.off)(&result)]),
+        certified: false,
         bound: None,
         defect: None,
         points: None,

@@ -1,6 +1,7 @@
 //! What was left out in a scene: how much of it, what it would have cost, and so what leaving it out bought.
 use super::test_scene::TestScene;
 use crate::clock::{Job, interleaved};
+use crate::plan::Rounds;
 use crate::rows::{LeftOut, Row, Time};
 use formfactor::{DifferentialArea, PlanarPolygon, Stats, form_factor, visible_part};
 use radiosity::{Error, Options, solve};
@@ -17,7 +18,7 @@ struct Pairs<'s> {
 }
 
 /// The economies of form factors in a scene, and those of its solution.
-pub(crate) fn measure(test_scene: &TestScene<'_>, rounds: usize) -> Result<Vec<Row>, Error> {
+pub(crate) fn measure(test_scene: &TestScene<'_>, rounds: Rounds) -> Result<Vec<Row>, Error> {
     let pairs = Pairs::of(test_scene);
     let mut rows = if pairs.pairs.is_empty() { Vec::new() } else { pairs.economies(rounds) };
     rows.extend(unlit(test_scene)?);
@@ -41,7 +42,7 @@ impl<'s> Pairs<'s> {
     }
 
     /// All economies: what is done is timed against what would be done without them.
-    fn economies(&self, rounds: usize) -> Vec<LeftOut> {
+    fn economies(&self, rounds: Rounds) -> Vec<LeftOut> {
         let polygons = self.test_scene.enclosure.polygons();
         let (count, total) = (self.pairs.len() as f64, self.stats.iter().copied().sum::<Stats>());
         let others = (polygons.len() - 1) as f64;
@@ -93,7 +94,7 @@ impl<'s> Pairs<'s> {
 
     /// CPU seconds of all pairs as they are found; of all pairs past a plain list of polygons; of those hidden in part as
     /// they are found; and of these by CSG.
-    fn times(&self, rounds: usize) -> [f64; 4] {
+    fn times(&self, rounds: Rounds) -> [f64; 4] {
         let enclosure = &self.test_scene.enclosure;
         let found = |(from, emitter): &(DifferentialArea, usize)| enclosure.form_factor(from, *emitter).value;
         // A plain list knows of no owner: what lies in dA's plane hides nothing there either.
@@ -135,7 +136,7 @@ fn unlit(test_scene: &TestScene<'_>) -> Result<Option<LeftOut>, Error> {
     let options =
         Options { elements: test_scene.points.len(), tolerance: 1e-2, spread: 1e-3, ..Options::default() };
     let job: Job<'_, _> = Box::new(|| solve(test_scene.scene, &options, |_| ControlFlow::Continue(())));
-    let (solution, time) = interleaved(&[job], 1).remove(0);
+    let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
     let solution = solution?;
     let elements = solution.irradiance.chunks(solution.bands);
     let dark = elements.clone().filter(|bands| bands.iter().all(|h| *h == 0.0)).count() as f64;

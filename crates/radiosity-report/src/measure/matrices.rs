@@ -65,6 +65,7 @@ fn blank(room: ClosedRoom) -> Measured {
         setting: String::new(),
         amount: 0.0,
         error: Deviation::default(),
+        certified: false,
         bound: None,
         defect: None,
         points: None,

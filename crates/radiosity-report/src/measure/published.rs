@@ -6,7 +6,7 @@
 //! [`compare`].
 use super::test_scene::TestScene;
 use crate::clock::{Job, interleaved};
-use crate::plan::Plan;
+use crate::plan::{Plan, Rounds};
 use crate::rows::Published;
 use formfactor::approx::{Exact, Method, VisibilityIndex};
 use radiosity::compare::{Difference, compare};
@@ -28,8 +28,8 @@ const GOMES: [(&str, usize, &str); 3] = [
     ("chessboard", 2130, "2130 elements; list 1.18 min, 28 MB; map 4.2 min, 24 MB"),
     ("cornell-3842", 3842, "3842 elements; list 7.4 min, 325 MB; map 264.9 min, 198 MB"),
 ];
-/// How many of the elements a quick report has: one in so many.
-const QUICK: usize = 16;
+/// How many of the elements a quick report has: one in so many, and no more than these.
+const QUICK: [usize; 2] = [16, 300];
 
 /// The rows of all tables whose scene is asked for.
 pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Published>, Error> {
@@ -38,18 +38,24 @@ pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Publ
     for (table, name, elements, printed) in BARRETO.into_iter().filter(|(_, name, ..)| asked(name)) {
         say(&format!("table {table}: {name}"));
         let scene = scenes::scene(name).expect("a built-in scene");
-        rows.extend(barreto(table, name, &scene, plan.scaled(elements, QUICK), printed)?);
+        rows.extend(barreto(table, name, &scene, elements_of(plan, elements), printed)?);
     }
     for (name, elements, printed) in GOMES.into_iter().filter(|(name, ..)| asked(name)) {
         let scene = scenes::scene(name).expect("a built-in scene");
-        if plan.quick && scene.patches.len() > elements / QUICK {
+        if plan.quick && scene.patches.len() > elements_of(plan, elements) {
             // What comes as thousands of patches cannot be solved with fewer elements.
             continue;
         }
         say(&format!("tables 5.1 and 5.2: {name}"));
-        rows.extend(gomes(plan, name, &scene, plan.scaled(elements, QUICK), printed)?);
+        rows.extend(gomes(plan, name, &scene, elements_of(plan, elements), printed)?);
     }
     Ok(rows)
+}
+
+/// All elements of a table, or those of a quick report.
+fn elements_of(plan: &Plan, printed: usize) -> usize {
+    let [share, most] = QUICK;
+    if plan.quick { (printed / share).min(most) } else { printed }
 }
 
 /// The exact method and the visibility index on one mesh.
@@ -64,7 +70,7 @@ fn barreto(
     let methods: [&(dyn Method + Sync); 2] = [&Exact, &VisibilityIndex { near: 0.5, samples: 4, depth: 6 }];
     let on = &test_scene;
     let job = |method| -> Job<'_, Vec<f64>> { Box::new(move || shot(on, method)) };
-    let found = interleaved(&methods.map(job), 1);
+    let found = interleaved(&methods.map(job), Rounds::ONCE);
     let exact = found[0].0.clone();
     let row = |side: usize| Published {
         table,
@@ -141,7 +147,7 @@ fn gomes(
             Ok((solution, state.to_bytes().len()))
         })
     };
-    let [one, other]: [_; 2] = all.map(|options| interleaved(&[job(options)], 1).remove(0));
+    let [one, other]: [_; 2] = all.map(|options| interleaved(&[job(options)], Rounds::ONCE).remove(0));
     let (solved, approximate) = (one.0?, other.0?);
     let [reference, hemicubes] =
         [&solved.0, &approximate.0].map(|solution| Record::new(name, scene, solution));

@@ -1,6 +1,7 @@
 //! What every method is asked: points, what they look at, and the exact answers.
 use crate::clock::{Job, interleaved};
 use crate::methods::{EXACT, Step};
+use crate::plan::Rounds;
 use crate::rows::{Chapter, Deviation, Measured, Time};
 use formfactor::{DifferentialArea, Enclosure, unoccluded};
 
@@ -41,7 +42,7 @@ impl QuerySet {
     }
 
     /// Measures all methods, in turns.
-    pub(crate) fn measure(&self, steps: &[Step], rounds: usize) -> Vec<Measured> {
+    pub(crate) fn measure(&self, steps: &[Step], rounds: Rounds) -> Vec<Measured> {
         let job = |step| -> Job<'_, Vec<f64>> { Box::new(move || self.answers(step)) };
         let jobs: Vec<Job<'_, Vec<f64>>> = steps.iter().map(job).collect();
         let found = interleaved(&jobs, rounds);
@@ -56,6 +57,7 @@ impl QuerySet {
                 setting: step.setting.clone(),
                 amount: step.amount,
                 error: certified.unwrap_or_else(|| self.deviations(&answers)),
+                certified: certified.is_some(),
                 bound: bound.map(|bound| bound.max),
                 defect: None,
                 points: Some(self.queries.len()),

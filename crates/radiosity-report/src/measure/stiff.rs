@@ -1,6 +1,6 @@
 //! The solvers against each other: rooms that reflect more and more of their light, and light of any scale.
 use crate::clock::{Job, interleaved};
-use crate::plan::Plan;
+use crate::plan::{Plan, Rounds};
 use crate::rows::{Chapter, Deviation, Measured, Time};
 use radiosity::{Error, Method, Options, Scene, Solution, State, scenes, solve_from};
 use std::{cell::RefCell, ops::ControlFlow};
@@ -30,7 +30,7 @@ pub(crate) fn measure(plan: &Plan) -> Result<Vec<Measured>, Error> {
 }
 
 /// All solvers at these shares of light that rooms absorb, and at these scales of emission.
-fn along(absorbed: &[f64], scales: &[f64], shots: usize, rounds: usize) -> Result<Vec<Measured>, Error> {
+fn along(absorbed: &[f64], scales: &[f64], shots: usize, rounds: Rounds) -> Result<Vec<Measured>, Error> {
     let mut rows = Vec::new();
     let (in_furnace, known) = (&RefCell::default(), &RefCell::default());
     for absorbed in absorbed {
@@ -102,7 +102,7 @@ impl Room<'_> {
     /// All solvers; the reference is 1 where none is given.
     fn measure(
         &self,
-        rounds: usize,
+        rounds: Rounds,
         reference: impl Fn(Method) -> Result<Option<Vec<f64>>, Error>,
     ) -> Result<Vec<Measured>, Error> {
         let job = |k: usize| -> Job<'_, Result<Solution, Error>> {
@@ -130,6 +130,7 @@ impl Room<'_> {
             setting: format!("{} shots, {} products", solution.shots, solution.products),
             amount: self.at,
             error: Deviation::of(&off.collect::<Vec<_>>()),
+            certified: false,
             bound: solution.bound.first().map(|bound| bound / largest).filter(|bound| bound.is_finite()),
             defect: None,
             points: None,
@@ -146,7 +147,7 @@ mod tests {
 
     #[test]
     fn all_solvers_that_converge_meet_their_references() {
-        let rows = along(&[0.5, 1e-6], &[1e20], 20_000, 1).unwrap();
+        let rows = along(&[0.5, 1e-6], &[1e20], 20_000, Rounds::ONCE).unwrap();
         assert_eq!(rows.len(), 5 * METHODS.len());
         for row in rows {
             let (axis, name, error) = (&row.subject, &row.series, row.error.max);

@@ -1,5 +1,7 @@
 //! The chapters of points, of stability, of solvers and of Booleans.
+use super::marker::Sign;
 use super::plot::{Curve, Plot, Point};
+use super::section::Section;
 use super::table::{error, seconds};
 use super::work_precision::{OF_A_POINT, against_time, every, largest, time_to_error};
 use super::{escape::escape, style::style};
@@ -9,7 +11,7 @@ use crate::results::Report;
 use crate::rows::{Chapter, Measured};
 
 /// Points whose form factors are known to 34 digits: error against time, by kind.
-pub(crate) fn points(report: &Report) -> String {
+pub(crate) fn points(report: &Report) -> Section {
     let intro = "Single points with references of 34 digits. Some targets are nearly hidden, far, thin, or seen at a \
                  grazing angle. Here the error of the exact method is measured like that of the others.";
     let section = |(kind, rows): (&str, Vec<&Measured>)| {
@@ -26,15 +28,13 @@ pub(crate) fn points(report: &Report) -> String {
         format!("<div>{plot}{tables}</details></div>\n")
     };
     chapter(
-        "points",
-        "Points by kind",
-        intro,
+        ["points", "Points by kind", intro],
         subjects(report.measured(Chapter::Points)).into_iter().map(section),
     )
 }
 
 /// Form factors along axes of stress.
-pub(crate) fn stability(report: &Report) -> String {
+pub(crate) fn stability(report: &Report) -> Section {
     let intro = "Two or more boards hide a target except for a rectangle, whose form factor has a closed form without \
                  cancellation. The error is relative. Each method has one setting.";
     along_axes(
@@ -47,7 +47,7 @@ pub(crate) fn stability(report: &Report) -> String {
 }
 
 /// Solvers on stiff rooms.
-pub(crate) fn solvers(report: &Report) -> String {
+pub(crate) fn solvers(report: &Report) -> Section {
     let intro = "Every solver runs to a tolerance of 1e-8, with whole patches as elements and form factors computed \
                  before. In the furnace the radiosity is 1 everywhere. In the cube each solver is compared with the exact \
                  solution of its own system, the full matrix with itself. A solver that stops at its limit of shots shows its \
@@ -62,42 +62,35 @@ pub(crate) fn solvers(report: &Report) -> String {
 }
 
 /// Polygon Booleans.
-pub(crate) fn booleans(report: &Report) -> String {
+pub(crate) fn booleans(report: &Report) -> Section {
     let rows: Vec<&Measured> = report.measured(Chapter::Booleans).collect();
     let invalid = rows.iter().filter(|row| row.valid == Some(false)).count();
-    let intro = format!(
-        "polycsg on raw rings. Results are compared with known areas and validated exactly: {} results, {invalid} of them invalid.",
-        rows.len()
-    );
-    along_axes(
+    let checked =
+        format!("<p>polycsg on raw rings: {} results, {invalid} of them invalid.</p>\n", rows.len());
+    let intro = "Results are compared with known areas and validated exactly.";
+    let section = along_axes(
         report,
         Chapter::Booleans,
-        ["booleans", "Stability of Booleans", &intro],
+        ["booleans", "Stability of Booleans", intro],
         "relative error of the area",
         "CPU time (s)",
-    )
+    );
+    section.opened_by(&checked)
 }
 
-/// A chapter, if it has any section.
-fn chapter(id: &str, title: &str, intro: &str, sections: impl Iterator<Item = String>) -> String {
-    let sections: String = sections.collect();
-    if sections.is_empty() {
-        return String::new();
-    }
-    format!(
-        "<h2 id=\"{id}\">{title}</h2>\n<p>{}</p>\n<div class=\"plots\">\n{sections}</div>\n",
-        escape(intro)
-    )
+/// A chapter of plots, if there are any.
+fn chapter([id, title, intro]: [&'static str; 3], plots: impl Iterator<Item = String>) -> Section {
+    Section::plots([id, title], &format!("<p>{}</p>\n", escape(intro)), &plots.collect::<String>())
 }
 
 /// For each subject the error and the time along its axis.
 fn along_axes(
     report: &Report,
     chapter_of: Chapter,
-    [id, title, intro]: [&str; 3],
+    texts: [&'static str; 3],
     wrong: &str,
     time: &str,
-) -> String {
+) -> Section {
     let section = |(axis, rows): (&str, Vec<&Measured>)| {
         let lines = lines(&rows);
         let errors = |row: &Measured| (row.error.max, error(row.error.max));
@@ -107,7 +100,7 @@ fn along_axes(
         };
         along(&lines, axis, wrong, errors, bounds(&lines)) + &along(&lines, axis, time, times, None)
     };
-    chapter(id, title, intro, subjects(report.measured(chapter_of)).into_iter().map(section))
+    chapter(texts, subjects(report.measured(chapter_of)).into_iter().map(section))
 }
 
 /// One figure of every row along an axis.
@@ -129,7 +122,7 @@ fn along(
             }
         };
         Curve {
-            style: style(line.name),
+            sign: Sign::Measured(style(line.name)),
             name: line.name.to_owned(),
             note: line.rows.first().map_or_else(String::new, |row| note(row)),
             points: line.rows.iter().map(point).collect(),
@@ -137,7 +130,7 @@ fn along(
         }
     };
     let curves = lines.iter().map(curve).chain(more).collect();
-    Plot { title: format!("{y} along: {axis}"), x: axis, y, curves }.svg()
+    Plot { title: format!("{y} along: {axis}"), x: axis, y, curves }.html()
 }
 
 /// What the exact method itself says of its error.
@@ -148,8 +141,8 @@ fn bounds(lines: &[Line<'_>]) -> Option<Curve> {
         Some(Point { x: row.amount, y: row.bound?, spread: None, hint })
     };
     Some(Curve {
-        style: style("visibility index, 8 × 8 rays"),
-        name: "exact, its own bound".to_owned(),
+        sign: Sign::Bound(style(EXACT)),
+        name: EXACT.to_owned(),
         note: String::new(),
         points: exact.rows.iter().filter_map(point).collect(),
         floor: None,

@@ -1,5 +1,6 @@
 //! The chapter of matrices: whole rooms from area to area, error against time.
 use super::escape::escape;
+use super::section::Section;
 use super::table::{Table, error, seconds};
 use super::work_precision::{against_time, largest};
 use crate::analysis::{Line, lines, subjects};
@@ -8,18 +9,15 @@ use crate::results::Report;
 use crate::rows::{Chapter, Measured};
 
 /// Nothing where no matrix was measured.
-pub(crate) fn html(report: &Report) -> String {
-    let sections: String = rooms(report).iter().map(|(room, rows)| section(room, rows)).collect();
-    if sections.is_empty() {
-        return sections;
-    }
-    format!(
-        "<h2 id=\"matrices\">Matrices from area to area</h2>\n<p>All form factors of closed rooms: a cube of side 10, its walls in quads, \
+pub(crate) fn section(report: &Report) -> Section {
+    let rooms: String = rooms(report).iter().map(|(room, rows)| of_room(room, rows)).collect();
+    Section::new(["matrices", "Matrices from area to area"], rooms).opened_by(
+        "<p>All form factors of closed rooms: a cube of side 10, its walls in quads, \
          and boxes that touch nothing. <i>Area to area</i> is the cubature of the exact point factors; <i>points</i> are means of rows \
          from the middles of n × n parts of each surface, by other methods. Errors of entries are against area to area at 1e-7. Rows \
          should add to 1, which needs no reference; those from points do so whatever they miss, and are not drawn. Nothing is closed \
          or smoothed afterwards. View3D 4.0 was measured once: its \
-         times are so many plain quads a pair, a plain quad is timed in this run.</p>\n{sections}"
+         times are so many plain quads a pair, a plain quad is timed in this run.</p>\n",
     )
 }
 
@@ -27,7 +25,7 @@ fn rooms(report: &Report) -> Vec<(&str, Vec<&Measured>)> {
     subjects(report.measured(Chapter::Matrices))
 }
 
-fn section(room: &str, rows: &[&Measured]) -> String {
+fn of_room(room: &str, rows: &[&Measured]) -> String {
     let lines = lines(rows);
     let of_areas: Vec<Line<'_>> =
         lines.iter().filter(|line| !line.name.starts_with(POINTS)).cloned().collect();

@@ -1,23 +1,26 @@
 //! The chapters of the work saved and of the published tables.
+use super::section::Section;
 use super::table::{Table, error, percent, seconds, short};
 use crate::results::Report;
 use crate::rows::{LeftOut, Published, Row};
 
 /// The work that was saved in each scene.
-pub(crate) fn left_out(report: &Report) -> String {
+pub(crate) fn left_out(report: &Report) -> Section {
+    let names = ["left-out", "Work saved"];
     let rows = left_out_table(report);
     if rows.rows.is_empty() {
-        return String::new();
+        return Section::new(names, String::new());
     }
-    format!(
-        "<h2 id=\"left-out\">Work saved</h2>\n<p>The table shows what the exact method did not compute in each \
+    let body = format!(
+        "<p>The table shows what the exact method did not compute in each \
          scene: how many items per form factor (of elements: in all), the time of one item, measured in this run, and the time \
          saved, in units of the time that the scene's form factors took. Savings overlap: an occluder that was never looked at \
          needs no culling either. What saves nothing in any scene has no place in the code.</p>\n{}\
          <details><summary>every scene</summary>\n{}</details>\n",
         economies(&left_out_rows(report)).html(),
         rows.html()
-    )
+    );
+    Section::new(names, body)
 }
 
 /// What was left out, each row.
@@ -62,24 +65,26 @@ pub(crate) fn left_out_table(report: &Report) -> Table {
 }
 
 /// The sources' tables with what was measured here beside what was printed.
-pub(crate) fn published(report: &Report) -> String {
+pub(crate) fn published(report: &Report) -> Section {
+    let names = ["published", "Published tables, measured again"];
     let rows = published_table(report);
     if rows.rows.is_empty() {
-        return String::new();
+        return Section::new(names, String::new());
     }
-    format!(
-        "<h2 id=\"published\">Published tables, measured again</h2>\n<p>Barreto (2008), tables 4.1 to 4.5, on an Intel Core Duo of 2.5 GHz; \
+    let body = format!(
+        "<p>Barreto (2008), tables 4.1 to 4.5, on an Intel Core Duo of 2.5 GHz; \
          his table 4.5 repeats the row of 4.4. Gomes (2010), tables 5.1 and 5.2, on a Core 2 of 2.4 GHz with a GTX 260. Here \
          all methods solve the same elements; in cornell-3842 these are its patches, cut where a block stands on them. Errors \
          are those of reflected light, compared with the exact solution on these elements: the largest error over the largest \
          light, the mean error over the mean light.{}</p>\n{}",
         if report.quick {
-            " The quick report has one element in sixteen, and no cornell-3842, which has too many patches for that."
+            " The quick report has one element in sixteen and at most 300, and no cornell-3842, which has too many patches for that."
         } else {
             ""
         },
         rows.html()
-    )
+    );
+    Section::new(names, body)
 }
 
 pub(crate) fn published_table(report: &Report) -> Table {

@@ -1,5 +1,6 @@
 //! Other libraries' polygon Booleans, as measured elsewhere: JSON lines with `workload`, `op`, `edges`, `polycsg_s`, `peers`
 //! (seconds by name, null for those that failed), `area_error` and `valid`.
+use super::section::Section;
 use super::table::{Table, error, seconds};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -42,12 +43,13 @@ impl Peers {
     }
 
     /// Their chapter.
-    pub(crate) fn html(&self) -> String {
-        format!(
-            "<h2 id=\"peers\">Booleans beside other libraries</h2>\n<p>Seconds of CPU time per call; – where a library was too \
+    pub(crate) fn section(&self) -> Section {
+        let body = format!(
+            "<p>Seconds of CPU time per call; – where a library was too \
              slow, refused, or failed. The error of the area is polycsg's.</p>\n{}",
             self.table().html()
-        )
+        );
+        Section::new(["peers", "Booleans beside other libraries"], body)
     }
 
     fn table(&self) -> Table {

@@ -1,6 +1,7 @@
-//! Log-log plots as SVG: lines with markers, ticks at decades, a legend beside the plot.
+//! Log-log plots as SVG: lines with markers, ticks at decades, and a key that goes beside the plot or, where there is no room, below.
 use super::axis::{Axis, power};
 use super::escape::escape;
+use super::marker::{Sign, marker};
 use std::fmt::Write;
 
 /// A plot.
@@ -16,10 +17,10 @@ pub(crate) struct Plot<'p> {
 /// A line of a plot.
 #[derive(Clone, Debug)]
 pub(crate) struct Curve {
-    /// Which colour and marker; a method has the same ones in all plots.
-    pub(crate) style: usize,
+    /// Whether its values were measured, or are proven bounds on them.
+    pub(crate) sign: Sign,
     pub(crate) name: String,
-    /// A second line in the legend.
+    /// A second line in the key.
     pub(crate) note: String,
     pub(crate) points: Vec<Point>,
     /// A level below which it does not get.
@@ -37,76 +38,117 @@ pub(crate) struct Point {
     pub(crate) hint: String,
 }
 
-/// Of the whole picture and of the frame within it.
-const WIDTH: f64 = 780.0;
-const LEFT: f64 = 74.0;
-const RIGHT: f64 = 520.0;
-const TOP: f64 = 34.0;
-const ENTRY: f64 = 31.0;
+/// Of the whole picture and of the frame within it; small enough that labels can be read on a screen of 400 pixels.
+const WIDTH: f64 = 440.0;
+const HEIGHT: f64 = 392.0;
+const LEFT: f64 = 66.0;
+const RIGHT: f64 = 424.0;
+const TOP: f64 = 12.0;
+const BOTTOM: f64 = 342.0;
+/// How many labels there is room for, across and up.
+const LABELS: [usize; 2] = [7, 9];
 /// What is smaller is drawn here: below the rounding of doubles nothing is told apart.
 const LEAST: f64 = 1e-17;
 
 impl Plot<'_> {
-    /// The plot as an SVG element; its colours are those of the page that it stands in.
-    pub(crate) fn svg(&self) -> String {
-        let bottom = TOP + (ENTRY * self.curves.len() as f64).max(440.0);
-        let height = bottom + 52.0;
-        let points = || self.curves.iter().flat_map(|curve| &curve.points);
-        let across = Axis::over(points().map(|point| point.x), [LEFT, RIGHT]);
-        let up = Axis::over(points().map(|point| point.y.max(LEAST)), [bottom, TOP]);
-        let mut svg = format!(
-            "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{0}\">\
-             <text class=\"title\" x=\"{LEFT}\" y=\"20\">{0}</text>\n",
-            escape(&self.title)
-        );
-        self.grid(&mut svg, [across, up], bottom);
-        for (row, curve) in self.curves.iter().enumerate() {
-            curve.draw(&mut svg, [across, up], TOP + ENTRY * (row as f64 + 0.4));
+    /// The plot with its key; its colours are those of the page that it stands in. A sentence where there is nothing to draw.
+    pub(crate) fn html(&self) -> String {
+        let title = escape(&self.title);
+        let count = self.points().count();
+        if self.points().any(|point| point.y > 0.0) {
+            let (svg, key) = (self.svg(), self.key());
+            format!("<figure class=\"plot\"><figcaption>{title}</figcaption>\n{svg}{key}</figure>\n")
+        } else if count == 0 {
+            format!("<p class=\"empty\"><b>{title}</b>: nothing was measured.</p>\n")
+        } else {
+            format!("<p class=\"empty\"><b>{title}</b>: no plot, as all {count} values are 0.</p>\n")
         }
-        svg += "</svg>\n";
-        svg
+    }
+
+    fn points(&self) -> impl Iterator<Item = &Point> {
+        self.curves.iter().flat_map(|curve| &curve.points)
+    }
+
+    fn svg(&self) -> String {
+        let floors = self.curves.iter().filter_map(|curve| curve.floor);
+        let heights = self.points().map(|point| point.y.max(LEAST)).chain(floors).chain(self.arrows());
+        let across = Axis::over(self.points().map(|point| point.x), [LEFT, RIGHT]);
+        let up = Axis::over(heights, [BOTTOM, TOP]);
+        let title = escape(&self.title);
+        let mut svg = format!(
+            "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\">\n"
+        );
+        self.grid(&mut svg, [across, up]);
+        self.curves.iter().for_each(|curve| curve.draw(&mut svg, [across, up]));
+        svg + "</svg>\n"
+    }
+
+    /// Where the arrows of bounds end, so that they lie within the frame.
+    fn arrows(&self) -> impl Iterator<Item = f64> {
+        let bounds = self.curves.iter().filter(|curve| curve.sign.is_bound());
+        bounds.flat_map(|curve| &curve.points).map(|point| point.y.max(LEAST) / 5.0)
     }
 
     /// Lines at the decades, their names, and what the axes show.
-    fn grid(&self, svg: &mut String, [across, up]: [Axis; 2], bottom: f64) {
-        for decade in across.ticks() {
+    fn grid(&self, svg: &mut String, [across, up]: [Axis; 2]) {
+        for decade in across.ticks(LABELS[0]) {
             let x = across.place(10f64.powi(decade));
             let _ = writeln!(
                 svg,
-                "<path class=\"grid\" d=\"M{x:.1} {TOP}V{bottom}\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                bottom + 22.0,
+                "<path class=\"grid\" d=\"M{x:.1} {TOP}V{BOTTOM}\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+                BOTTOM + 20.0,
                 power(decade)
             );
         }
-        for decade in up.ticks() {
+        for decade in up.ticks(LABELS[1]) {
             let y = up.place(10f64.powi(decade));
             let _ = writeln!(
                 svg,
                 "<path class=\"grid\" d=\"M{LEFT} {y:.1}H{RIGHT}\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                LEFT - 7.0,
+                LEFT - 6.0,
                 y + 4.0,
                 power(decade)
             );
         }
-        let (middle, centre) = (f64::midpoint(LEFT, RIGHT), f64::midpoint(TOP, bottom));
+        let (middle, centre) = (f64::midpoint(LEFT, RIGHT), f64::midpoint(TOP, BOTTOM));
         let _ = writeln!(
             svg,
             "<text x=\"{middle}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\
-             <text transform=\"translate(17 {centre:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-            bottom + 43.0,
+             <text transform=\"translate(16 {centre:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+            BOTTOM + 42.0,
             escape(self.x),
             escape(self.y)
         );
     }
+
+    /// What the markers mean; proven bounds and measured values under headings of their own where both are drawn.
+    fn key(&self) -> String {
+        let of = |proven: bool| {
+            let here = self.curves.iter().filter(|curve| curve.sign.is_bound() == proven);
+            here.map(Curve::entry).collect::<String>()
+        };
+        let (proven, measured) = (of(true), of(false));
+        let entries = if proven.is_empty() {
+            measured
+        } else {
+            format!(
+                "<li class=\"kind\">Proven bound: the error is below</li>\n{proven}<li class=\"kind\">Measured error</li>\n{measured}"
+            )
+        };
+        format!("<ul class=\"key\">\n{entries}</ul>\n")
+    }
 }
 
 impl Curve {
-    /// The line with its markers, and its entry in the legend.
-    fn draw(&self, svg: &mut String, [across, up]: [Axis; 2], entry: f64) {
-        let style = self.style;
+    /// The line with its markers.
+    fn draw(&self, svg: &mut String, [across, up]: [Axis; 2]) {
         let at = |point: &Point| (across.place(point.x), up.place(point.y.max(LEAST)));
-        let path: Vec<String> = self.points.iter().map(at).map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
-        let _ = write!(svg, "<g class=\"s{style}\"><path class=\"line\" d=\"M{}\"/>", path.join("L"));
+        let _ = write!(svg, "<g class=\"{}\">", self.sign.class());
+        if !self.points.is_empty() {
+            let path: Vec<String> =
+                self.points.iter().map(at).map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
+            let _ = write!(svg, "<path class=\"line\" d=\"M{}\"/>", path.join("L"));
+        }
         if let Some(floor) = self.floor {
             let y = up.place(floor);
             let _ = write!(svg, "<path class=\"floor\" d=\"M{LEFT} {y:.1}H{RIGHT}\"/>");
@@ -116,42 +158,23 @@ impl Curve {
             if let Some([low, high]) = point.spread.map(|ends| ends.map(|end| across.place(end))) {
                 let _ = write!(svg, "<path class=\"spread\" d=\"M{low:.1} {y:.1}H{high:.1}\"/>");
             }
-            let _ = write!(svg, "{}", marker(style, x, y, &point.hint));
+            let _ = write!(svg, "{}", marker(self.sign, [x, y], &point.hint));
         }
-        let (x, line) = (RIGHT + 24.0, entry + 13.0);
-        let _ = writeln!(
-            svg,
-            "{}<text x=\"{:.1}\" y=\"{:.1}\">{}</text><text class=\"note\" x=\"{:.1}\" y=\"{line:.1}\">{}</text></g>",
-            marker(style, x, entry - 4.0, ""),
-            x + 13.0,
-            entry,
-            escape(&self.name),
-            x + 13.0,
-            escape(&self.note)
-        );
+        *svg += "</g>\n";
     }
-}
 
-/// One of twelve shapes, filled or open.
-fn marker(style: usize, x: f64, y: f64, hint: &str) -> String {
-    const SHAPES: [(&str, bool); 12] = [
-        ("m-5 0a5 5 0 1 0 10 0a5 5 0 1 0-10 0z", true),
-        ("m-4.5-4.5h9v9h-9z", true),
-        ("m0-6l5.5 9.5h-11z", true),
-        ("m0 6l5.5-9.5h-11z", true),
-        ("m0-6l5 6l-5 6l-5-6z", true),
-        ("m-5 0a5 5 0 1 0 10 0a5 5 0 1 0-10 0z", false),
-        ("m-4.5-4.5h9v9h-9z", false),
-        ("m0-6l5.5 9.5h-11z", false),
-        ("m0 6l5.5-9.5h-11z", false),
-        ("m0-6l5 6l-5 6l-5-6z", false),
-        ("m-5-5l10 10m0-10l-10 10", false),
-        ("m-6 0h12m-6-6v12", false),
-    ];
-    let (shape, filled) = SHAPES[style % SHAPES.len()];
-    let class = if filled { "mark full" } else { "mark" };
-    let hint = if hint.is_empty() { String::new() } else { format!("<title>{}</title>", escape(hint)) };
-    format!("<path class=\"{class}\" d=\"M{x:.1} {y:.1}{shape}\">{hint}</path>")
+    /// Its line of the key.
+    fn entry(&self) -> String {
+        let (class, name, note) = (self.sign.class(), escape(&self.name), escape(&self.note));
+        let sign = match self.points.as_slice() {
+            [] => "<path class=\"floor\" d=\"M0 10H20\"/>".to_owned(),
+            _ => marker(self.sign, [10.0, 10.0], ""),
+        };
+        let note = if note.is_empty() { note } else { format!("<small>{note}</small>") };
+        format!(
+            "<li><svg class=\"sign {class}\" viewBox=\"0 0 20 20\">{sign}</svg><span>{name}{note}</span></li>\n"
+        )
+    }
 }
 
 #[cfg(test)]
@@ -166,7 +189,7 @@ mod tests {
             hint: String::new(),
         };
         let curve = |style: usize| Curve {
-            style,
+            sign: Sign::Measured(style),
             name: format!("a < {style}"),
             note: "slope -2".into(),
             points: (0..4).map(point).collect(),
@@ -175,38 +198,57 @@ mod tests {
         Plot { title: "T & t".into(), x: "time (s)", y: "error", curves: (0..count).map(curve).collect() }
     }
 
-    #[test]
-    fn a_plot_is_xml_with_a_marker_for_each_point_and_each_entry() {
-        let svg = plot(12).svg();
-        let document = roxmltree::Document::parse(&svg).unwrap();
-        let of = |class: &str| {
-            let has = |node: &roxmltree::Node<'_, '_>| {
-                node.attribute("class").is_some_and(|c| c.split(' ').any(|word| word == class))
-            };
-            document.descendants().filter(has).count()
-        };
-        assert_eq!((of("mark"), of("line"), of("floor"), of("spread")), (12 * 5, 12, 12, 48));
+    fn parsed(html: &str, look: impl Fn(&roxmltree::Document<'_>)) {
+        look(&roxmltree::Document::parse(html).unwrap());
+    }
+
+    fn has_class(node: &roxmltree::Node<'_, '_>, class: &str) -> bool {
+        node.attribute("class").is_some_and(|found| found.split(' ').any(|word| word == class))
     }
 
     #[test]
-    fn nothing_lies_outside_of_the_picture_and_entries_do_not_overlap() {
-        let svg = plot(14).svg();
-        let document = roxmltree::Document::parse(&svg).unwrap();
-        let view: Vec<f64> = document
-            .root_element()
-            .attribute("viewBox")
-            .unwrap()
-            .split(' ')
-            .map(|n| n.parse().unwrap())
-            .collect();
-        let texts = document.descendants().filter(|node| node.has_tag_name("text"));
-        let places: Vec<[f64; 2]> = texts
-            .map(|node| ["x", "y"].map(|name| node.attribute(name).map(|n| n.parse().unwrap())))
-            .filter_map(|[x, y]| Some([x?, y?]))
-            .collect();
-        assert!(places.iter().all(|[x, y]| *x > 0.0 && *x < view[2] - 100.0 && *y > 10.0 && *y < view[3]));
-        let mut legend: Vec<f64> = places.iter().filter(|[x, _]| *x > RIGHT).map(|[_, y]| *y).collect();
-        legend.sort_by(f64::total_cmp);
-        assert!(legend.len() == 28 && legend.windows(2).all(|pair| pair[1] - pair[0] >= 12.0));
+    fn a_plot_is_xml_with_a_marker_for_each_point_and_each_entry() {
+        parsed(&plot(12).html(), |document| {
+            let of = |class: &str| document.descendants().filter(|node| has_class(node, class)).count();
+            assert_eq!((of("mark"), of("line"), of("floor"), of("spread")), (12 * 5, 12, 12, 48));
+        });
+    }
+
+    #[test]
+    fn labels_lie_within_the_picture() {
+        parsed(&plot(14).html(), |document| {
+            let texts = document.descendants().filter(|node| node.has_tag_name("text"));
+            let places: Vec<[f64; 2]> = texts
+                .map(|node| ["x", "y"].map(|name| node.attribute(name).map(|n| n.parse().unwrap())))
+                .filter_map(|[x, y]| Some([x?, y?]))
+                .collect();
+            assert!(places.iter().all(|[x, y]| *x > 0.0 && *x < WIDTH && *y > 10.0 && *y < HEIGHT));
+        });
+    }
+
+    #[test]
+    fn a_bound_has_a_sign_and_a_heading_of_its_own() {
+        let mut plot = plot(3);
+        plot.curves[0].sign = Sign::Bound(0);
+        parsed(&plot.html(), |document| {
+            let of = |class: &str| document.descendants().filter(|node| has_class(node, class)).count();
+            // Four points and the entry; two groups of them in the picture and in the key.
+            assert_eq!((of("limit"), of("mark"), of("kind")), (5, 10, 2));
+            let key: Vec<&str> = document.descendants().filter_map(|node| node.text()).collect();
+            let at = |text: &str| key.iter().position(|found| found.starts_with(text)).unwrap();
+            assert!(at("Proven bound") < at("a < 0") && at("a < 0") < at("Measured error"));
+            assert!(at("Measured error") < at("a < 1"));
+        });
+        assert!(!self::plot(3).html().contains("Proven"), "nothing to tell apart");
+    }
+
+    #[test]
+    fn nothing_to_draw_is_a_sentence() {
+        let mut plot = plot(2);
+        plot.curves.iter_mut().flat_map(|curve| &mut curve.points).for_each(|point| point.y = 0.0);
+        let html = plot.html();
+        assert!(html.contains("T &amp; t</b>: no plot, as all 8 values are 0.") && !html.contains("<svg"));
+        plot.curves.iter_mut().for_each(|curve| curve.points.clear());
+        assert!(plot.html().contains("nothing was measured") && !plot.html().contains("<svg"));
     }
 }

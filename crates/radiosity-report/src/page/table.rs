@@ -42,7 +42,7 @@ impl Table {
         let rows: String = self.rows.iter().map(|row| format!("<tr>{}</tr>\n", cells("td", row))).collect();
         let header = cells("th", &self.header);
         format!(
-            "<div class=\"wide\"><table><thead><tr>{header}</tr></thead><tbody>\n{rows}</tbody></table></div>\n"
+            "<div class=\"wide\" role=\"region\" aria-label=\"table\" tabindex=\"0\"><table><thead><tr>{header}</tr></thead><tbody>\n{rows}</tbody></table></div>\n"
         )
     }
 }

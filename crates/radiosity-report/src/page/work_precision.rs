@@ -1,4 +1,5 @@
 //! Error against time: the plot, and its figures as tables.
+use super::marker::Sign;
 use super::plot::{Curve, Plot, Point};
 use super::style::style;
 use super::table::{Table, error, percent, seconds};
@@ -15,32 +16,33 @@ pub(crate) fn against_time(
     [x, y]: [&str; 2],
     error_of: impl Fn(&Measured) -> f64,
 ) -> String {
-    let curve = |line: &Line<'_>| {
-        let point = |row: &&Measured| Point {
-            x: row.time.cpu.median,
+    let curves = lines.iter().map(|line| curve(line, &error_of)).collect();
+    Plot { title: title.to_owned(), x, y, curves }.html()
+}
+
+/// A method's errors against its times, with slope and floor in the key.
+pub(crate) fn curve(line: &Line<'_>, error_of: impl Fn(&Measured) -> f64) -> Curve {
+    let point = |row: &&Measured| {
+        let (off, time) = (error(error_of(row)), row.time.cpu);
+        Point {
+            x: time.median,
             y: error_of(row),
-            spread: Some([row.time.cpu.low, row.time.cpu.high]),
-            hint: format!(
-                "{} {}: {}, {}",
-                row.series,
-                row.setting,
-                error(error_of(row)),
-                seconds(row.time.cpu.median)
-            ),
-        };
-        let floor = line.floor(&error_of);
-        let slope = line.slope(&error_of).map(|slope| format!("slope {}", signed(slope)));
-        let stuck = floor.map(|floor| format!("floor {}", error(floor)));
-        Curve {
-            style: style(line.name),
-            name: line.name.to_owned(),
-            note: slope.into_iter().chain(stuck).collect::<Vec<_>>().join(", "),
-            points: line.rows.iter().map(point).collect(),
-            floor,
+            spread: Some([time.low, time.high]),
+            hint: format!("{} {}: {}{off}, {}", row.series, row.setting, below(row), seconds(time.median)),
         }
     };
-    let curves = lines.iter().map(curve).collect();
-    Plot { title: title.to_owned(), x, y, curves }.svg()
+    let floor = line.floor(&error_of);
+    let slope = line.slope(&error_of).map(|slope| format!("slope {}", signed(slope)));
+    let stuck = floor.map(|floor| format!("floor {}", error(floor)));
+    let certified = line.rows.iter().any(|row| row.certified);
+    let own = style(line.name);
+    Curve {
+        sign: if certified { Sign::Bound(own) } else { Sign::Measured(own) },
+        name: line.name.to_owned(),
+        note: slope.into_iter().chain(stuck).collect::<Vec<_>>().join(", "),
+        points: line.rows.iter().map(point).collect(),
+        floor,
+    }
 }
 
 /// The time in which each method reaches some errors.
@@ -50,12 +52,13 @@ pub(crate) fn time_to_error(lines: &[Line<'_>]) -> Table {
     for line in lines {
         let [a, b, c] = TARGETS.map(|target| line.time_to(target).map_or_else(|| "–".to_owned(), seconds));
         let [best, time] = line.best();
+        let below = line.rows.first().map_or("", |row| below(row));
         table.push([
             line.name.to_owned(),
             a,
             b,
             c,
-            format!("{}, {}", error(best), seconds(time)),
+            format!("{below}{}, {}", error(best), seconds(time)),
             line.slope(largest).map_or_else(|| "–".to_owned(), signed),
             line.floor(largest).map_or_else(|| "–".to_owned(), error),
         ]);
@@ -82,8 +85,8 @@ pub(crate) fn every(rows: &[&Measured]) -> Table {
         table.push([
             row.series.clone(),
             row.setting.clone(),
-            error(row.error.max),
-            error(row.error.mean),
+            format!("{}{}", below(row), error(row.error.max)),
+            format!("{}{}", below(row), error(row.error.mean)),
             percent(row.error.beyond),
             seconds(cpu.median),
             format!("{} – {}", seconds(cpu.low), seconds(cpu.high)),
@@ -92,6 +95,11 @@ pub(crate) fn every(rows: &[&Measured]) -> Table {
         ]);
     }
     table
+}
+
+/// What stands before an error that is a bound.
+pub(crate) fn below(row: &Measured) -> &'static str {
+    if row.certified { "≤ " } else { "" }
 }
 
 /// The largest error, and the mean: what plots are of.
@@ -104,6 +112,6 @@ pub(crate) fn mean(row: &Measured) -> f64 {
 }
 
 /// With a sign as long as the digits.
-fn signed(value: f64) -> String {
+pub(crate) fn signed(value: f64) -> String {
     format!("{value:.2}").replace('-', "−")
 }

@@ -5,10 +5,10 @@ mod labels;
 
 use crate::analysis::{lines, subjects};
 use crate::machine::Machine;
-use crate::measure::{cases, matrices, published, query::exact, test_scene::TestScene};
+use crate::measure::{cases, matrices, published, query::exact, solutions, test_scene::TestScene};
 use crate::methods::{self, Step};
 use crate::page::table::Table;
-use crate::plan::Plan;
+use crate::plan::{Plan, Rounds};
 use crate::results::Report;
 use crate::rows::{Chapter, Measured, Published, Row, Time};
 use formfactor::{DVec3, DifferentialArea};
@@ -33,9 +33,9 @@ fn glance(names: &[&str]) -> Report {
     let mut rows = Vec::new();
     for (name, scene) in &plan(names).scenes {
         let test_scene = TestScene::new(name, scene, 120).unwrap();
-        rows.extend(test_scene.queries(4).measure(&steps, 1).into_iter().map(Row::Measured));
+        rows.extend(test_scene.queries(4).measure(&steps, Rounds::ONCE).into_iter().map(Row::Measured));
     }
-    Report { rows, machine: Machine::here(), quick: true, images: Vec::new() }
+    Report { rows, machine: Machine::here(), quick: true, images: Vec::new(), noise: Vec::new() }
 }
 
 /// The tables of a text in Markdown, each with the heading above it.
@@ -95,9 +95,17 @@ fn benchmarks_has_the_tables_that_its_command_writes() {
     let shown = std::fs::read_to_string(path).expect("the benchmarks stand beside the library");
     let command = format!("radiosity report {} -o report", BARRETO.join(" "));
     assert!(shown.contains(&command), "benchmarks.md names no command: {command}");
+    assert!(
+        shown.contains("radiosity report cornell-box separating-wall -o report"),
+        "benchmarks.md names no command"
+    );
     let shown = tables(&shown);
     let mut report = glance(&BARRETO);
     report.rows.extend(published());
+    for scene in ["cornell-box", "separating-wall"] {
+        let solved = solutions::series(&plan(&[])).into_iter().map(|series| solutions::blank(scene, series));
+        report.rows.extend(solved.map(Row::Measured));
+    }
     let made = tables(&report.tables());
     for (heading, table) in made.iter().filter(|(_, table)| !table.rows.is_empty()) {
         let found = shown.iter().find(|(shown, _)| shown == heading);
@@ -188,12 +196,36 @@ fn every_row_is_a_line_of_json_and_every_scene_a_section() {
 }
 
 #[test]
+fn the_page_begins_with_a_sentence_and_a_plot_and_links_to_every_chapter() {
+    let mut report = glance(&["obstruction", "wall"]);
+    report.rows.extend(published());
+    let page = report.page(None);
+    let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("no {text}"));
+    let scenes = at("<h2 id=\"scenes\">");
+    assert!(at("<h1>") < at("<p class=\"lead\">In 2 scenes the exact method"));
+    assert!(at("<p class=\"lead\">") < at("medians of 2 scenes") && at("medians of 2 scenes") < scenes);
+    // The worst bound of both scenes, with the sign of a bound, in the overview and in four plots.
+    assert_eq!(page.matches("Proven bound: the error is below").count(), 5);
+    let links: Vec<&str> =
+        page.split("href=\"#").skip(1).map(|rest| &rest[..rest.find('"').unwrap()]).collect();
+    let heads: Vec<&str> =
+        page.split("<h2 id=\"").skip(1).map(|rest| &rest[..rest.find('"').unwrap()]).collect();
+    assert_eq!(heads, ["scenes", "published"]);
+    for anchor in heads.iter().chain(&["obstruction", "wall"]) {
+        assert!(links.contains(anchor), "{anchor}");
+    }
+    for link in links {
+        assert!(page.contains(&format!("id=\"{link}\"")), "{link} leads nowhere");
+    }
+}
+
+#[test]
 fn a_method_that_samples_everywhere_agrees_with_the_exact_references_of_points() {
     let rays = &methods::middle(&plan(&[]))[5];
     for set in cases::query_sets() {
-        let exact = set.measure(&cheapest()[..1], 1);
+        let exact = set.measure(&cheapest()[..1], Rounds::ONCE);
         assert!(exact[0].error.max <= exact[0].bound.unwrap() + 1e-16, "{}", set.subject);
-        let sampled = set.measure(std::slice::from_ref(rays), 1);
+        let sampled = set.measure(std::slice::from_ref(rays), Rounds::ONCE);
         assert!(sampled[0].error.max < 0.02, "{}: {:?}", set.subject, sampled[0].error);
     }
 }
@@ -206,6 +238,7 @@ fn the_matrix_of_a_room_gets_better_with_its_tolerance_and_is_better_than_from_p
         machine: Machine::here(),
         quick: true,
         images: Vec::new(),
+        noise: Vec::new(),
     };
     let rows: Vec<&Measured> = report.measured(Chapter::Matrices).collect();
     for line in lines(&rows) {

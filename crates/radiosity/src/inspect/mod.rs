@@ -7,6 +7,7 @@
 //! overlap      patches that cover each other in one plane, duplicates among them
 //! orientation  neighbours that face opposite ways
 //! surface      impossible reflectances, patches that are thinner than rounding
+//! summary      findings by kind: how many, and whether they matter
 //! ```
 //! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
 //! [`PlanarPolygon`](formfactor::PlanarPolygon).
@@ -15,12 +16,14 @@ mod junction;
 mod openness;
 mod orientation;
 pub(crate) mod overlap;
+mod summary;
 mod surface;
 
 pub use crate::scene::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
 pub use overlap::coplanar_overlaps;
+pub use summary::KindSummary;
 
 use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
@@ -51,7 +54,9 @@ pub struct Inspection {
     pub closed: bool,
     /// The widest opening.
     pub opening: Option<Opening>,
-    /// What will trouble a solution, and how to repair it.
+    /// The findings by kind, those first that trouble a solution most.
+    pub summary: Vec<KindSummary>,
+    /// What will trouble a solution, and how to repair it, in the order of the summary.
     pub findings: Vec<Finding>,
     /// The predicted cost of the form factors.
     pub cost: Cost,
@@ -85,6 +90,8 @@ pub fn inspect(scene: &Scene) -> Inspection {
         overlap::coplanar_overlaps(scene),
         junction::findings(scene),
     ];
+    let mut findings: Vec<Finding> = findings.into_iter().flatten().collect();
+    findings.sort_by_key(|finding| finding.kind);
     let (opening, cost) = openness::openness(scene);
     let Asset { up, unit } = scene.asset;
     Inspection {
@@ -99,7 +106,8 @@ pub fn inspect(scene: &Scene) -> Inspection {
         emitters: emitters(scene),
         closed: opening.as_ref().is_some_and(Opening::is_none),
         opening,
-        findings: findings.into_iter().flatten().collect(),
+        summary: summary::summary(&findings),
+        findings,
         cost,
     }
 }

@@ -29,31 +29,74 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Kinds of findings.
+/// Kinds of findings, those first that trouble a solution most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Kind {
-    /// Something in the file that is not read, or is read as something else.
-    File,
-    /// A polygon that is not planar and was split into triangles.
-    NonPlanar,
-    /// A polygon without area, which was left out.
-    NoArea,
-    /// No patch emits.
-    Dark,
     /// A reflectance of 1 or more, or below 0.
     Reflectance,
+    /// No patch emits.
+    Dark,
+    /// Something in the file that is not read, or is read as something else.
+    File,
     /// Two neighbours that face opposite ways.
     Flipped,
     /// Two patches of the same outline that face the same way.
     Duplicate,
-    /// Two patches that face the same way and cover each other in part, in one plane.
-    Overlap,
     /// An emitter that lies in a larger patch.
     EmitterInFace,
-    /// A vertex that ends in the middle of another patch's edge.
-    TJunction,
+    /// Two patches that face the same way and cover each other in part, in one plane.
+    Overlap,
+    /// A polygon that is not planar and was split into triangles.
+    NonPlanar,
     /// A patch so thin that its coordinates' rounding is a share of its width.
     Sliver,
+    /// A polygon without area, which was left out.
+    NoArea,
+    /// A vertex that ends in the middle of another patch's edge.
+    TJunction,
+}
+
+impl Kind {
+    /// Whether it changes the light, so that a solution is not that of the scene which the file's author had in mind.
+    #[must_use]
+    pub fn matters(self) -> bool {
+        !matches!(self, Kind::NoArea | Kind::TJunction)
+    }
+
+    /// What it does to a solution, in a clause.
+    #[must_use]
+    pub fn effect(self) -> &'static str {
+        match self {
+            Kind::Reflectance => "they would give more light than they get",
+            Kind::Dark => "all light is 0",
+            Kind::File => "what was not read is not in the scene",
+            Kind::Flipped => "they take and give light on the wrong side",
+            Kind::Duplicate | Kind::Overlap => "light from what both cover counts twice",
+            Kind::EmitterInFace => "light from the covered part of the face counts beside the emitter's",
+            Kind::NonPlanar => "their triangles are a guess at the surface",
+            Kind::Sliver => "their own light is uncertain",
+            Kind::NoArea => "nothing was lost",
+            Kind::TJunction => "form factors do not mind; interpolated light may show a seam",
+        }
+    }
+
+    /// Its name in a sentence, of one and of many.
+    #[must_use]
+    pub fn nouns(self) -> [&'static str; 2] {
+        match self {
+            Kind::Reflectance => ["impossible reflectance", "impossible reflectances"],
+            Kind::Dark => ["dark scene", "dark scenes"],
+            Kind::File => ["note on the file", "notes on the file"],
+            Kind::Flipped => ["flipped face", "flipped faces"],
+            Kind::Duplicate => ["duplicate", "duplicates"],
+            Kind::EmitterInFace => ["emitter in a face", "emitters in faces"],
+            Kind::Overlap => ["overlap", "overlaps"],
+            Kind::NonPlanar => ["surface that is not planar", "surfaces that are not planar"],
+            Kind::Sliver => ["sliver", "slivers"],
+            Kind::NoArea => ["surface with empty polygons", "surfaces with empty polygons"],
+            Kind::TJunction => ["T-junction", "T-junctions"],
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Lists, numbers and names as XML text.
+//! Lists and numbers as XML text.
 use std::fmt::{Display, Write};
 
 /// What files say they were made with.
@@ -19,25 +19,4 @@ pub(super) fn list(words: impl Iterator<Item = impl Display>) -> String {
 pub(super) fn decimal(number: &f64) -> String {
     let text = format!("{:?}", number + 0.0);
     text.strip_suffix(".0").map(Into::into).unwrap_or(text)
-}
-
-/// Text that may stand in an attribute or between tags and reads back as it was; characters that XML 1.0 has not are
-/// replaced.
-pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            // As they are they would be read as blanks.
-            '\t' => escaped.push_str("&#9;"),
-            '\n' => escaped.push_str("&#10;"),
-            '\r' => escaped.push_str("&#13;"),
-            '\0'..' ' | '\u{fffe}' | '\u{ffff}' => escaped.push(char::REPLACEMENT_CHARACTER),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
