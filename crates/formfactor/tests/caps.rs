@@ -32,9 +32,10 @@ fn houses() -> Vec<PlanarPolygon> {
     [sides([1.0, 1.0, 0.0], [2.5, 2.0, 2.0]), sides([3.5, 2.5, 0.0], [4.5, 4.0, 1.0])].concat()
 }
 
-fn all(scene: &Enclosure, count: usize) -> Vec<AreaFormFactor> {
+fn all(scene: &Enclosure, count: usize, tolerance: f64) -> Vec<AreaFormFactor> {
     let pairs = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
-    pairs.map(|(i, j)| scene.area_form_factor(i, j, 1e-6, &Limits::default()).unwrap().unwrap()).collect()
+    let found = |i, j| scene.area_form_factor(i, j, tolerance, &Limits::default()).unwrap().unwrap();
+    pairs.map(|(i, j)| found(i, j)).collect()
 }
 
 #[test]
@@ -44,8 +45,8 @@ fn a_house_without_a_floor_hides_what_its_walls_and_its_roof_hide() {
     let inside = [[1.4, 1.4], [3.9, 3.0]]
         .map(|[x, y]| polygon(&[[x, y, 0.1], [x + 0.01, y, 0.1], [x, y + 0.01, 0.1]]));
     // With something inside the walls count one by one.
-    let capped = all(&street(open.clone()), count);
-    let walled = all(&street(open.into_iter().chain(inside)), count);
+    let capped = all(&street(open.clone()), count, 1e-6);
+    let walled = all(&street(open.into_iter().chain(inside)), count, 1e-6);
     let seen = capped.iter().filter(|factor| factor.value > 1e-3).count();
     assert!(seen > 60, "only {seen} factors");
     for (pair, (capped, walled)) in capped.iter().zip(&walled).enumerate() {
@@ -116,8 +117,8 @@ fn speck([x, y, z]: [f64; 3]) -> PlanarPolygon {
 
 /// Each pair as `solids` and with specks, and bounds of some.
 fn assert_alike(solids: &[PlanarPolygon], specks: &[PlanarPolygon], least: usize) {
-    let capped = all(&Enclosure::new(solids.to_vec()), solids.len());
-    let walled = all(&Enclosure::new([solids, specks].concat()), solids.len());
+    let capped = all(&Enclosure::new(solids.to_vec()), solids.len(), 1e-4);
+    let walled = all(&Enclosure::new([solids, specks].concat()), solids.len(), 1e-4);
     let seen = capped.iter().filter(|factor| factor.value > 1e-3).count();
     assert!(seen >= least, "only {seen} factors");
     for (pair, (capped, walled)) in capped.iter().zip(&walled).enumerate() {
@@ -165,8 +166,8 @@ fn a_lining_sees_out_of_an_open_box() {
     let lining = polygon(&[[1.5, 1.0, 0.5], [2.25, 1.0, 0.5], [2.25, 1.5, 0.5], [1.5, 1.5, 0.5]]);
     let scene = [room(), open(sides([1.5, 1.0, 0.5], [2.25, 1.5, 1.0])), vec![lining]].concat();
     let last = scene.len() - 1;
-    let found = all(&Enclosure::new(scene.clone()), scene.len());
-    let walled = all(&Enclosure::new([scene, vec![speck([1.8, 1.2, 0.75])]].concat()), last + 1);
+    let found = all(&Enclosure::new(scene.clone()), scene.len(), 1e-4);
+    let walled = all(&Enclosure::new([scene, vec![speck([1.8, 1.2, 0.75])]].concat()), last + 1, 1e-4);
     assert!(found[last * (last + 1) + 8].value > 0.1, "{:?}", found[last * (last + 1) + 8]);
     for (found, walled) in found.iter().zip(&walled) {
         assert!((found.value - walled.value).abs() <= found.error_estimate + walled.error_estimate + 1e-9);
