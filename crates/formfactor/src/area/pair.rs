@@ -121,9 +121,12 @@ impl<'e> Outlook<'e> {
 
     /// What can stand between this polygon and another one; `None` where one occluder hides all of it.
     fn between(&self, other: &Surface, eye: &mut Eye) -> Option<Vec<Near<'_>>> {
-        let one = self.own;
+        let (one, hiders) = (self.own, &self.surfaces.hiders);
         // What hid the last one may hide this one.
-        let may_cover = |id: usize| self.near.get(id)?.as_ref().filter(|near| !other.is_of(near.0));
+        let may_cover = |id: usize| {
+            let is_between = |near: &&(Origin, _)| !other.is_of(near.0) && hiders[id].counts(one, other);
+            self.near.get(id)?.as_ref().filter(is_between)
+        };
         if let Some(part) =
             may_cover(eye.cover).and_then(|near| before(Cow::Borrowed(near.1.as_ref()), other))
         {

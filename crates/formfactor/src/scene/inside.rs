@@ -1,4 +1,4 @@
-//! What is inside of a convex solid: whether it may be one occluder, and which polygons look into it.
+//! What is inside of a convex solid: whether it may be one occluder, and for whom it is not.
 use super::{apart::are_apart, tree::Tree};
 use crate::shapes::{extent::Extent, loops::leaf, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
@@ -11,8 +11,15 @@ pub(crate) struct Solid<'s> {
     pub(crate) lids: &'s [PlanarPolygon],
 }
 
-/// A polygon in the plane of a solid's side that looks into it, and the number of the side: first of the faces, then of the lids.
-pub(crate) type Inward = (usize, usize);
+/// What has to do with the inside of a solid.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Within {
+    /// Polygons that may see through the solid, as they are in it or look into it: its faces count for them one by one.
+    pub(crate) insiders: Vec<usize>,
+    /// Polygons in the planes of sides that look into it where nothing else is, and the numbers of the sides: first of the faces, then of the
+    /// lids.
+    pub(crate) inward: Vec<(usize, usize)>,
+}
 
 impl<'s> Solid<'s> {
     /// All sides.
@@ -20,47 +27,53 @@ impl<'s> Solid<'s> {
         self.faces.iter().map(|face| &polygons[*face]).chain(self.lids)
     }
 
-    /// The polygons that look into it, if from outside it hides what it would if it were full: `None` where others may see
-    /// each other through it, or may be inside.
+    /// What is in it or looks into it, if others see of each other what they would if it were full.
     ///
     /// What crosses it without meeting a face passes two lids. One is not passed where all polygons are on one side of it or where
-    /// others cover it: there a line ends, on what looks inward or else on a back. So one other lid does no harm,
-    /// where what looks inward is in its plane.
-    pub(crate) fn looked_into(self, polygons: &[PlanarPolygon], tree: &Tree) -> Option<Vec<Inward>> {
+    /// others cover it: there a line ends, on what looks inward or else on a back. So one other lid does no harm.
+    pub(crate) fn inside(self, polygons: &[PlanarPolygon], tree: &Tree) -> Option<Within> {
+        let (others, mut insiders, inward) = self.near(polygons, tree);
+        let is_only = |lid: usize| inward.iter().all(|(_, side)| *side == self.faces.len() + lid);
+        if insiders.is_empty() && self.lids.len() < 2 && (0..self.lids.len()).all(is_only) {
+            return Some(Within { insiders, inward });
+        }
+        let is_open = |lid: &usize| !is_closed_off(&self.lids[*lid], polygons, &others);
+        let open: Vec<usize> = (0..self.lids.len()).filter(is_open).take(2).collect();
+        if open.len() > 1 {
+            return None;
+        }
+        if insiders.is_empty() && open.iter().all(|lid| is_only(*lid)) {
+            return Some(Within { insiders, inward });
+        }
+        insiders.extend(inward.iter().map(|(id, _)| *id));
+        Some(Within { insiders, inward: Vec::new() })
+    }
+
+    /// The polygons near it, those of them that no plane shows to be outside, and those that look into it from a side's plane.
+    fn near(self, polygons: &[PlanarPolygon], tree: &Tree) -> (Vec<usize>, Vec<usize>, Vec<(usize, usize)>) {
         let corners: Vec<DVec3> = self.sides(polygons).flat_map(PlanarPolygon::points).copied().collect();
         let around = Extent::around(&corners);
-        let near =
+        let is_near =
             |id: &usize| !self.faces.contains(id) && !Extent::around(polygons[*id].points()).misses(&around);
-        let others: Vec<usize> =
-            tree.find(|extent| extent.misses(&around)).into_iter().filter(near).collect();
-        let mut inward = Vec::new();
+        let mut others = tree.find(|extent| extent.misses(&around));
+        others.retain(is_near);
+        let (mut insiders, mut inward) = (Vec::new(), Vec::new());
         for id in &others {
             let other = &polygons[*id];
             let stances = || self.sides(polygons).map(|side| stance(other, side));
             match stances().max() {
                 Some(Stance::Outside) => (),
                 Some(Stance::Inward) => {
-                    let at = |(side, stance)| (stance == Stance::Inward).then_some(side);
-                    let sides = stances().enumerate().filter_map(at);
+                    let sides = self.sides(polygons).enumerate();
                     let mut met =
-                        sides.filter(|side| self.sides(polygons).nth(*side).is_some_and(|s| meet(other, s)));
-                    inward.extend(met.next().map(|side| (*id, side)));
+                        sides.filter(|(_, side)| stance(other, side) == Stance::Inward && meet(other, side));
+                    inward.extend(met.next().map(|(side, _)| (*id, side)));
                 }
                 _ if is_beside(other, &corners) => (),
-                _ => return None,
+                _ => insiders.push(*id),
             }
         }
-        let is_only = |lid: usize| inward.iter().all(|(_, side)| *side == self.faces.len() + lid);
-        let is_closed = match self.lids {
-            [] => true,
-            [_] if is_only(0) => true,
-            lids => {
-                let is_open = |lid: &usize| !is_closed_off(&lids[*lid], polygons, &others);
-                let mut open = (0..lids.len()).filter(is_open);
-                open.next().is_none_or(|lid| is_only(lid) && open.next().is_none())
-            }
-        };
-        is_closed.then_some(inward)
+        (others, insiders, inward)
     }
 }
 

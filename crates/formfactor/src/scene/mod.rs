@@ -6,6 +6,7 @@ pub(crate) mod coplanar;
 pub(crate) mod enclosure;
 pub(crate) mod inside;
 pub(crate) mod occluder;
+pub(crate) mod plates;
 pub(crate) mod pool;
 pub(crate) mod shaft;
 pub(crate) mod surfaces;

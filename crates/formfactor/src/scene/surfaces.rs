@@ -2,13 +2,14 @@
 //! them.
 use super::body::Bodies;
 use super::coplanar::planes;
-use super::inside::{Inward, Solid};
+use super::inside::{Solid, Within};
 use super::occluder::{Face, Occluder, Ridge, ball};
+use super::plates::{plates, supports};
 use super::tree::Tree;
 use crate::shapes::cell::{Cell, Nodes, fan};
 use crate::shapes::extent::Extent;
-use crate::shapes::loops::{is_convex, leaf};
-use crate::shapes::pieces::{pieces, trapezoids};
+use crate::shapes::loops::leaf;
+use crate::shapes::pieces::pieces;
 use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -38,6 +39,8 @@ pub(crate) struct Surface {
     pub(crate) nodes: Vec<Nodes>,
     /// The hollow solids that it looks into.
     pub(crate) hollows: Vec<Hollow>,
+    /// The solids whose faces count for it one by one, as it is in them.
+    pub(crate) inside: Vec<usize>,
 }
 
 /// A convex solid that is an occluder though it is hollow, as what lies in the plane of one of its sides looks into it.
@@ -67,6 +70,20 @@ impl Hollow {
 pub(crate) struct Hider {
     pub(crate) shape: Occluder,
     pub(crate) of: Origin,
+    /// The solid that it is a face of, if it hides only what has to do with what is in there.
+    pub(crate) wall_of: Option<usize>,
+}
+
+impl Hider {
+    /// Whether it counts between two surfaces: a solid, or its faces where one of the two is inside.
+    pub(crate) fn counts(&self, one: &Surface, other: &Surface) -> bool {
+        let is_in = |solid: usize| one.inside.contains(&solid) || other.inside.contains(&solid);
+        match (self.wall_of, self.of) {
+            (Some(solid), _) => is_in(solid),
+            (None, Origin::Body(solid)) => !is_in(solid),
+            (None, Origin::Plane(_)) => true,
+        }
+    }
 }
 
 /// What an occluder is made of.
@@ -100,27 +117,38 @@ impl Surfaces {
             |(polygon, (plane, solid)): (_, (&usize, &Option<usize>))| Surface::new(polygon, *plane, *solid);
         let mut surfaces: Vec<Surface> =
             polygons.iter().zip(planes.iter().zip(&solid_of)).map(surface).collect();
-        for (number, (solid, inward)) in solids.iter().enumerate() {
+        for (number, (solid, within)) in solids.iter().enumerate() {
             let sides: Vec<&PlanarPolygon> = solid.sides(polygons).collect();
-            for (id, side) in inward {
+            for (id, side) in &within.inward {
                 let outline = sides[*side].points().iter().rev().copied().collect();
                 surfaces[*id].hollows.push(Hollow { solid: number, side: *side, outline });
             }
+            within.insiders.iter().for_each(|id| surfaces[*id].inside.push(number));
         }
-        let hider = |(number, (solid, _)): (usize, &(Solid, Vec<Inward>))| Hider {
+        let hider = |(number, (solid, _)): (usize, &(Solid, Within))| Hider {
             shape: of_solid(polygons, &planes, *solid),
             of: Origin::Body(number),
+            wall_of: None,
         };
         let mut hiders: Vec<Hider> = solids.iter().enumerate().map(hider).collect();
+        let by_plane = |ids: &mut dyn Iterator<Item = usize>| {
+            let mut in_plane: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+            ids.for_each(|id| in_plane.entry(planes[id]).or_default().push(id));
+            in_plane
+        };
+        let plates = |(plane, ids): (usize, Vec<usize>), wall_of: Option<usize>| {
+            let hider = move |shape| Hider { shape, of: Origin::Plane(plane), wall_of };
+            plates(polygons, &ids).into_iter().map(hider)
+        };
         let points: Vec<DVec3> = polygons.iter().flat_map(PlanarPolygon::points).copied().collect();
-        let mut in_plane: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (id, plane) in planes.iter().enumerate().filter(|(id, _)| solid_of[*id].is_none()) {
-            in_plane.entry(*plane).or_default().push(id);
-        }
-        in_plane.retain(|plane, _| !supports(&polygons[*plane], &points));
-        for (plane, ids) in in_plane {
-            let plates = plates(polygons, &ids);
-            hiders.extend(plates.into_iter().map(|shape| Hider { shape, of: Origin::Plane(plane) }));
+        let mut free = by_plane(&mut (0..polygons.len()).filter(|id| solid_of[*id].is_none()));
+        free.retain(|plane, _| !supports(&polygons[*plane], &points));
+        hiders.extend(free.into_iter().flat_map(|plane| plates(plane, None)));
+        for (number, (solid, _)) in
+            solids.iter().enumerate().filter(|(_, (_, within))| !within.insiders.is_empty())
+        {
+            let walls = by_plane(&mut solid.faces.iter().copied());
+            hiders.extend(walls.into_iter().flat_map(|plane| plates(plane, Some(number))));
         }
         let extents: Vec<Extent> = hiders.iter().map(|hider| Extent::around(&hider.shape.corners)).collect();
         Self { surfaces, hiders, tree: Tree::around(&extents) }
@@ -151,12 +179,14 @@ impl Surface {
             cells,
             nodes,
             hollows: Vec::new(),
+            inside: Vec::new(),
         }
     }
 
     /// A part of it, whose front is on the same side.
     pub(crate) fn part(&self, polygon: &PlanarPolygon) -> Self {
-        Self { face: self.face, hollows: self.hollows.clone(), ..Self::new(polygon, self.plane, self.body) }
+        let (hollows, inside) = (self.hollows.clone(), self.inside.clone());
+        Self { face: self.face, hollows, inside, ..Self::new(polygon, self.plane, self.body) }
     }
 
     /// Whether it is a part of an occluder, or lies in its plane: then the occluder hides nothing of it.
@@ -193,33 +223,11 @@ pub(crate) fn area(corners: &[DVec3]) -> f64 {
     spokes.sum::<DVec3>().length() / 2.0
 }
 
-/// Points that lie behind a plane by no more than this of their distance count as on it.
-const SLIGHT: f64 = 1e-13;
-
-/// Whether no point is behind a polygon's plane, or none before it: then the polygon hides nothing from anything, as a
-/// segment between such points meets its plane at an end.
-fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
-    let (on, normal) = (polygon.points()[0], polygon.normal());
-    let mut sides = [false; 2];
-    // In strides, so that points far from each other come soon.
-    let stride = (1..).map(|i| i * 2 + 1).find(|stride| stride * stride > points.len()).unwrap_or(1);
-    for point in (0..stride).flat_map(|start| points.iter().skip(start).step_by(stride)) {
-        let (way, height) = (*point - on, normal.dot(*point - on));
-        if height.abs() > SLIGHT * way.length() {
-            sides[usize::from(height > 0.0)] = true;
-        }
-        if sides == [true; 2] {
-            return false;
-        }
-    }
-    true
-}
-
-/// Closed bodies and caps that hide what they would if they were full, and what looks into each.
-fn solids<'b>(polygons: &[PlanarPolygon], bodies: &'b Bodies, tree: &Tree) -> Vec<(Solid<'b>, Vec<Inward>)> {
+/// Closed bodies and caps that hide from others what they would if they were full, and what is inside of each.
+fn solids<'b>(polygons: &[PlanarPolygon], bodies: &'b Bodies, tree: &Tree) -> Vec<(Solid<'b>, Within)> {
     let closed = (0..bodies.count()).map(|body| Solid { faces: bodies.faces(body), lids: &[] });
     let caps = bodies.caps().iter().map(|cap| Solid { faces: &cap.faces, lids: &cap.lids });
-    closed.chain(caps).filter_map(|solid| Some((solid, solid.looked_into(polygons, tree)?))).collect()
+    closed.chain(caps).filter_map(|solid| Some((solid, solid.inside(polygons, tree)?))).collect()
 }
 
 /// A convex solid: the edges between faces in different planes.
@@ -241,43 +249,4 @@ fn of_solid(polygons: &[PlanarPolygon], planes: &[usize], solid: Solid) -> Occlu
     let mut faces: Vec<Face> = vec![[DVec3::ZERO; 2]; numbers.len()];
     sides.iter().for_each(|(plane, side)| faces[number(*plane)] = [side.points()[0], side.normal()]);
     Occluder::of(ridges.collect(), faces, false)
-}
-
-/// Polygons of one plane as convex plates: their union where that takes fewer, else their own pieces.
-fn plates(polygons: &[PlanarPolygon], ids: &[usize]) -> Vec<Occluder> {
-    let plane = &polygons[ids[0]];
-    let own: Vec<Vec<DVec3>> = ids.iter().flat_map(|id| pieces(&polygons[*id])).collect();
-    let united = if own.len() > 1 { united(plane, polygons, ids) } else { None };
-    let corners = united.filter(|united| united.len() < own.len()).unwrap_or(own);
-    // Those of polygons that face the other way run clockwise.
-    let plate = |corners: &Vec<DVec3>| {
-        let spokes = corners[1..].windows(2);
-        let normal: DVec3 = spokes.map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0])).sum();
-        let upward = if normal.dot(plane.normal()) < 0.0 { -plane.normal() } else { plane.normal() };
-        Occluder::plate(corners, upward)
-    };
-    corners.iter().map(plate).collect()
-}
-
-/// The union of polygons in the plane of one of them, in convex pieces.
-fn united(plane: &PlanarPolygon, polygons: &[PlanarPolygon], ids: &[usize]) -> Option<Vec<Vec<DVec3>>> {
-    let flat = |id: &usize| -> Vec<Vec<DVec2>> {
-        polygons[*id].loops().map(|l| l.iter().map(|p| plane.flat(*p)).collect()).collect()
-    };
-    let loops: Vec<Vec<Vec<DVec2>>> = ids.iter().map(flat).collect();
-    let union = loops.iter().map(|l| leaf(l)).reduce(|all, next| all | next)?;
-    let region = union.evaluate().without_collinear_vertices();
-    let mut found = Vec::new();
-    for polygon in region.polygons() {
-        let outer = polygon.outer();
-        if polygon.holes().next().is_none() && is_convex(outer) {
-            found.push(outer.iter().map(|p| plane.raise(*p)).collect());
-        } else {
-            let rings: Vec<Vec<DVec2>> =
-                std::iter::once(outer).chain(polygon.holes()).map(<[_]>::to_vec).collect();
-            let parts = trapezoids(&leaf(&rings).evaluate());
-            found.extend(parts.iter().map(|part| part.iter().map(|p| plane.raise(*p)).collect::<Vec<_>>()));
-        }
-    }
-    Some(found)
 }
