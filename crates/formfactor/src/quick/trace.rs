@@ -11,6 +11,7 @@ use crate::exact::whole::unhidden;
 use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
 use crate::stats::Stats;
+use glam::DVec3;
 
 /// The buffers of [`sum`], to be used again.
 #[derive(Debug, Default)]
@@ -18,6 +19,25 @@ pub(super) struct TraceBuffers {
     neighbours: Neighbours,
     boundary: Boundary,
     hidden: Vec<Interval>,
+    pub(super) record: Record,
+}
+
+/// The visible boundary in parts of edges, each with the visible part to its left as seen from the target's front. Kept only where it
+/// is asked for.
+#[derive(Debug, Default)]
+pub(super) struct Record {
+    pub(super) is_kept: bool,
+    pub(super) parts: Vec<[DVec3; 2]>,
+}
+
+impl Record {
+    /// Notes the part of an edge between two parameters, reversed where the sign is negative.
+    fn add(&mut self, edge: &Edge, sign: f64, part: [f64; 2]) {
+        if self.is_kept {
+            let [start, end] = part.map(|at| edge.start + edge.along * at);
+            self.parts.push(if sign < 0.0 { [end, start] } else { [start, end] });
+        }
+    }
 }
 
 /// The error up to which the sum is good enough, by the angle that the target's boundary subtends where that is less than 1:
@@ -38,8 +58,10 @@ pub(super) fn sum(
     let error = target.error + open;
     if cones.len() == 0 {
         stats.none += 1;
-        let edges = target.cone.edges.iter();
-        edges.for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
+        for edge in target.cone.edges {
+            sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error()));
+            buffers.record.add(edge, 1.0, [0.0, 1.0]);
+        }
         return sum.fine(error).or_else(|| unhidden(target.from, target.to, open));
     }
     trace(target, cones, buffers, &mut sum)?;
@@ -53,7 +75,7 @@ pub(super) fn sum(
 
 /// Clips all edges, and adds what is left of them.
 fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
-    let TraceBuffers { neighbours, boundary, hidden } = buffers;
+    let TraceBuffers { neighbours, boundary, hidden, record } = buffers;
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
     boundary.begin(target.cone, cones);
     neighbours.clear();
@@ -66,25 +88,29 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
     let (of_target, of_cones) = boundary.rests();
     for (edge, rest) in target.cone.edges.iter().zip(of_target) {
         let Some(whole) = boundary.left(rest, hidden)? else { continue };
-        add(edge, 1.0, whole, hidden, sum);
+        add(edge, 1.0, whole, hidden, sum, record);
     }
     for (edge, rest) in cones.edges().iter().zip(of_cones) {
         let Some(whole) = boundary.left(rest, hidden)? else { continue };
         // An occluder's edge has the visible part on its other side.
-        add(edge, -1.0, whole, hidden, sum);
+        add(edge, -1.0, whole, hidden, sum, record);
     }
     Some(())
 }
 
 /// Adds what is hidden leaves of a part of an edge to the sum, with a sign.
-fn add(edge: &Edge, sign: f64, whole: Interval, hidden: &mut [Interval], sum: &mut Sum) {
+fn add(edge: &Edge, sign: f64, whole: Interval, hidden: &mut [Interval], sum: &mut Sum, record: &mut Record) {
     let mut line = sum.line(edge.inward, edge.error);
     line.cosine *= sign;
     if hidden.is_empty() && whole == Interval::WHOLE {
         sum.add_whole(edge, &line);
+        record.add(edge, sign, [0.0, 1.0]);
     } else {
         let mut parts = Parts::of(edge, &line);
-        for_each_gap(whole, hidden, |gap| sum.add_part(edge, &line, gap, &mut parts));
+        for_each_gap(whole, hidden, |gap| {
+            sum.add_part(edge, &line, gap, &mut parts);
+            record.add(edge, sign, [gap.low.at, gap.high.at]);
+        });
         sum.add_parts(&line, &parts);
     }
 }
