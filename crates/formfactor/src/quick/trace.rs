@@ -45,6 +45,9 @@ impl Record {
 const FINE: f64 = 8192.0 * ROUNDING;
 const FINE_ALONE: f64 = FINE / 4.0;
 
+/// The error up to which the sum is good enough beside a centroid, which is known to fewer digits.
+const ROUGH: f64 = 1e-9;
+
 /// The form factor of the target behind the cones: Lambert's sum over the visible boundary, with an error of at most `open`
 /// from what was culled and cut. `None` where doubles leave more open.
 pub(super) fn sum(
@@ -62,11 +65,17 @@ pub(super) fn sum(
             sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error()));
             buffers.record.add(edge, 1.0, [0.0, 1.0]);
         }
-        return sum.fine(error).or_else(|| unhidden(target.from, target.to, open));
+        return match buffers.record.is_kept {
+            true => sum.form_factor(error).filter(|factor| factor.error_bound <= ROUGH),
+            false => sum.fine(error).or_else(|| unhidden(target.from, target.to, open)),
+        };
     }
     trace(target, cones, buffers, &mut sum)?;
     stats.partial += 1;
     stats.traced += 1;
+    if buffers.record.is_kept {
+        return sum.form_factor(error).filter(|factor| factor.error_bound <= ROUGH);
+    }
     let perimeter: f64 = target.cone.edges.iter().map(Edge::least_angle).sum();
     let scale = perimeter.min(1.0);
     let is_fine = sum.worst() <= FINE_ALONE * scale && error <= FINE_ALONE * scale;
