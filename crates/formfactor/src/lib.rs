@@ -133,6 +133,7 @@ pub mod approx;
 
 mod area;
 mod buffers;
+mod centroid;
 mod complement;
 mod error;
 mod exact;

@@ -41,6 +41,9 @@ struct PatchFigures<'s> {
     name: &'s str,
     area: f64,
     irradiance: Vec<f64>,
+    /// What the irradiance may be off by.
+    #[serde(skip_serializing_if = "<[f64]>::is_empty")]
+    estimate: &'s [f64],
     radiosity: Vec<f64>,
 }
 
@@ -50,7 +53,7 @@ impl<'s> Figures<'s> {
         let ledger = &solution.ledger;
         let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
-        let patches = scene.patches.iter().zip(irradiance).zip(radiosity);
+        let patches = scene.patches.iter().zip(irradiance).zip(radiosity).enumerate();
         Figures {
             scene: name,
             elements: solution.mesh.elements.len(),
@@ -68,10 +71,11 @@ impl<'s> Figures<'s> {
                 defect: &ledger.defect,
             },
             patches: patches
-                .map(|((patch, irradiance), radiosity)| PatchFigures {
+                .map(|(index, ((patch, irradiance), radiosity))| PatchFigures {
                     name: &patch.name,
                     area: patch.polygon.area(),
                     irradiance,
+                    estimate: solution.patch_estimate(index),
                     radiosity,
                 })
                 .collect(),

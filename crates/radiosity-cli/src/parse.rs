@@ -10,6 +10,14 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A share above zero, as a number or in percent.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    match text.trim().strip_suffix('%') {
+        Some(percent) => positive(percent.trim()).map(|number| number / 100.0),
+        None => positive(text),
+    }
+}
+
 /// A number of elements that fits in memory.
 pub(crate) fn count(text: &str) -> Result<usize, String> {
     let number = text.parse().map_err(|_| "not a whole number".to_owned())?;

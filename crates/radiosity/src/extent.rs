@@ -1,5 +1,6 @@
 //! Boxes around patches.
 use crate::scene::patch::Patch;
+use formfactor::PlanarPolygon;
 use glam::DVec3;
 
 /// The least box with sides along the axes that holds a patch.
@@ -12,7 +13,12 @@ pub(crate) struct Extent {
 impl Extent {
     /// The box of a patch.
     pub(crate) fn of(patch: &Patch) -> Extent {
-        let points = || patch.polygon.loops().flatten().copied();
+        Extent::around(&patch.polygon)
+    }
+
+    /// The box of a polygon.
+    pub(crate) fn around(polygon: &PlanarPolygon) -> Extent {
+        let points = || polygon.loops().flatten().copied();
         let low = points().fold(DVec3::INFINITY, DVec3::min);
         Extent { low, high: points().fold(DVec3::NEG_INFINITY, DVec3::max) }
     }

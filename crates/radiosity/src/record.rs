@@ -66,6 +66,9 @@ pub struct PatchRecord {
     pub irradiance: Vec<f64>,
     /// Mean radiosity per band, W/m².
     pub radiosity: Vec<f64>,
+    /// How far the mean irradiance may be from that of the scene, per band, W/m²; see [`Solution::estimate`]. Empty where that is not known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub estimate: Vec<f64>,
     /// Index of its picture.
     pub picture: Option<usize>,
     /// What the picture's colours are multiplied by.
@@ -97,6 +100,7 @@ impl Record {
                     emission: patch.emission.clone(),
                     irradiance,
                     radiosity,
+                    estimate: solution.patch_estimate(index).to_vec(),
                     picture: numbers.get(&index).copied(),
                     tint: patch.texture.as_ref().map_or([1.0; 3], |texture| texture.factor),
                 })
@@ -157,6 +161,7 @@ impl Record {
         let bands = |patch: &PatchRecord| {
             let lists = [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity];
             lists.iter().any(|list| list.len() != self.bands)
+                || ![0, self.bands].contains(&patch.estimate.len())
                 || patch.picture.is_some_and(|picture| picture >= self.pictures.len())
         };
         match self.patches.iter().find(|patch| bands(patch)) {

@@ -1,13 +1,17 @@
 //! Tables for spreadsheets: comma-separated values with a header.
 use crate::record::{PatchRecord, Record};
 
-/// A table with a row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities per band.
+/// A table with a row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities
+/// per band, and what the irradiances may be off by where that was estimated.
 #[must_use]
 pub fn patch_table(record: &Record) -> String {
-    let groups = ["reflectance", "emission", "irradiance", "radiosity"];
-    let header = ["patch", "area"].map(Into::into).into_iter().chain(columns(&groups, record.bands));
+    let is_estimated = record.patches.iter().any(|patch| !patch.estimate.is_empty());
+    let groups = ["reflectance", "emission", "irradiance", "radiosity", "estimate"];
+    let groups = &groups[..if is_estimated { 5 } else { 4 }];
+    let header = ["patch", "area"].map(Into::into).into_iter().chain(columns(groups, record.bands));
     let row = |patch: &PatchRecord| {
-        let values = [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity];
+        let values =
+            [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity, &patch.estimate];
         let numbers = std::iter::once(&patch.area).chain(values.into_iter().flatten());
         std::iter::once(patch.name.clone()).chain(numbers.map(ToString::to_string)).collect()
     };

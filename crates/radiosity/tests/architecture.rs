@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 138] = [
+const ORDER: [&str; 155] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -27,14 +27,17 @@ const ORDER: [&str; 138] = [
     "table", "record",
     "picture", "picture/raster", "picture/painting", "picture/png", "picture/framing",
     "expose",
-    "solve", "solve/refine", "solve/drive", "solve/direct", "solve/relax", "solve/relax/gather",
+    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/output", "solve/levels/links", "solve/levels/measure",
+    "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/flow", "solve/levels/link",
+    "solve/levels/tiling", "solve/refine", "solve/drive", "solve/direct", "solve/relax", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",
     "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/run", "solve/progress",
     "solve/factors", "solve/hemicube", "solve/workers", "solve/occluders", "solve/interpolate",
     "solve/solution", "solve/ledger", "solve/shooters", "solve/rooms", "solve/light", "solve/state",
+    "solve/levels/transfer", "solve/levels/tile",
     "solve/fingerprint", "solve/magnitude", "solve/check", "solve/overlap", "solve/quality",
     "solve/options", "solve/norm",
-    "mesh", "mesh/subdivide", "mesh/plan", "mesh/shadows", "mesh/spacing", "mesh/outline", "mesh/tree",
+    "mesh", "mesh/subdivide", "mesh/plan", "mesh/shadows", "mesh/convex", "mesh/cover", "mesh/spacing", "mesh/outline", "mesh/tree",
     "mesh/split", "mesh/triangulate", "mesh/divide", "mesh/lattice", "mesh/contacts", "mesh/frame",
     "mesh/refusal", "mesh/element",
     "image_file", "extent",

@@ -33,6 +33,7 @@ use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon}
 use crate::stats::Stats;
 use classify::{Class, classify};
 use cone::{Cones, Corner, Edge, Spread};
+use glam::DVec3;
 use target::{HalfSpace, Target};
 
 /// The quick route's buffers, to be used again.
@@ -44,6 +45,18 @@ pub(crate) struct QuickBuffers {
     spread: Spread,
     cones: Cones,
     trace: trace::TraceBuffers,
+}
+
+impl QuickBuffers {
+    /// Whether the visible boundary is to be kept from now on.
+    pub(crate) fn record(&mut self, is_kept: bool) {
+        self.trace.record.is_kept = is_kept;
+    }
+
+    /// The visible boundary of the last form factor that was found, in parts of edges relative to dA.
+    pub(crate) fn recorded(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        self.trace.record.parts.iter().copied()
+    }
 }
 
 /// The form factor past the occluders that `occluders` finds for the target; `None` where doubles do not decide it.
@@ -58,6 +71,7 @@ where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
     let QuickBuffers { corners, edges, sides, spread, cones, trace } = buffers;
+    trace.record.parts.clear();
     let target = Target::new(from, to, corners, edges, sides, spread)?;
     let mut open = 0.0;
     cones.clear();

@@ -11,6 +11,7 @@ use crate::exact::whole::unhidden;
 use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
 use crate::stats::Stats;
+use glam::DVec3;
 
 /// The buffers of [`sum`], to be used again.
 #[derive(Debug, Default)]
@@ -18,12 +19,34 @@ pub(super) struct TraceBuffers {
     neighbours: Neighbours,
     boundary: Boundary,
     hidden: Vec<Interval>,
+    pub(super) record: Record,
+}
+
+/// The visible boundary in parts of edges, each with the visible part to its left as seen from the target's front. Kept only where it
+/// is asked for.
+#[derive(Debug, Default)]
+pub(super) struct Record {
+    pub(super) is_kept: bool,
+    pub(super) parts: Vec<[DVec3; 2]>,
+}
+
+impl Record {
+    /// Notes the part of an edge between two parameters, reversed where the sign is negative.
+    fn add(&mut self, edge: &Edge, sign: f64, part: [f64; 2]) {
+        if self.is_kept {
+            let [start, end] = part.map(|at| edge.start + edge.along * at);
+            self.parts.push(if sign < 0.0 { [end, start] } else { [start, end] });
+        }
+    }
 }
 
 /// The error up to which the sum is good enough, by the angle that the target's boundary subtends where that is less than 1:
 /// 2^-40, below 1e-12. Many small errors hardly add up; one large one may be true, and is good enough up to 2^-42.
 const FINE: f64 = 8192.0 * ROUNDING;
 const FINE_ALONE: f64 = FINE / 4.0;
+
+/// The error up to which the sum is good enough beside a centroid, which is known to fewer digits.
+const ROUGH: f64 = 1e-9;
 
 /// The form factor of the target behind the cones: Lambert's sum over the visible boundary, with an error of at most `open`
 /// from what was culled and cut. `None` where doubles leave more open.
@@ -38,13 +61,21 @@ pub(super) fn sum(
     let error = target.error + open;
     if cones.len() == 0 {
         stats.none += 1;
-        let edges = target.cone.edges.iter();
-        edges.for_each(|edge| sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error())));
-        return sum.fine(error).or_else(|| unhidden(target.from, target.to, open));
+        for edge in target.cone.edges {
+            sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error()));
+            buffers.record.add(edge, 1.0, [0.0, 1.0]);
+        }
+        return match buffers.record.is_kept {
+            true => sum.form_factor(error).filter(|factor| factor.error_bound <= ROUGH),
+            false => sum.fine(error).or_else(|| unhidden(target.from, target.to, open)),
+        };
     }
     trace(target, cones, buffers, &mut sum)?;
     stats.partial += 1;
     stats.traced += 1;
+    if buffers.record.is_kept {
+        return sum.form_factor(error).filter(|factor| factor.error_bound <= ROUGH);
+    }
     let perimeter: f64 = target.cone.edges.iter().map(Edge::least_angle).sum();
     let scale = perimeter.min(1.0);
     let is_fine = sum.worst() <= FINE_ALONE * scale && error <= FINE_ALONE * scale;
@@ -53,7 +84,7 @@ pub(super) fn sum(
 
 /// Clips all edges, and adds what is left of them.
 fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
-    let TraceBuffers { neighbours, boundary, hidden } = buffers;
+    let TraceBuffers { neighbours, boundary, hidden, record } = buffers;
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
     boundary.begin(target.cone, cones);
     neighbours.clear();
@@ -66,25 +97,29 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
     let (of_target, of_cones) = boundary.rests();
     for (edge, rest) in target.cone.edges.iter().zip(of_target) {
         let Some(whole) = boundary.left(rest, hidden)? else { continue };
-        add(edge, 1.0, whole, hidden, sum);
+        add(edge, 1.0, whole, hidden, sum, record);
     }
     for (edge, rest) in cones.edges().iter().zip(of_cones) {
         let Some(whole) = boundary.left(rest, hidden)? else { continue };
         // An occluder's edge has the visible part on its other side.
-        add(edge, -1.0, whole, hidden, sum);
+        add(edge, -1.0, whole, hidden, sum, record);
     }
     Some(())
 }
 
 /// Adds what is hidden leaves of a part of an edge to the sum, with a sign.
-fn add(edge: &Edge, sign: f64, whole: Interval, hidden: &mut [Interval], sum: &mut Sum) {
+fn add(edge: &Edge, sign: f64, whole: Interval, hidden: &mut [Interval], sum: &mut Sum, record: &mut Record) {
     let mut line = sum.line(edge.inward, edge.error);
     line.cosine *= sign;
     if hidden.is_empty() && whole == Interval::WHOLE {
         sum.add_whole(edge, &line);
+        record.add(edge, sign, [0.0, 1.0]);
     } else {
         let mut parts = Parts::of(edge, &line);
-        for_each_gap(whole, hidden, |gap| sum.add_part(edge, &line, gap, &mut parts));
+        for_each_gap(whole, hidden, |gap| {
+            sum.add_part(edge, &line, gap, &mut parts);
+            record.add(edge, sign, [gap.low.at, gap.high.at]);
+        });
         sum.add_parts(&line, &parts);
     }
 }

@@ -1,5 +1,6 @@
 //! Enclosures: many polygons that see and hide each other.
 use super::{body::Bodies, pool::Pool, shaft::Shaft, surfaces::Surfaces, tree::Tree};
+use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
 use crate::pipeline::{self, Reach};
@@ -110,6 +111,43 @@ impl Enclosure {
         part: &PlanarPolygon,
     ) -> FormFactor {
         self.past_found(from, id, part).0
+    }
+
+    /// The form factor from `from` to `part`, a convex part of polygon `id` that faces as the polygon does, and the centroid of what is
+    /// seen of it, each point weighed by what it contributes to the form factor; where nothing is seen, some point of its plane.
+    ///
+    /// Only the polygons `among` are looked at as occluders: all that can stand between the two must be among them, others may be. The
+    /// centroid is right to about 1e-4 of the part's size. Of two radiosities that vary linearly over the part, the one at the centroid
+    /// times the form factor is what is received.
+    ///
+    /// ```
+    /// use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
+    /// let lamp = PlanarPolygon::new([[[-1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, -1.0, 2.0], [-1.0, -1.0, 2.0]]])?;
+    /// let board = PlanarPolygon::new([[[-2.0, -2.0, 1.0], [0.0, -2.0, 1.0], [0.0, 2.0, 1.0], [-2.0, 2.0, 1.0]]])?;
+    /// let room = Enclosure::new(vec![lamp.clone(), board]);
+    /// let floor = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+    /// let (half, centroid) = room.form_factor_and_centroid(&floor, 0, &lamp, &[1]);
+    /// assert!((half.value - 0.239_456_470_460_773_54 / 2.0).abs() < 1e-15);
+    /// assert!(centroid.x > 0.4 && centroid.x < 0.5 && centroid.y.abs() < 1e-12);
+    /// # Ok::<(), formfactor::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn form_factor_and_centroid(
+        &self,
+        from: &DifferentialArea,
+        id: usize,
+        part: &PlanarPolygon,
+        among: &[usize],
+    ) -> (FormFactor, DVec3) {
+        let whole = &self.polygons[id];
+        if self.is_edge_on(from, id) || whole.plane().side_of(from.position()) != Ordering::Greater {
+            return (FormFactor::default(), part.points()[0]);
+        }
+        let occluders: Vec<&PlanarPolygon> = self.others(from, id, among.iter().copied()).collect();
+        self.pool.lend(|buffers| with_centroid(from, part, &occluders, buffers))
     }
 
     /// The form factor to a part of polygon `id`, past the occluders that the tree finds.

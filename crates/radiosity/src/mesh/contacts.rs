@@ -7,7 +7,7 @@ use glam::DVec3;
 ///
 /// Near enough is nearer than a thousandth of the mesh's finest spacing: a line too many costs a few elements, and one too
 /// few only a blurred shadow at the foot of what stands there.
-pub(super) fn contacts(scene: &Scene, extents: &[Extent], patch: usize, spacing: f64) -> Vec<[DVec3; 2]> {
+pub(crate) fn contacts(scene: &Scene, extents: &[Extent], patch: usize, spacing: f64) -> Vec<[DVec3; 2]> {
     let polygon = &scene.patches[patch].polygon;
     let Some(&origin) = polygon.loops().flatten().next() else { return Vec::new() };
     let near = |place: DVec3| (place - origin).dot(polygon.normal()).abs() < spacing * 1e-3;

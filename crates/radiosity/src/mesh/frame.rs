@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 /// Coordinates on a patch's plane: x along the longest edge of its outer loop, y to the left of x seen from the
 /// front, lengths in a power of two near the patch's size, so that every scene is meshed in the same range.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     origin: DVec3,
     x: DVec3,
     y: DVec3,
@@ -14,7 +14,7 @@ pub(super) struct Frame {
 
 impl Frame {
     /// The frame of a polygon.
-    pub(super) fn new(polygon: &PlanarPolygon) -> Frame {
+    pub(crate) fn new(polygon: &PlanarPolygon) -> Frame {
         let (origin, along) = longest_edge(polygon.loops().next().unwrap_or_default());
         let x = along.normalize_or(polygon.normal().any_orthonormal_vector());
         let reach = polygon.loops().flatten().map(|&p| (p - origin).abs().max_element()).fold(0.0, f64::max);
@@ -22,18 +22,18 @@ impl Frame {
     }
 
     /// The lengths' unit, in the scene's units.
-    pub(super) fn unit(&self) -> f64 {
+    pub(crate) fn unit(&self) -> f64 {
         self.unit
     }
 
     /// A point of the plane, in the frame.
-    pub(super) fn flatten(&self, place: DVec3) -> DVec2 {
+    pub(crate) fn flatten(&self, place: DVec3) -> DVec2 {
         let arm = (place - self.origin) / self.unit;
         DVec2::new(arm.dot(self.x), arm.dot(self.y))
     }
 
     /// A point of the frame, in space.
-    pub(super) fn lift(&self, flat: DVec2) -> DVec3 {
+    pub(crate) fn lift(&self, flat: DVec2) -> DVec3 {
         self.origin + (self.x * flat.x + self.y * flat.y) * self.unit
     }
 }

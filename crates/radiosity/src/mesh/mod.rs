@@ -3,6 +3,8 @@
 //! ```text
 //! subdivide    a scene cut into elements by a plan: the stages below, patch by patch
 //! plan         how fine to cut what
+//! convex       a patch in convex parts
+//! cover        convex tiles in triangles that share their vertices
 //! shadows      lines where the light of strong emitters starts or ceases to be hidden
 //! spacing      how long the sides of cells are
 //! outline      the polygon around any node of the tree: what a shooter looks like
@@ -16,14 +18,16 @@
 //! refusal      why a polygon could not be cut
 //! element      the mesh
 //! ```
-mod contacts;
+pub(crate) mod contacts;
+pub(crate) mod convex;
+pub(crate) mod cover;
 mod divide;
 pub(crate) mod element;
-mod frame;
+pub(crate) mod frame;
 pub(crate) mod lattice;
 pub(crate) mod outline;
 pub(crate) mod plan;
-mod refusal;
+pub(crate) mod refusal;
 pub(crate) mod shadows;
 mod spacing;
 mod split;

@@ -3,11 +3,11 @@ use crate::error::Error;
 
 /// Why a polygon could not be cut.
 #[derive(Debug)]
-pub(super) struct MeshRefusal(pub(super) String);
+pub(crate) struct MeshRefusal(pub(crate) String);
 
 impl MeshRefusal {
     /// The error that names the patch.
-    pub(super) fn of(self, patch: &str) -> Error {
+    pub(crate) fn of(self, patch: &str) -> Error {
         Error::Mesh { patch: patch.to_owned(), reason: self.0 }
     }
 }

@@ -12,13 +12,24 @@ pub(super) fn of(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
+/// The fingerprint of all patches' shapes.
+pub(super) fn of_shapes(scene: &Scene) -> u64 {
+    let mut hasher = FnvHasher::default();
+    write_shapes(&mut hasher, scene);
+    hasher.finish()
+}
+
+fn write_shapes(hasher: &mut FnvHasher, scene: &Scene) {
+    for patch in &scene.patches {
+        patch.polygon.loops().for_each(|points| write_points(hasher, points));
+        write_number(hasher, usize::MAX);
+    }
+}
+
 /// The fingerprint of all that form factors depend on: what hides, and what is cut how.
 pub(super) fn of_mesh(scene: &Scene, subdivision: &Subdivision) -> u64 {
     let mut hasher = FnvHasher::default();
-    for patch in &scene.patches {
-        patch.polygon.loops().for_each(|points| write_points(&mut hasher, points));
-        write_number(&mut hasher, usize::MAX);
-    }
+    write_shapes(&mut hasher, scene);
     let Subdivision { mesh, nodes, .. } = subdivision;
     write_points(&mut hasher, &mesh.vertices);
     for element in &mesh.elements {

@@ -3,6 +3,7 @@
 //! ```text
 //! refine       where the light is not resolved, and a plan for a finer mesh
 //! drive        one mesh from the first step to its solution: which method, the steps, closure, direct light
+//! levels       light between parts of patches of any size; the mesh follows
 //! direct       light straight from the emitters, exact at every vertex
 //! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! shoot        progressive refinement: the piece with most to shoot shoots, again and again
@@ -40,6 +41,7 @@ mod follow;
 mod hemicube;
 mod interpolate;
 pub(crate) mod ledger;
+mod levels;
 mod light;
 mod magnitude;
 pub(crate) mod norm;
@@ -99,6 +101,9 @@ pub fn solve_from(
     let start = Instant::now();
     check::check(scene)?;
     overlap::check(scene)?;
+    if options.method == options::Method::Hierarchical {
+        return levels::rounds::solve(scene, options, start, state, &mut watch);
+    }
     // Each pass has twice the elements of the one before.
     let mut plan = Plan::even(scene, options.elements >> options.passes.min(LEVELS.into()));
     if options.shadows > 0 {

@@ -17,6 +17,8 @@ pub enum Method {
     Cg,
     /// GMRES on the unscaled form factors.
     Gmres,
+    /// By levels: light goes between parts of patches as large as [`Options::error`] allows; the mesh follows from that.
+    Hierarchical,
 }
 
 /// The options of [`solve`](crate::solve()): how fine the mesh is, how exact the light, and when to stop.
@@ -39,6 +41,9 @@ pub struct Options {
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
+    /// What the mean irradiance of a patch may be off by, as a share of itself or, where that is more, of 1 % of the scene's mean. Only
+    /// [`Method::Hierarchical`] knows its errors.
+    pub error: f64,
     /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
     /// pieces send.
     pub spread: f64,
@@ -60,6 +65,7 @@ impl Default for Options {
             hemicube: None,
             gather: false,
             tolerance: 1e-3,
+            error: 1e-2,
             spread: 2e-4,
             max_shots: 1_000_000,
             max_seconds: None,

@@ -1,8 +1,9 @@
 //! The progress of a run, as its caller sees it.
-use super::{factors::Factors, ledger::Ledger, light::Light, solution::Solution, state::State};
+use super::{ledger::Ledger, solution::Solution, state::State};
+use std::fmt;
 
 /// The progress of the solver.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Progress<'p> {
     /// Shots so far.
     pub shots: usize,
@@ -16,39 +17,30 @@ pub struct Progress<'p> {
     pub ledger: &'p Ledger,
     /// Seconds since the start.
     pub seconds: f64,
-    pub(super) light: &'p Light,
-    pub(super) scaling: Option<f64>,
-    pub(super) factors: &'p Factors<'p>,
-    pub(super) welds: &'p [usize],
+    /// Finds the light so far.
+    pub(super) light: &'p dyn Fn() -> Solution,
+    pub(super) state: &'p State,
 }
 
 impl Progress<'_> {
     /// The light so far.
     #[must_use]
     pub fn solution(&self) -> Solution {
-        Solution {
-            bands: self.light.bands,
-            radiosity: self.light.radiosity.clone(),
-            irradiance: self.light.irradiance.clone(),
-            reflectance: self.light.reflectance.clone(),
-            direct: None,
-            welds: self.welds.to_vec(),
-            ledger: self.ledger.clone(),
-            bound: self.bound.to_vec(),
-            closure: None,
-            scaling: self.scaling,
-            shots: self.shots,
-            products: self.products,
-            converged: false,
-            fault: None,
-            mesh: self.factors.subdivision.mesh.clone(),
-            seconds: self.seconds,
-        }
+        (self.light)()
     }
 
     /// The state from which the run can be resumed.
     #[must_use]
     pub fn state(&self) -> &State {
-        self.factors.state
+        self.state
+    }
+}
+
+impl fmt::Debug for Progress<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Progress { shots, products, unshot, bound, ledger, seconds, .. } = self;
+        let mut shown = f.debug_struct("Progress");
+        shown.field("shots", shots).field("products", products).field("unshot", unshot).field("bound", bound);
+        shown.field("ledger", ledger).field("seconds", seconds).finish_non_exhaustive()
     }
 }

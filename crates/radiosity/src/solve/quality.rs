@@ -20,11 +20,19 @@ impl Quality {
     pub fn options(self) -> Options {
         let normal = Options { passes: 1, norm: Norm::L2, ..Options::default() };
         match self {
-            Quality::Draft => Options { elements: 1500, passes: 0, tolerance: 1e-2, spread: 1e-3, ..normal },
-            Quality::Normal => normal,
-            Quality::High => {
-                Options { elements: 20_000, passes: 2, shadows: 4, gather: true, spread: 5e-5, ..normal }
+            Quality::Draft => {
+                Options { elements: 1500, passes: 0, tolerance: 1e-2, error: 3e-2, spread: 1e-3, ..normal }
             }
+            Quality::Normal => normal,
+            Quality::High => Options {
+                elements: 20_000,
+                passes: 2,
+                shadows: 4,
+                gather: true,
+                error: 3e-3,
+                spread: 5e-5,
+                ..normal
+            },
         }
     }
 }

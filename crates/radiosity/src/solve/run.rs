@@ -113,17 +113,35 @@ impl<'r> Run<'r> {
     /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
     pub(super) fn report(&mut self) -> ControlFlow<()> {
         let seconds = self.start.elapsed().as_secs_f64();
-        (self.watch)(&Progress {
-            shots: self.shooters.shots,
-            products: self.products,
-            unshot: largest(&self.unshot),
-            bound: &self.bound,
-            ledger: &self.ledger,
+        let Run { light, factors, shooters, bound, ledger, products, scaling, welds, .. } = self;
+        let so_far = || Solution {
+            bands: light.bands,
+            radiosity: light.radiosity.clone(),
+            irradiance: light.irradiance.clone(),
+            reflectance: light.reflectance.clone(),
+            direct: None,
+            welds: welds.clone(),
+            ledger: ledger.clone(),
+            bound: bound.clone(),
+            estimate: None,
+            closure: None,
+            scaling: *scaling,
+            shots: shooters.shots,
+            products: *products,
+            converged: false,
+            fault: None,
+            mesh: factors.subdivision.mesh.clone(),
             seconds,
-            light: &self.light,
-            scaling: self.scaling,
-            factors: &self.factors,
-            welds: &self.welds,
+        };
+        (self.watch)(&Progress {
+            shots: shooters.shots,
+            products: *products,
+            unshot: largest(&self.unshot),
+            bound,
+            ledger,
+            seconds,
+            light: &so_far,
+            state: factors.state,
         })?;
         let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
         if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -153,6 +171,7 @@ impl<'r> Run<'r> {
             direct,
             welds: self.welds,
             bound: self.bound,
+            estimate: None,
             closure,
             scaling: self.scaling,
             shots: self.shooters.shots,

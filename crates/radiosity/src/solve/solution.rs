@@ -16,9 +16,13 @@ pub struct Solution {
     pub irradiance: Vec<f64>,
     /// Where the emitted power went.
     pub ledger: Ledger,
-    /// Per band, a bound on the algebraic error of every element's radiosity in W/m²: ‖r‖∞ / (1 − max ρ ΣF). The error of the
-    /// mesh is not part of it: see [`Solution::error_estimate`]. Infinite where a patch reflects all light.
+    /// Per band, a bound on the algebraic error of every element's radiosity in W/m²: ‖r‖∞ / (1 − max ρ ΣF). It bounds how far the light
+    /// is from that of the discrete system. How far that is from the light of the scene is no part of it: see
+    /// [`Solution::estimate`] and [`Solution::error_estimate`]. Infinite where a patch reflects all light.
     pub bound: Vec<f64>,
+    /// How far the mean irradiance of each patch may be from that of the scene, patches × bands, W/m²: an estimate. Only
+    /// [`Method::Hierarchical`](crate::Method::Hierarchical) finds one.
+    pub estimate: Option<Vec<f64>>,
     /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, and
     /// where computing it would take longer than the solution.
     pub closure: Option<f64>,
@@ -69,6 +73,12 @@ impl Solution {
             lit.radiosity[at] += self.reflectance[at] * ambient[at % self.bands];
         }
         lit
+    }
+
+    /// The estimates of a patch, per band; empty where there are none.
+    #[must_use]
+    pub fn patch_estimate(&self, patch: usize) -> &[f64] {
+        self.estimate.as_ref().map_or(&[], |estimate| &estimate[patch * self.bands..][..self.bands])
     }
 
     /// Area-weighted means of `values` (elements × bands) over each of the scene's patches: patches × bands.

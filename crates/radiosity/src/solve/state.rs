@@ -1,4 +1,5 @@
 //! The form factors found so far: a run that was stopped resumes from them.
+use super::levels::transfer::Transfer;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, sync::Arc};
 use thiserror::Error;
@@ -6,7 +7,7 @@ use thiserror::Error;
 /// How many factors are kept: 1.5 GB.
 const KEPT: usize = 1 << 27;
 /// What a file starts with; the digit counts the formats.
-const MAGIC: &[u8] = b"radiosity state 1\n";
+const MAGIC: &[u8] = b"radiosity state 2\n";
 
 /// The form factors that a run has computed, which are most of its work, so that another run can resume from them.
 ///
@@ -16,6 +17,8 @@ const MAGIC: &[u8] = b"radiosity state 1\n";
 pub struct State {
     /// By the fingerprint of the mesh: the columns by piece.
     meshes: BTreeMap<u64, BTreeMap<usize, Arc<Column>>>,
+    /// By the fingerprint of the shapes: what two tiles exchange, by their names.
+    transfers: BTreeMap<u64, BTreeMap<[u64; 2], Arc<Transfer>>>,
     /// How many factors there are.
     count: usize,
     /// A patch whose factors cannot be found.
@@ -98,20 +101,44 @@ impl State {
     /// Whether all is as [`Column::new`] and [`State::keep`] make it: a checksum may be right by intention.
     fn is_lawful(&self) -> bool {
         let columns = || self.meshes.values().flat_map(BTreeMap::values);
+        let transfers = || self.transfers.values().flat_map(BTreeMap::values);
+        let numbers = columns().map(|column| column.factors.len()).sum::<usize>()
+            + transfers().count() * Transfer::SIZE;
         columns().all(|column| column.is_lawful())
-            && columns().map(|column| column.factors.len()).sum::<usize>() == self.count
+            && transfers().all(|transfer| transfer.is_lawful())
+            && numbers == self.count
             && self.count <= KEPT
     }
 
     /// Whether nothing is known yet.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.meshes.is_empty()
+        self.meshes.is_empty() && self.transfers.is_empty()
     }
 
     /// Whether something is known of a mesh.
     pub(super) fn knows(&self, mesh: u64) -> bool {
         self.meshes.contains_key(&mesh)
+    }
+
+    /// Whether something is known of how tiles of these shapes exchange light.
+    pub(super) fn knows_shapes(&self, shapes: u64) -> bool {
+        self.transfers.contains_key(&shapes)
+    }
+
+    /// What two tiles are known to exchange.
+    pub(super) fn transfer(&self, shapes: u64, names: [u64; 2]) -> Option<Arc<Transfer>> {
+        self.transfers.get(&shapes)?.get(&names).map(Arc::clone)
+    }
+
+    /// Keeps what two tiles exchange while memory lasts.
+    pub(super) fn keep_transfer(&mut self, shapes: u64, names: [u64; 2], transfer: &Arc<Transfer>) {
+        if self.count + Transfer::SIZE <= KEPT
+            && !self.transfers.get(&shapes).is_some_and(|all| all.contains_key(&names))
+        {
+            self.count += Transfer::SIZE;
+            self.transfers.entry(shapes).or_default().insert(names, Arc::clone(transfer));
+        }
     }
 
     /// A column that is known, of a mesh of so many elements.
@@ -169,7 +196,9 @@ mod tests {
     fn forged_states_are_refused() {
         let forged = |elements: Vec<u32>, factors: Vec<f64>, count: usize| {
             let columns = BTreeMap::from([(3, Arc::new(Column { elements, factors }))]);
-            State::from_bytes(&State { meshes: BTreeMap::from([(7, columns)]), count, trap: None }.to_bytes())
+            State::from_bytes(
+                &State { meshes: BTreeMap::from([(7, columns)]), count, ..State::default() }.to_bytes(),
+            )
         };
         assert!(forged(vec![0, 5], vec![0.5, 0.25], 2).is_ok_and(|state| state.column(7, 3, 5).is_none()));
         for (elements, factors, count) in [

@@ -15,8 +15,16 @@ pub(super) fn from_all(
     factor: impl Fn(&DifferentialArea) -> f64 + Sync,
 ) -> Result<Vec<f64>, Error> {
     let all = || points.par_iter().with_min_len(8).map(&factor).collect();
+    attempt(patch, all)
+}
+
+/// What is found for a patch.
+///
+/// # Errors
+/// As [`from_all`].
+pub(super) fn attempt<T>(patch: &str, find: impl FnOnce() -> T) -> Result<T, Error> {
     // Factors are pure functions of what they borrow: a panic leaves nothing half done.
-    catch_unwind(AssertUnwindSafe(all))
+    catch_unwind(AssertUnwindSafe(find))
         .map_err(|panic| Error::Defect { patch: patch.into(), reason: reason(panic.as_ref()) })
 }
 

@@ -106,6 +106,7 @@ pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
                 reflectance: patch.reflectance.clone(),
                 emission: patch.emission.clone(),
                 irradiance: vec![0.0; 3],
+                estimate: Vec::new(),
                 radiosity: light.to_vec(),
                 picture: None,
                 tint: [1.0; 3],

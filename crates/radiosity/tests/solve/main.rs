@@ -3,6 +3,7 @@ mod bands;
 mod build;
 mod extreme;
 mod interpolation;
+mod levels;
 mod resume;
 mod sources;
 mod stiff;

@@ -45,15 +45,37 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json {
         print(&figures)?;
     }
-    report(&solution);
+    report(&scene, &solution);
     Ok(follower.code(&solution))
 }
 
 /// One line for people.
-fn report(solution: &Solution) {
+fn report(scene: &Scene, solution: &Solution) {
     let (elements, seconds) = (solution.mesh.elements.len(), solution.seconds);
     let (shots, products) = (solution.shots, solution.products);
-    eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s");
+    let estimate = worst_estimate(scene, solution);
+    let estimate = estimate.map_or_else(String::new, |(share, patch)| {
+        format!(", light within {:.2} % (patch {patch}; an estimate)", 100.0 * share)
+    });
+    eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s{estimate}");
+}
+
+/// The largest estimated error of a patch, as a share of its mean irradiance or of 1 % of the scene's, and the patch's name.
+fn worst_estimate<'s>(scene: &'s Scene, solution: &Solution) -> Option<(f64, &'s str)> {
+    solution.estimate.as_ref()?;
+    let means = solution.patch_means(&solution.irradiance, scene.patches.len());
+    let areas: Vec<f64> = scene.patches.iter().map(|patch| patch.polygon.area()).collect();
+    let whole = |band: usize| {
+        means.iter().zip(&areas).map(|(mean, area)| mean[band] * area).sum::<f64>()
+            / areas.iter().sum::<f64>()
+    };
+    let wholes: Vec<f64> = (0..solution.bands).map(whole).collect();
+    let shares = scene.patches.iter().enumerate().flat_map(|(index, patch)| {
+        let of = means[index].iter().zip(&wholes).map(|(mean, whole)| mean.max(0.01 * whole));
+        let shares = solution.patch_estimate(index).iter().zip(of).filter(|(_, of)| *of > 0.0);
+        shares.map(|(estimate, of)| (estimate / of, patch.name.as_str())).collect::<Vec<_>>()
+    });
+    shares.reduce(|a, b| if b.0 > a.0 { b } else { a })
 }
 
 /// A scene without light is solved: it is dark. Most likely it was not meant.

@@ -1,5 +1,5 @@
 //! The options of `radiosity solve`, and those of the solver that they lead to.
-use crate::parse::{count, positive};
+use crate::parse::{count, positive, share};
 use crate::view_options::ViewOptions;
 use clap::{Args, ValueEnum};
 use radiosity::Options;
@@ -35,10 +35,14 @@ pub(crate) struct Solve {
     /// The method of solution
     #[arg(long, value_enum, default_value_t = Method::Auto)]
     pub(super) method: Method,
-    /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness
-    /// [default: by quality]
+    /// Stop when the bound on the error of every radiosity, as a solution of the discrete system, is at most this share of the reflected
+    /// light's brightness [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) tolerance: Option<f64>,
+    /// What the mean irradiance of each patch may be off by, as a share like 0.01 or 1% of itself or of 1 % of the scene's mean, with
+    /// `--method hierarchical` [default: by quality]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(super) error: Option<f64>,
     /// Split a piece while its power deviates from a uniform piece by more than this share of all power [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) spread: Option<f64>,
@@ -102,6 +106,8 @@ pub(super) enum Method {
     Cg,
     /// GMRES on unscaled form factors
     Gmres,
+    /// By levels: light goes between parts of patches as large as `--error` allows, and each patch gets an estimate of its error
+    Hierarchical,
 }
 
 /// The options of the solver.
@@ -117,6 +123,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         Method::Matrix => radiosity::Method::Matrix,
         Method::Cg => radiosity::Method::Cg,
         Method::Gmres => radiosity::Method::Gmres,
+        Method::Hierarchical => radiosity::Method::Hierarchical,
     };
     let norm = match arguments.norm {
         Norm::Gradient => radiosity::Norm::Gradient,
@@ -132,6 +139,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         passes: arguments.passes.map_or(given.passes, usize::from),
         shadows: arguments.shadows.map_or(given.shadows, usize::from),
         tolerance: arguments.tolerance.unwrap_or(given.tolerance),
+        error: arguments.error.unwrap_or(given.error),
         spread: arguments.spread.unwrap_or(given.spread),
         hemicube: arguments.hemicube,
         gather: given.gather,

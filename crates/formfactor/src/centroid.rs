@@ -1,0 +1,133 @@
+//! Where the light that a point receives from a target comes from: the first moments of the form factor's kernel.
+//!
+//! In polar coordinates r, phi about the foot of the perpendicular from dA to the target's plane, h below it, the kernel is
+//! h (a + r w) / (pi (h^2 + r^2)^2), with a the height of the foot over the horizon and w(phi) the cosine between dA's normal and the
+//! direction e(phi) in the plane. Integrated over r to the boundary at R = z h it leaves
+//!
+//! ```text
+//! integral of y K dA = (1 / pi) sum over edges of the integral of e (a J2(z) + h w J3(z)) dphi,
+//! J2 = (atan z - z / (1 + z^2)) / 2,   J3 = (ln(1 + z^2) - z^2 / (1 + z^2)) / 2,
+//! ```
+//!
+//! which Gauss's rule finds to four digits and more.
+use crate::buffers::Buffers;
+use crate::form_factor::FormFactor;
+use crate::numeric::gauss::RULE_4;
+use crate::pipeline::past;
+use crate::quick;
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
+use crate::stats::Stats;
+use crate::visible_part::visible_part;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// The form factor, and the mean of the target's visible points, each weighed by what it contributes; of a target that is not seen
+/// some point.
+pub(crate) fn with_centroid(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: &[&PlanarPolygon],
+    buffers: &mut Buffers,
+) -> (FormFactor, DVec3) {
+    let plane = PolarPlane::seen_from(from, to);
+    let others = || occluders.iter().copied();
+    buffers.quick.record(true);
+    let quickly = quick::form_factor(from, to, |_| others(), &mut buffers.quick, &mut Stats::default());
+    buffers.quick.record(false);
+    let (factor, moment) = match quickly {
+        Some(factor) => (factor, buffers.quick.recorded().map(|edge| plane.moment(edge)).sum()),
+        None => (past(from, to, |_| others(), buffers), plane.moment_of_part(from, to, occluders)),
+    };
+    let centroid = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
+    (factor, plane.place(from, centroid))
+}
+
+/// A target's plane relative to dA.
+struct PolarPlane {
+    /// dA's height over it.
+    height: f64,
+    /// The foot of the perpendicular, relative to dA.
+    foot: DVec3,
+    /// Directions in the plane, counter-clockwise seen from its front.
+    axes: [DVec3; 2],
+    /// dA's normal, along the plane, and the height of the foot over the horizon.
+    tilt: DVec2,
+    rise: f64,
+}
+
+impl PolarPlane {
+    fn seen_from(from: &DifferentialArea, to: &PlanarPolygon) -> Self {
+        let normal = to.normal();
+        let height = normal.dot(from.position() - to.points()[0]);
+        let foot = -normal * height;
+        let x = normal.any_orthonormal_vector();
+        let axes = [x, normal.cross(x)];
+        let tilt = DVec2::from(axes.map(|axis| axis.dot(from.normal())));
+        Self { height, foot, axes, tilt, rise: from.normal().dot(foot) }
+    }
+
+    /// Where a line from dA meets the plane.
+    fn project(&self, toward: DVec3) -> DVec2 {
+        let reach = self.height * self.height / self.foot.dot(toward);
+        DVec2::from(self.axes.map(|axis| axis.dot(toward))) * reach
+    }
+
+    fn place(&self, from: &DifferentialArea, point: DVec2) -> DVec3 {
+        from.position() + self.foot + self.axes[0] * point.x + self.axes[1] * point.y
+    }
+
+    /// The moment over the triangle between the foot and an edge, negative for one that runs clockwise.
+    fn moment(&self, edge: [DVec3; 2]) -> DVec2 {
+        let [start, end] = edge.map(|end| self.project(end));
+        let along = (end - start).normalize_or_zero();
+        let away = -along.perp();
+        let distance = start.dot(away);
+        let size = start.abs().max(end.abs()).max_element();
+        if !size.is_finite() || distance.abs() <= 1e-9 * size {
+            return DVec2::ZERO;
+        }
+        let (away, across) = (away * distance.signum(), distance.abs());
+        let [low, high] = [start, end].map(|end| end.dot(along).atan2(across));
+        let halves = ((high - low).abs() / (PI / 4.0)).ceil().clamp(1.0, 4.0);
+        let step = (high - low) / halves;
+        let mut sum = DVec2::ZERO;
+        let mut first = low;
+        while (first - high).abs() > 0.5 * step.abs() {
+            for [node, weight] in RULE_4 {
+                let (sine, cosine) = (first + step * node).sin_cos();
+                let toward = away * cosine + along * sine;
+                sum += toward * (weight * step * self.within(across / cosine, self.tilt.dot(toward)));
+            }
+            first += step;
+        }
+        sum * distance.signum() / PI
+    }
+
+    /// a J2 + h w J3.
+    fn within(&self, radius: f64, lean: f64) -> f64 {
+        let z = radius / self.height;
+        let q = z * z;
+        let [second, third] = if q < 1e-2 {
+            [z * q * (2.0 / 3.0 - q * (0.8 - q * 6.0 / 7.0)), q * q * (0.5 - q * (2.0 / 3.0 - q * 0.75))]
+        } else {
+            [z.atan() - z / (1.0 + q), q.ln_1p() - q / (1.0 + q)]
+        };
+        (self.rise * second + self.height * lean * third) / 2.0
+    }
+
+    /// The moment over the visible part as polygon Booleans find it.
+    fn moment_of_part(
+        &self,
+        from: &DifferentialArea,
+        to: &PlanarPolygon,
+        occluders: &[&PlanarPolygon],
+    ) -> DVec2 {
+        let all: Vec<PlanarPolygon> = occluders.iter().copied().cloned().collect();
+        let of_ring = |ring: Vec<DVec3>| {
+            let relative: Vec<DVec3> = ring.into_iter().map(|p| p - from.position()).collect();
+            let next = relative.iter().cycle().skip(1);
+            relative.iter().zip(next).map(|(a, b)| self.moment([*a, *b])).sum::<DVec2>()
+        };
+        visible_part(from, to, &all).rings().map(of_ring).sum()
+    }
+}

@@ -1,0 +1,92 @@
+//! A patch in convex parts.
+use super::{frame::Frame, refusal::MeshRefusal};
+use formfactor::PlanarPolygon;
+use glam::{DVec2, DVec3};
+use polycsg::{FillRule, Region};
+use std::collections::BTreeMap;
+
+/// Parts of less than this share of the whole are what rounding left.
+const SLIVER: f64 = 1e-12;
+
+/// The sine of a turn that is none.
+const STRAIGHT: f64 = 1e-9;
+
+/// A corner in the frame and in space.
+type PlacedCorner = (DVec2, DVec3);
+
+/// The convex parts of a polygon, counter-clockwise. It is cut through its reflex corners, along the axes of its frame, those nearest to
+/// its middle first.
+pub(crate) fn convex_parts(
+    polygon: &PlanarPolygon,
+    frame: &Frame,
+) -> Result<Vec<Vec<PlacedCorner>>, MeshRefusal> {
+    let rings: Vec<Vec<DVec2>> =
+        polygon.loops().map(|points| points.iter().map(|p| frame.flatten(*p)).collect()).collect();
+    let mut places: BTreeMap<[u64; 2], DVec3> = BTreeMap::new();
+    for (flat, place) in rings.iter().flatten().zip(polygon.loops().flatten()) {
+        places.insert(key(*flat), *place);
+    }
+    let mut open = vec![rings];
+    let mut parts = Vec::new();
+    let least = SLIVER * open[0].iter().map(|ring| area(ring).abs()).fold(0.0, f64::max);
+    while let Some(rings) = open.pop() {
+        match cut_of(&rings) {
+            Some(line) => open.extend(halves(&rings, line)?),
+            None => parts.extend(rings.into_iter().filter(|ring| area(ring) > least)),
+        }
+    }
+    let place = |flat: DVec2| (flat, places.get(&key(flat)).copied().unwrap_or_else(|| frame.lift(flat)));
+    Ok(parts.into_iter().map(|ring| ring.into_iter().map(place).collect()).collect())
+}
+
+fn key(flat: DVec2) -> [u64; 2] {
+    flat.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
+}
+
+fn area(ring: &[DVec2]) -> f64 {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() / 2.0
+}
+
+/// Where to cut what is not convex: a point and a direction.
+fn cut_of(rings: &[Vec<DVec2>]) -> Option<[DVec2; 2]> {
+    let count = rings.iter().map(Vec::len).sum::<usize>() as f64;
+    let middle = rings.iter().flatten().sum::<DVec2>() / count;
+    let corners = rings.iter().flat_map(|ring| {
+        let count = ring.len();
+        (0..count).map(move |k| [ring[(k + count - 1) % count], ring[k], ring[(k + 1) % count]])
+    });
+    let reflex = corners.filter(|corner| is_reflex(*corner)).map(|[_, b, _]| b);
+    let lines = reflex.flat_map(|corner| {
+        [DVec2::X, DVec2::Y].map(|way| (way.perp_dot(middle - corner).abs(), [corner, way]))
+    });
+    lines.reduce(|a, b| if b.0 < a.0 { b } else { a }).map(|(_, line)| line)
+}
+
+/// Whether a polygon turns right at a corner by more than rounding can make it: what is less does no harm.
+fn is_reflex([a, b, c]: [DVec2; 3]) -> bool {
+    let [before, after] = [b - a, c - b];
+    before.perp_dot(after) < -STRAIGHT * before.length() * after.length()
+}
+
+/// The parts on both sides of a line along an axis.
+fn halves(rings: &[Vec<DVec2>], [point, way]: [DVec2; 2]) -> Result<Vec<Vec<Vec<DVec2>>>, MeshRefusal> {
+    let refused =
+        |error: &dyn std::fmt::Display| MeshRefusal(format!("it cannot be cut in convex parts ({error})"));
+    let flat = |ring: &Vec<DVec2>| ring.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
+    let whole =
+        Region::from_rings(rings.iter().map(flat), FillRule::EvenOdd).map_err(|error| refused(&error))?;
+    let far = 4.0 * rings.iter().flatten().map(|p| p.distance(point)).fold(0.0, f64::max);
+    let mut parts = Vec::new();
+    for side in [way.perp(), -way.perp()] {
+        let corners =
+            [point - way * far, point + way * far, point + (way + side) * far, point + (side - way) * far];
+        let half = Region::from_rings([corners.map(|p| [p.x, p.y]).to_vec()], FillRule::NonZero)
+            .map_err(|error| refused(&error))?;
+        let rings = |polygon: polycsg::Polygon<'_>| {
+            let rings = std::iter::once(polygon.outer()).chain(polygon.holes());
+            rings.map(|ring| ring.iter().map(|p| DVec2::new(p.x, p.y)).collect()).collect()
+        };
+        parts.extend(whole.intersection(&half).polygons().map(rings));
+    }
+    Ok(parts)
+}

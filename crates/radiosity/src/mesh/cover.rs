@@ -1,0 +1,140 @@
+//! Convex tiles of patches in triangles that share their vertices, but across contact lines.
+use super::divide::Points;
+use super::element::{Element, Mesh};
+use super::split::split;
+use glam::{DVec2, DVec3};
+
+/// Vertices nearer than this share of a patch's size are one.
+const NEAR: f64 = 1e-9;
+
+/// Triangles, and which tile each is a part of.
+#[derive(Debug, Default)]
+pub(crate) struct Cover {
+    pub(crate) mesh: Mesh,
+    pub(crate) owners: Vec<usize>,
+}
+
+/// The corners of a tile, counter-clockwise in the frame of its patch, each with its place in space.
+pub(crate) type TileCorners<'t> = &'t [(DVec2, DVec3)];
+
+impl Cover {
+    /// Adds the tiles of a patch, each with its number; `contacts` are the lines on which other patches touch it.
+    ///
+    /// ```text
+    /// +-------+---+
+    /// |       |   |    corners of a neighbour in the middle of a side are vertices of the tile: it becomes a fan around
+    /// |       +---+    its middle
+    /// |       |   |
+    /// +-------+---+
+    /// ```
+    pub(crate) fn add(&mut self, patch: usize, tiles: &[(usize, TileCorners<'_>)], contacts: &[[DVec2; 2]]) {
+        let mut knots = Knots::of(tiles.iter().flat_map(|(_, corners)| corners.iter().copied()));
+        let mut triangles = Vec::new();
+        for &(tile, corners) in tiles {
+            let ring = knots.ring(corners);
+            for triangle in knots.fan(&ring, corners.len()) {
+                triangles.push(triangle);
+                self.owners.push(tile);
+            }
+        }
+        let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let contacts = sides.filter(|side| knots.is_on(*side, contacts)).collect();
+        let points = Points { flat: knots.flat, contacts, ..Points::default() };
+        let parted = split(&triangles, &points);
+        let base = self.mesh.vertices.len();
+        self.mesh.vertices.extend(parted.points.iter().map(|&point| knots.places[point]));
+        let element = |corners: &[usize; 3]| Element { patch, corners: corners.map(|corner| base + corner) };
+        self.mesh.elements.extend(parted.triangles.iter().map(element));
+    }
+}
+
+/// The corners of all tiles of a patch, each once, sorted by their first coordinate.
+struct Knots {
+    flat: Vec<DVec2>,
+    places: Vec<DVec3>,
+    /// The numbers of those that were sorted, in that order.
+    sorted: Vec<usize>,
+    near: f64,
+}
+
+impl Knots {
+    fn of(corners: impl Iterator<Item = (DVec2, DVec3)>) -> Knots {
+        let mut corners: Vec<(DVec2, DVec3)> = corners.collect();
+        corners.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)));
+        let size = corners.iter().map(|corner| corner.0.abs().max_element()).fold(0.0, f64::max);
+        let mut knots = Knots { flat: Vec::new(), places: Vec::new(), sorted: Vec::new(), near: NEAR * size };
+        for (flat, place) in corners {
+            if knots.find(flat).is_none() {
+                knots.sorted.push(knots.flat.len());
+                knots.flat.push(flat);
+                knots.places.push(place);
+            }
+        }
+        knots
+    }
+
+    /// The knots whose first coordinate is in a range.
+    fn between(&self, low: f64, high: f64) -> impl Iterator<Item = usize> {
+        let x = |knot: usize| self.flat[knot].x;
+        let from = self.sorted.partition_point(|&knot| x(knot) < low - self.near);
+        self.sorted[from..].iter().copied().take_while(move |&knot| x(knot) <= high + self.near)
+    }
+
+    fn find(&self, flat: DVec2) -> Option<usize> {
+        self.between(flat.x, flat.x).find(|&knot| self.flat[knot].distance(flat) <= 2.0 * self.near)
+    }
+
+    /// The knots around a tile, with those in the middle of its sides.
+    fn ring(&self, corners: TileCorners<'_>) -> Vec<usize> {
+        let mut ring: Vec<usize> = corners.iter().filter_map(|corner| self.find(corner.0)).collect();
+        ring.dedup();
+        let next = ring.iter().copied().cycle().skip(1);
+        ring.iter()
+            .zip(next)
+            .flat_map(|(&start, end)| std::iter::once(start).chain(self.inside([start, end])))
+            .collect()
+    }
+
+    /// The knots in the middle of a side, in order.
+    fn inside(&self, [start, end]: [usize; 2]) -> Vec<usize> {
+        let (a, b) = (self.flat[start], self.flat[end]);
+        let (way, length) = ((b - a).normalize_or_zero(), a.distance(b));
+        let along = |knot: usize| way.dot(self.flat[knot] - a);
+        let is_inside = |&knot: &usize| {
+            let reach = along(knot);
+            reach > 2.0 * self.near
+                && reach < length - 2.0 * self.near
+                && way.perp_dot(self.flat[knot] - a).abs() <= 2.0 * self.near
+        };
+        let mut inside: Vec<usize> = self.between(a.x.min(b.x), a.x.max(b.x)).filter(is_inside).collect();
+        inside.sort_by(|a, b| along(*a).total_cmp(&along(*b)));
+        inside
+    }
+
+    /// Triangles of a ring; around its middle where it has more knots than corners, or many.
+    fn fan(&mut self, ring: &[usize], corners: usize) -> Vec<[usize; 3]> {
+        let count = ring.len();
+        if count == corners && count <= 4 {
+            return (2..count).map(|k| [ring[0], ring[k - 1], ring[k]]).collect();
+        }
+        let middle = self.flat.len();
+        let share = 1.0 / count as f64;
+        self.flat.push(ring.iter().map(|&knot| self.flat[knot]).sum::<DVec2>() * share);
+        self.places.push(ring.iter().map(|&knot| self.places[knot]).sum::<DVec3>() * share);
+        (0..count).map(|k| [middle, ring[k], ring[(k + 1) % count]]).collect()
+    }
+
+    /// Whether a side is on one of the lines.
+    fn is_on(&self, side: [usize; 2], lines: &[[DVec2; 2]]) -> bool {
+        let [a, b] = side.map(|knot| self.flat[knot]);
+        let far = 10.0 * self.near;
+        let is_on = |[start, end]: &[DVec2; 2]| {
+            let (way, length) = ((*end - *start).normalize_or_zero(), start.distance(*end));
+            [a, b].iter().all(|p| {
+                let reach = way.dot(*p - *start);
+                way.perp_dot(*p - *start).abs() <= far && reach >= -far && reach <= length + far
+            })
+        };
+        lines.iter().any(is_on)
+    }
+}

@@ -1,0 +1,208 @@
+//! Which links to refine: the errors of the links of every patch add up to no more than its share.
+use super::equilibrium::deviations;
+use super::flow::{Linear, square};
+use super::link::Link;
+use super::tile::SQUARE;
+use super::tiling::Tiling;
+
+/// How much of the curvature of what a tile sees of another, times the deviation of the other's light, counts.
+const SENT: f64 = 0.5;
+/// How much the curvature of light within a tile counts beside errors of its mean.
+const WITHIN: f64 = 0.05;
+/// How much the curvature of light within a tile counts for those that look at its parts.
+const OTHERS: f64 = 0.3;
+/// How much the deviation of a sender's light counts where each place of it is seen from another place.
+const PLACE: f64 = 0.3;
+/// How much of the light that is reflected by what five points miss may be other than its surroundings.
+const BLIND: f64 = 0.3;
+/// Patches that are darker than this share of the mean count as if they were as bright.
+pub(super) const DARK: f64 = 0.01;
+
+/// The light of a band, as errors depend on it.
+#[derive(Debug)]
+pub(super) struct BandLight {
+    band: usize,
+    /// What each tile sends, and how far that is from linear.
+    pub(super) sent: Vec<Linear>,
+    pub(super) deviation: Vec<f64>,
+    /// How much of what each tile sends is reflected.
+    pub(super) reflected: Vec<f64>,
+    /// See [`importances`].
+    pub(super) importance: Vec<f64>,
+    /// For each patch: the power that counts as 1.
+    pub(super) unit: Vec<f64>,
+}
+
+/// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, and the sender's part.
+#[derive(Clone, Copy, Debug)]
+struct Flaw {
+    of_mean: f64,
+    within: f64,
+    of_sender: f64,
+}
+
+/// A link to be refined, and which of its ends is to be cut.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    pub(super) link: usize,
+    pub(super) end: usize,
+}
+
+/// For each tile how much its parts, where others look at them in more detail, matter to one patch: the largest sum of what they send it, in its unit,
+/// for a radiosity of 1.
+fn importances(tiling: &Tiling<'_>, links: &[Link], unit: &[f64]) -> Vec<f64> {
+    let mut of_patch: Vec<Vec<(usize, f64)>> = vec![Vec::new(); unit.len()];
+    for link in links {
+        for end in [0, 1] {
+            let patch = tiling.tiles[link.ends[end]].patch;
+            if unit[patch] > 0.0 && tiling.tiles[link.ends[1 - end]].parent.is_some() {
+                of_patch[patch].push((link.ends[1 - end], link.transfer.exchange[0] / unit[patch]));
+            }
+        }
+    }
+    let above =
+        |tile: usize| std::iter::successors(tiling.tiles[tile].parent, |&tile| tiling.tiles[tile].parent);
+    let mut largest = vec![0.0f64; tiling.tiles.len()];
+    let mut sums = vec![0.0; tiling.tiles.len()];
+    for senders in of_patch {
+        for (sender, share) in &senders {
+            above(*sender).for_each(|tile| sums[tile] += share);
+        }
+        for (sender, _) in senders {
+            above(sender).for_each(|tile| largest[tile] = largest[tile].max(std::mem::take(&mut sums[tile])));
+        }
+    }
+    largest
+}
+
+impl BandLight {
+    /// What is wrong with what one end of a link receives.
+    fn flaw(&self, tiling: &Tiling<'_>, link: &Link, end: usize) -> Flaw {
+        let [receiver, sender] = [link.ends[end], link.ends[1 - end]];
+        let transfer = &link.transfer;
+        let [here, there] = [end, 1 - end].map(|end| link.curvature(end));
+        let bright = square(self.sent[sender]).sqrt();
+        let tile = &tiling.tiles[receiver];
+        // What the sender's points miss, the receiver's see, but not how bright it is.
+        let is_missed = usize::from(transfer.from_second) == end;
+        let missed = if is_missed { transfer.gap * self.reflected[sender] } else { 0.0 };
+        let for_others =
+            self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[tile.patch];
+        let elsewhere = PLACE * transfer.locality() * transfer.exchange[0];
+        Flaw {
+            of_mean: link.error() * bright,
+            within: (WITHIN + OTHERS * for_others) * here * bright,
+            of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
+        }
+    }
+
+    /// `received` is the irradiance of the leaves, spread over the tree.
+    pub(super) fn new(
+        tiling: &Tiling<'_>,
+        links: &[Link],
+        sent: Vec<Linear>,
+        received: &[Linear],
+        band: usize,
+    ) -> BandLight {
+        let mut deviation = vec![0.0; sent.len()];
+        for _ in 0..2 {
+            let of_leaves = unresolved(tiling, links, &sent, &deviation);
+            let of_leaves: Vec<f64> =
+                tiling.tiles.iter().zip(of_leaves).map(|(tile, d)| tile.reflectance[band] * d).collect();
+            deviation = deviations(tiling, &sent, &of_leaves);
+        }
+        let patches = tiling.scene.patches.len();
+        let (mut areas, mut powers) = (vec![0.0; patches], vec![0.0; patches]);
+        for (tile, light) in tiling.tiles.iter().zip(received).filter(|(tile, _)| tile.parent.is_none()) {
+            areas[tile.patch] += tile.area;
+            powers[tile.patch] += tile.area * light[0].max(0.0);
+        }
+        let mean = powers.iter().sum::<f64>() / areas.iter().sum::<f64>();
+        let unit: Vec<f64> =
+            powers.iter().zip(&areas).map(|(power, area)| power.max(DARK * mean * area)).collect();
+        let reflected = sent
+            .iter()
+            .enumerate()
+            .map(|(tile, light)| (light[0] - tiling.emittance(tile, band)).abs())
+            .collect();
+        BandLight { band, reflected, deviation, sent, importance: importances(tiling, links, &unit), unit }
+    }
+}
+
+/// How far the irradiance of each leaf is from linear: the curvatures of all that it receives, those of larger tiles by their share.
+fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &[f64]) -> Vec<f64> {
+    let mut squares = vec![0.0; tiling.tiles.len()];
+    for link in links {
+        for end in [0, 1] {
+            let [here, there] = [link.ends[end], link.ends[1 - end]];
+            let area = tiling.tiles[here].area;
+            let bend = link.curvature(end) / area;
+            let carried = link.transfer.locality() * link.transfer.exchange[0] / area * deviation[there];
+            squares[here] += SQUARE * bend * bend * square(sent[there]) + carried * carried;
+        }
+    }
+    for index in 0..tiling.tiles.len() {
+        let tile = &tiling.tiles[index];
+        let Some(parent) = tile.parent else { continue };
+        let share = tile.area / tiling.tiles[parent].area;
+        squares[index] += squares[parent] * share * share;
+    }
+    squares.into_iter().map(f64::sqrt).collect()
+}
+
+/// What the mean irradiance of every patch may be off by for the errors of its links, added up; patches × `count` bands.
+pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], count: usize) -> Vec<f64> {
+    let patches = &tiling.scene.patches;
+    let mut sums = vec![0.0; patches.len() * count];
+    for link in links {
+        for end in [0, 1] {
+            let patch = tiling.tiles[link.ends[end]].patch;
+            for light in bands {
+                let flaw = light.flaw(tiling, link, end);
+                sums[patch * count + light.band] +=
+                    (flaw.of_mean + flaw.of_sender) / patches[patch].polygon.area();
+            }
+        }
+    }
+    sums
+}
+
+/// The links to refine so that no patch's links err by more than `share` of its light in sum: the largest errors first.
+pub(super) fn cuts(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], share: f64) -> Vec<Cut> {
+    let mut of_patch: Vec<Vec<(f64, Cut)>> = vec![Vec::new(); tiling.scene.patches.len()];
+    for (index, link) in links.iter().enumerate() {
+        for end in [0, 1] {
+            let patch = tiling.tiles[link.ends[end]].patch;
+            let (error, at_end) = worst(tiling, link, end, bands);
+            if error > 0.0 {
+                of_patch[patch].push((error, Cut { link: index, end: if at_end { end } else { 1 - end } }));
+            }
+        }
+    }
+    let mut chosen: Vec<Option<(f64, Cut)>> = vec![None; links.len()];
+    for mut errors in of_patch {
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.link.cmp(&a.1.link)));
+        let mut sum = 0.0;
+        for (error, cut) in errors {
+            sum += error;
+            if sum > share && chosen[cut.link].is_none_or(|(other, _)| error > other) {
+                chosen[cut.link] = Some((error, cut));
+            }
+        }
+    }
+    chosen.into_iter().flatten().map(|(_, cut)| cut).collect()
+}
+
+/// The error of what one end of a link receives in the worst band, and whether that end is to be cut for it.
+fn worst(tiling: &Tiling<'_>, link: &Link, end: usize, bands: &[BandLight]) -> (f64, bool) {
+    let patch = tiling.tiles[link.ends[end]].patch;
+    let at_end = usize::from(link.transfer.from_second) == end;
+    let of = |light: &BandLight| {
+        let Flaw { of_mean, within, of_sender } = light.flaw(tiling, link, end);
+        let (here, there) =
+            if at_end { (of_mean + within, of_sender) } else { (within, of_mean + of_sender) };
+        let unit = light.unit[patch];
+        if unit > 0.0 { ((here + there) / unit, here >= there) } else { (0.0, true) }
+    };
+    bands.iter().map(of).fold((0.0, true), |a, b| if b.0 > a.0 { b } else { a })
+}

@@ -1,0 +1,238 @@
+//! What all leaves exchange: b = e + ρ T b.
+//!
+//! T takes what the leaves send to what they receive: pull, gather, push. As links carry light both ways by one matrix, it is its own
+//! adjoint, and power adds up. What leaves of closed rooms send and receive is scaled so that ΣF is 1 (Sinkhorn and Knopp 1967), and what
+//! is still missing is taken to be as bright as the receiver: so no room loses or gains light, however bright its finish.
+use super::flow::{Linear, gather, pull, push, square};
+use super::link::Link;
+use super::tile::SQUARE;
+use super::tiling::Tiling;
+use crate::union_find::UnionFind;
+
+/// A leaf of a closed room of which less is seen lies in part under something.
+const OPEN: f64 = 0.8;
+/// After so many rounds of scaling, or when only this much is missing anywhere, the rest is no matter.
+const ROUNDS: usize = 30;
+const SLIGHT: f64 = 1e-9;
+
+/// The links of a tree as one operator.
+#[derive(Debug)]
+pub(super) struct Equilibrium<'e> {
+    tiling: &'e Tiling<'e>,
+    links: &'e [Link],
+    leaves: Vec<usize>,
+    /// For each leaf, what it sends and receives is multiplied by.
+    scales: Vec<f64>,
+    /// The largest change of ΣF by that.
+    scaling: f64,
+    /// For each leaf, what T then leaves of constant light and its own light has to make up for.
+    missing: Vec<Linear>,
+    /// For each leaf, constant light after T.
+    sums: Vec<Linear>,
+    /// The room of each leaf, and the first leaf of each room.
+    room_of: Vec<usize>,
+    first_of: Vec<usize>,
+}
+
+impl<'e> Equilibrium<'e> {
+    /// `known` is ΣF of the tiles of which it is known: 1 in closed rooms.
+    pub(super) fn new(tiling: &'e Tiling<'e>, links: &'e [Link], known: &[Option<f64>]) -> Equilibrium<'e> {
+        let leaves: Vec<usize> = tiling.leaves().collect();
+        let (room_of, first_of) = rooms(tiling, links, &leaves);
+        let count = leaves.len();
+        let (scales, missing, sums) = (vec![1.0; count], vec![[0.0; 3]; count], Vec::new());
+        let mut equilibrium =
+            Equilibrium { tiling, links, leaves, scales, missing, sums, room_of, first_of, scaling: 0.0 };
+        equilibrium.close(known);
+        equilibrium
+    }
+
+    /// Scales what the leaves exchange until ΣF is what it is known to be; in closed rooms what remains goes to their own light.
+    fn close(&mut self, known: &[Option<f64>]) {
+        let even = vec![[1.0, 0.0, 0.0]; self.leaves.len()];
+        for round in 0..ROUNDS {
+            let mut largest = 0.0f64;
+            for (leaf, sums) in self.receive(&even).iter().enumerate() {
+                let right = known[self.leaves[leaf]].filter(|right| sums[0] > OPEN * right);
+                if let Some(right) = right.or((sums[0] > 1.0).then_some(1.0)).filter(|right| *right > 0.0) {
+                    self.scales[leaf] *= (right / sums[0]).sqrt();
+                    largest = largest.max((sums[0] - right).abs());
+                }
+            }
+            self.scaling = if round == 0 { largest } else { self.scaling };
+            if largest <= SLIGHT {
+                break;
+            }
+        }
+        let whole = self.receive(&even);
+        for (leaf, [mean, first, second]) in whole.into_iter().enumerate() {
+            let (missing, sums) = match (known[self.leaves[leaf]] == Some(1.0) && mean > OPEN, mean > 1.0) {
+                (true, _) => ([1.0 - mean, -first, -second], [1.0, 0.0, 0.0]),
+                (false, true) => ([1.0 - mean, 0.0, 0.0], [1.0, first, second]),
+                (false, false) => ([0.0; 3], [mean, first, second]),
+            };
+            self.missing[leaf] = missing;
+            self.sums.push(sums);
+        }
+    }
+
+    pub(super) fn leaves(&self) -> &[usize] {
+        &self.leaves
+    }
+
+    /// Constant light after T on a leaf: ΣF, and how it climbs.
+    pub(super) fn sums(&self, leaf: usize) -> Linear {
+        self.sums[leaf]
+    }
+
+    /// The largest change that closing rooms makes to ΣF.
+    pub(super) fn scaling(&self) -> f64 {
+        self.scaling
+    }
+
+    /// What the leaves reflect.
+    pub(super) fn reflectance(&self, band: usize) -> Vec<f64> {
+        self.leaves.iter().map(|&leaf| self.tiling.tiles[leaf].reflectance[band]).collect()
+    }
+
+    /// 1 − max ρΣF.
+    pub(super) fn gap(&self, reflectance: &[f64]) -> f64 {
+        let kept = reflectance.iter().zip(&self.sums).map(|(rho, sums)| (1.0 - rho) + rho * (1.0 - sums[0]));
+        kept.fold(1.0, f64::min).max(0.0)
+    }
+
+    /// How large a residual may be: within the tolerance of what is reflected, whatever is made of it.
+    pub(super) fn enough(
+        &self,
+        reflectance: &[f64],
+        sent: &[Linear],
+        emitted: &[Linear],
+        tolerance: f64,
+    ) -> f64 {
+        let [mut power, mut squares] = [0.0; 2];
+        for ((leaf, light), e) in self.leaves.iter().zip(sent).zip(emitted) {
+            let (area, reflected) = (self.tiling.tiles[*leaf].area, (light[0] - e[0]).abs());
+            power += area * reflected;
+            squares += area * reflected * reflected;
+        }
+        let brightness = if power > 0.0 { squares / power } else { largest(emitted) };
+        0.1 * tolerance * self.gap(reflectance) * brightness
+    }
+
+    /// The patches of each room, ascending.
+    pub(super) fn patches_of_rooms(&self) -> Vec<Vec<usize>> {
+        let mut rooms = vec![Vec::new(); self.first_of.len()];
+        for (leaf, room) in self.leaves.iter().zip(&self.room_of) {
+            rooms[*room].push(self.tiling.tiles[*leaf].patch);
+        }
+        rooms.iter_mut().for_each(Vec::dedup);
+        rooms
+    }
+
+    /// The light of the leaves among that of all tiles.
+    pub(super) fn of_leaves(&self, light: &[Linear]) -> Vec<Linear> {
+        self.leaves.iter().map(|&leaf| light[leaf]).collect()
+    }
+
+    /// What the leaves send, spread over the tree: for each tile.
+    pub(super) fn spread(&self, sent: &[Linear]) -> Vec<Linear> {
+        let mut all = vec![[0.0; 3]; self.tiling.tiles.len()];
+        self.leaves.iter().zip(sent).for_each(|(&leaf, light)| all[leaf] = *light);
+        pull(self.tiling, &mut all);
+        all
+    }
+
+    /// T: what the leaves receive when they send so much.
+    pub(super) fn receive(&self, sent: &[Linear]) -> Vec<Linear> {
+        let scaled: Vec<Linear> =
+            sent.iter().zip(&self.scales).map(|(light, scale)| light.map(|l| l * scale)).collect();
+        let mut received = gather(self.tiling, self.links, &self.spread(&scaled));
+        push(self.tiling, &mut received);
+        let here = |(((&leaf, scale), own), missing): (((&usize, &f64), &Linear), &Linear)| {
+            let [mean, first, second] = received[leaf].map(|l| l * scale);
+            let of_slopes = SQUARE * (missing[1] * own[1] + missing[2] * own[2]);
+            [
+                mean + missing[0] * own[0] + of_slopes,
+                first + missing[1] * own[0],
+                second + missing[2] * own[0],
+            ]
+        };
+        self.leaves.iter().zip(&self.scales).zip(sent).zip(&self.missing).map(here).collect()
+    }
+
+    /// The area of a leaf.
+    pub(super) fn area(&self, leaf: usize) -> f64 {
+        self.tiling.tiles[self.leaves[leaf]].area
+    }
+
+    /// The patch of a leaf.
+    pub(super) fn patch(&self, leaf: usize) -> usize {
+        self.tiling.tiles[self.leaves[leaf]].patch
+    }
+
+    /// (I − T) b, without cancellation where light is even: constants are taken out, room by room.
+    fn drop(&self, sent: &[Linear]) -> Vec<Linear> {
+        let level = |leaf: usize| sent[self.first_of[self.room_of[leaf]]][0];
+        let uneven: Vec<Linear> = sent
+            .iter()
+            .enumerate()
+            .map(|(leaf, light)| [light[0] - level(leaf), light[1], light[2]])
+            .collect();
+        let mut received = self.receive(&uneven);
+        for (leaf, light) in received.iter_mut().enumerate() {
+            let (even, sums) = (level(leaf), self.sums[leaf]);
+            let [mean, first, second] = uneven[leaf];
+            *light = [
+                mean - light[0] + even * (1.0 - sums[0]),
+                first - light[1] - even * sums[1],
+                second - light[2] - even * sums[2],
+            ];
+        }
+        received
+    }
+
+    /// (I − ρT) b = (1 − ρ) b + ρ (I − T) b.
+    pub(super) fn apply(&self, reflectance: &[f64], sent: &[Linear]) -> Vec<Linear> {
+        let mut dropped = self.drop(sent);
+        for ((drop, light), rho) in dropped.iter_mut().zip(sent).zip(reflectance) {
+            (0..3).for_each(|k| drop[k] = (1.0 - rho) * light[k] + rho * drop[k]);
+        }
+        dropped
+    }
+}
+
+/// The largest value of a function anywhere on its tile, about.
+pub(super) fn largest(light: &[Linear]) -> f64 {
+    light.iter().map(|l| l[0].abs() + l[1].abs() + l[2].abs()).fold(0.0, f64::max)
+}
+
+/// Which leaves exchange light, at once or through others.
+fn rooms(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize]) -> (Vec<usize>, Vec<usize>) {
+    let patches = tiling.scene.patches.len();
+    let mut groups = UnionFind::new(patches);
+    for link in links.iter().filter(|link| link.transfer.exchange[0] > 0.0) {
+        let [one, other] = link.ends.map(|end| tiling.tiles[end].patch);
+        groups.join(one, other);
+    }
+    let (numbers, firsts) = groups.number();
+    let mut first_of = vec![usize::MAX; firsts.len()];
+    let mut room_of = Vec::with_capacity(leaves.len());
+    for (index, &leaf) in leaves.iter().enumerate() {
+        let room = numbers[tiling.tiles[leaf].patch];
+        first_of[room] = first_of[room].min(index);
+        room_of.push(room);
+    }
+    (room_of, first_of)
+}
+
+/// The deviation of light from what is linear on each tile: from the leaves' up.
+pub(super) fn deviations(tiling: &Tiling<'_>, sent: &[Linear], of_leaves: &[f64]) -> Vec<f64> {
+    let mut squares: Vec<f64> = of_leaves.iter().map(|deviation| deviation * deviation).collect();
+    for (index, tile) in tiling.tiles.iter().enumerate().rev() {
+        let Some(halves) = tile.halves else { continue };
+        let all: f64 =
+            halves.iter().map(|&half| tiling.tiles[half].area * (squares[half] + square(sent[half]))).sum();
+        squares[index] = (all / tile.area - square(sent[index])).max(0.0);
+    }
+    squares.into_iter().map(f64::sqrt).collect()
+}

@@ -1,0 +1,167 @@
+//! All links of a run, found by all threads.
+use super::equilibrium::Equilibrium;
+use super::link::{Candidate, Link};
+use super::measure::{between, faces, measure};
+use super::tiling::{Tile, Tiling};
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::solve::{fingerprint, state::State, workers::attempt};
+use formfactor::DifferentialArea;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// A point is in a closed room when ΣF is 1 within this.
+const CLOSED: f64 = 1e-9;
+
+/// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Enclosed {
+    Wholly,
+    Partly,
+    Nowhere,
+}
+
+impl Enclosed {
+    fn by(sums: &[f64; 5]) -> Enclosed {
+        match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
+            5 => Enclosed::Wholly,
+            0 => Enclosed::Nowhere,
+            _ => Enclosed::Partly,
+        }
+    }
+}
+
+/// The links of a run.
+#[derive(Debug)]
+pub(super) struct Links {
+    pub(super) all: Vec<Link>,
+    /// The scene's shapes.
+    shapes: u64,
+    /// Which tiles are in closed rooms.
+    enclosed: Vec<Enclosed>,
+}
+
+impl Links {
+    /// How many candidates are measured at a time.
+    pub(super) const BATCH: usize = 4096;
+
+    /// No links.
+    ///
+    /// # Errors
+    /// [`Error::Foreign`] for a state of other shapes.
+    pub(super) fn new(scene: &Scene, state: &State) -> Result<Links, Error> {
+        let shapes = fingerprint::of_shapes(scene);
+        let foreign = !state.is_empty() && !state.knows_shapes(shapes);
+        if foreign {
+            Err(Error::Foreign)
+        } else {
+            Ok(Links { all: Vec::new(), shapes, enclosed: Vec::new() })
+        }
+    }
+
+    /// Takes the links of whole patches, and finds which of these are in closed rooms.
+    pub(super) fn open(&mut self, tiling: &Tiling<'_>, links: Vec<Link>) {
+        let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
+        for link in &links {
+            for end in [0, 1] {
+                let sums = seen[link.ends[end]].iter_mut();
+                sums.zip(link.transfer.seen[end]).for_each(|(sum, factor)| *sum += factor);
+            }
+        }
+        self.enclosed = seen.iter().map(Enclosed::by).collect();
+        self.all = links;
+    }
+
+    /// Finds which of the tiles since the last time are in closed rooms: those of which a part is are looked at again when they are cut.
+    pub(super) fn enclose(&mut self, tiling: &Tiling<'_>) {
+        let known = self.enclosed.len();
+        let find = |tile: &Tile| match tile.parent.and_then(|parent| self.enclosed.get(parent)) {
+            Some(Enclosed::Partly) => Enclosed::by(&tile.points.each_ref().map(|point| sum(tiling, point))),
+            Some(&enclosed) => enclosed,
+            None => Enclosed::Nowhere,
+        };
+        let found: Vec<Enclosed> = tiling.tiles[known..].par_iter().map(find).collect();
+        self.enclosed.extend(found);
+    }
+
+    /// The links of some candidates, in their order; what was measured is kept in the state.
+    pub(super) fn of(
+        &self,
+        tiling: &Tiling<'_>,
+        candidates: &[Candidate],
+        state: &mut State,
+    ) -> Result<Vec<Link>, Error> {
+        let known: &State = state;
+        let found: Vec<Result<Option<Link>, Error>> =
+            candidates.par_iter().map(|candidate| self.link(tiling, candidate, known)).collect();
+        let mut links = Vec::new();
+        let mut fault = None;
+        for result in found {
+            match result {
+                Ok(link) => links.extend(link),
+                Err(error) => fault = fault.or(Some(error)),
+            }
+        }
+        for link in &links {
+            state.keep_transfer(self.shapes, tiling.names(link.ends), &link.transfer);
+        }
+        fault.map_or(Ok(links), Err)
+    }
+
+    /// The link of a candidate; nothing where no light can pass.
+    fn link(&self, tiling: &Tiling<'_>, candidate: &Candidate, known: &State) -> Result<Option<Link>, Error> {
+        let tiles = candidate.ends.map(|end| &tiling.tiles[end]);
+        if !faces(tiling, tiles) {
+            return Ok(None);
+        }
+        let among: Arc<[u32]> = between(tiling, tiles, &candidate.among).into();
+        let transfer = match known.transfer(self.shapes, tiling.names(candidate.ends)) {
+            Some(transfer) => transfer,
+            None => Arc::new(attempt(&tiling.scene.patches[tiles[0].patch].name, || {
+                #[cfg(test)]
+                assert_ne!(known.trap, Some(tiles[0].patch), "injected");
+                measure(tiling, tiles, &among)
+            })?),
+        };
+        Ok(Link::new(candidate, among, transfer))
+    }
+
+    /// The light of all leaves at once.
+    pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>) -> Equilibrium<'e> {
+        let is_closed = |tile| self.enclosed.get(tile) == Some(&Enclosed::Wholly);
+        let known: Vec<Option<f64>> =
+            (0..tiling.tiles.len()).map(|tile| is_closed(tile).then_some(1.0)).collect();
+        Equilibrium::new(tiling, &self.all, &known)
+    }
+
+    /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.
+    pub(super) fn refuse_endless(&self, tiling: &Tiling<'_>) -> Result<(), Error> {
+        let equilibrium = self.equilibrium(tiling);
+        let patches = &tiling.scene.patches;
+        let rooms = equilibrium.patches_of_rooms();
+        for room in rooms {
+            let is_closed = |tile: usize| {
+                self.enclosed[tile] == Enclosed::Wholly || !room.contains(&tiling.tiles[tile].patch)
+            };
+            let closed = (0..tiling.tiles.len()).all(is_closed);
+            let live = |band: usize| room.iter().any(|&patch| patches[patch].emission[band] > 0.0);
+            let endless = |patch: &usize| {
+                (0..tiling.scene.bands).any(|band| live(band) && patches[*patch].reflectance[band] >= 1.0)
+            };
+            if let Some(&patch) = room.iter().find(|patch| endless(patch)).filter(|_| closed) {
+                return Err(Error::Endless {
+                    room: patches[room[0]].name.clone(),
+                    patches: room.len(),
+                    patch: patches[patch].name.clone(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// ΣF of a point.
+fn sum(tiling: &Tiling<'_>, point: &DifferentialArea) -> f64 {
+    let surfaces = 0..tiling.enclosure.polygons().len();
+    surfaces.map(|surface| tiling.enclosure.form_factor(point, surface).value).sum()
+}

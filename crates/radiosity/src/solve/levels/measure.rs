@@ -1,0 +1,98 @@
+//! Measuring what two tiles exchange.
+use super::shaft::Shaft;
+use super::tile::{INNER, OUTER};
+use super::tiling::{Tile, Tiling};
+use super::transfer::Transfer;
+use formfactor::{DifferentialArea, unoccluded};
+use glam::DVec3;
+
+/// How many curvatures a mean over five points may be off by.
+const CUBATURE: f64 = 0.3;
+
+/// What reaches less than this share of the scene's size into a shaft hides nothing that counts.
+const SLIGHT: f64 = 1e-9;
+/// What rises less than this share of the scene's size above a plane is in it.
+const NEAR: f64 = 1e-12;
+
+/// What one end sees of the other.
+struct View {
+    exchange: [f64; 9],
+    bend: [f64; 2],
+    seen: [f64; 5],
+}
+
+/// Those of the surfaces that can stand between two tiles.
+pub(super) fn between(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u32]) -> Vec<u32> {
+    let shaft = Shaft::between([one, other], SLIGHT * tiling.size);
+    let polygons = tiling.enclosure.polygons();
+    let stands = |id: &&u32| {
+        let id = **id as usize;
+        id != one.surface && id != other.surface && !shaft.misses(&polygons[id], &tiling.extents[id])
+    };
+    among.iter().filter(stands).copied().collect()
+}
+
+/// Whether two tiles may see each other as far as their planes say.
+pub(super) fn faces(tiling: &Tiling<'_>, [one, other]: [&Tile; 2]) -> bool {
+    let before = |tile: &Tile, of: &Tile| {
+        let height = of.normal.dot(of.points[0].position());
+        tile.outline.corners.iter().any(|(_, place)| of.normal.dot(*place) > height + NEAR * tiling.size)
+    };
+    one.surface != other.surface && before(one, other) && before(other, one)
+}
+
+/// Measures what two tiles exchange past the surfaces `among`.
+pub(super) fn measure(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u32]) -> Transfer {
+    let among: Vec<usize> = among.iter().map(|id| *id as usize).collect();
+    let [first, second] = [[one, other], [other, one]].map(|ends| View::of(tiling, ends, &among));
+    let [at_first, at_second] = [&first, &second].map(|view| view.bend[0] + view.bend[1]);
+    let is_dark = [&first, &second].map(|view| view.seen.iter().all(|factor| *factor == 0.0));
+    let from_second = !is_dark[1] && (is_dark[0] || at_second < at_first);
+    let (exchange, bend) =
+        if from_second { (transposed(second.exchange), at_second) } else { (first.exchange, at_first) };
+    let gap = (first.exchange[0] - second.exchange[0]).abs();
+    let may_be_seen = is_dark == [true; 2] && !among.is_empty();
+    Transfer {
+        exchange: if exchange[0] > 0.0 { exchange } else { [0.0; 9] },
+        bend: [first.bend, second.bend],
+        gap,
+        error: gap.min(CUBATURE * bend),
+        from_second,
+        open: if may_be_seen { one.area * unoccluded(&one.points[0], &other.polygon).value } else { 0.0 },
+        seen: [first.seen, second.seen],
+    }
+}
+
+impl View {
+    /// What the points of one tile see of another.
+    fn of(tiling: &Tiling<'_>, [from, to]: [&Tile; 2], among: &[usize]) -> View {
+        let seen = from.points.each_ref().map(|point| look(tiling, point, to, among));
+        let mut exchange = [0.0; 9];
+        for to in 0..3 {
+            let [middle, ahead, back, left, right] = seen.map(|row| row[to]);
+            exchange[to] = from.area * (INNER * middle + OUTER * (ahead + back + left + right));
+            exchange[3 + to] = from.area * OUTER * (ahead - back);
+            exchange[6 + to] = from.area * OUTER * (left - right);
+        }
+        let factors = seen.map(|row| row[0]);
+        let bend =
+            [[1, 2], [3, 4]].map(|[a, b]| from.area * ((factors[a] + factors[b]) / 2.0 - factors[0]).abs());
+        View { exchange, bend, seen: factors }
+    }
+}
+
+/// What a point sees of a tile: the integrals over it of the kernel times each function.
+fn look(tiling: &Tiling<'_>, point: &DifferentialArea, to: &Tile, among: &[usize]) -> [f64; 3] {
+    let rises = |place: &DVec3| point.normal().dot(*place - point.position()) > NEAR * tiling.size;
+    if !to.outline.corners.iter().any(|(_, place)| rises(place)) {
+        return [0.0; 3];
+    }
+    let (factor, centroid) = tiling.enclosure.form_factor_and_centroid(point, to.surface, &to.polygon, among);
+    // Where hardly anything is seen the centroid is not known.
+    let linear = to.outline.linear(tiling.flatten(to.patch, centroid)).map(|value| value.clamp(-2.0, 2.0));
+    [factor.value, factor.value * linear[0], factor.value * linear[1]]
+}
+
+fn transposed(g: [f64; 9]) -> [f64; 9] {
+    [g[0], g[3], g[6], g[1], g[4], g[7], g[2], g[5], g[8]]
+}

@@ -1,0 +1,36 @@
+//! Solving by levels: light goes between tiles of any size, large ones where that is right enough.
+//!
+//! ```text
+//! output        the light of the leaves on a mesh
+//! rounds        rounds: link, solve, refine where the budget of a patch is exceeded
+//! links         all links of a run, by all threads, and what the state knows of them
+//! estimate      what every patch may be off by
+//! budget        the errors of links, and which are too large
+//! gradients     the light of all leaves at once, by conjugate gradients
+//! equilibrium   what all leaves exchange, made to close
+//! flow          light up the tree, across the links, and down
+//! link          pairs of tiles
+//! measure       what two tiles exchange, by exact form factors of points
+//! transfer      the numbers of that
+//! shaft         what can stand between two tiles
+//! tiling        the tree
+//! tile          a convex polygon, its linear functions and its points
+//! ```
+//!
+//! Light is linear on every tile, and not continuous. A link is a matrix of 3 × 3 numbers that serves both directions, found by exact form
+//! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
+//! visibility).
+mod budget;
+mod equilibrium;
+mod estimate;
+mod flow;
+mod gradients;
+mod link;
+mod links;
+mod measure;
+mod output;
+pub(super) mod rounds;
+mod shaft;
+mod tile;
+mod tiling;
+pub(super) mod transfer;

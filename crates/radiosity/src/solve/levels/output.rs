@@ -1,0 +1,147 @@
+//! The light of the leaves on a mesh.
+use super::equilibrium::{Equilibrium, largest};
+use super::flow::Linear;
+use super::tile::SQUARE;
+use super::tiling::{Tile, Tiling};
+use crate::mesh::cover::Cover;
+use crate::solve::ledger::Ledger;
+use crate::solve::{interpolate::welds, solution::Solution};
+
+/// What the leaves receive, and what is known of it.
+#[derive(Debug)]
+pub(super) struct LeafLight {
+    /// What each leaf receives, band by band.
+    pub(super) received: Vec<Vec<Linear>>,
+    pub(super) bound: Vec<f64>,
+    pub(super) ledger: Ledger,
+    /// Σ|A ΔB| per band.
+    unshot: Vec<f64>,
+    /// How bright what is reflected is, per band.
+    brightness: Vec<f64>,
+}
+
+impl LeafLight {
+    /// The light when the tiles send so much.
+    pub(super) fn of(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, sent: &[Vec<Linear>]) -> LeafLight {
+        let none = || Vec::with_capacity(sent.len());
+        let ledger =
+            Ledger { emitted: none(), absorbed: none(), escaped: none(), unshot: none(), defect: none() };
+        let mut light =
+            LeafLight { received: Vec::new(), bound: none(), ledger, unshot: none(), brightness: none() };
+        for (band, sent) in sent.iter().enumerate() {
+            light.add(tiling, equilibrium, &equilibrium.of_leaves(sent), band);
+        }
+        light
+    }
+
+    /// Adds a band: with what the leaves send, b, and receive, H, what is unshot is e + ρH − b.
+    fn add(&mut self, tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, sent: &[Linear], band: usize) {
+        let received = equilibrium.receive(sent);
+        let reflectance = equilibrium.reflectance(band);
+        let [mut emitted, mut absorbed, mut escaped, mut unshot, mut open, mut reflected, mut squares] =
+            [0.0; 7];
+        let mut residual = Vec::with_capacity(sent.len());
+        for (leaf, &tile) in equilibrium.leaves().iter().enumerate() {
+            let (area, rho) = (tiling.tiles[tile].area, reflectance[leaf]);
+            let (b, h, sums) = (sent[leaf], received[leaf], equilibrium.sums(leaf));
+            let emittance = tiling.emittance(tile, band);
+            let rest = [emittance + rho * h[0] - b[0], rho * h[1] - b[1], rho * h[2] - b[2]];
+            emitted += area * emittance;
+            absorbed += area * (1.0 - rho) * h[0];
+            escaped += area * (b[0] * (1.0 - sums[0]) - SQUARE * (b[1] * sums[1] + b[2] * sums[2]));
+            unshot += area * rest[0];
+            open += area * rest[0].abs();
+            reflected += area * rho * h[0];
+            squares += area * (rho * h[0]).powi(2);
+            residual.push(rest);
+        }
+        let ledger = &mut self.ledger;
+        ledger.emitted.push(emitted);
+        ledger.absorbed.push(absorbed);
+        ledger.escaped.push(escaped);
+        ledger.unshot.push(unshot);
+        ledger.defect.push(ledger.remainder(band));
+        let residual = largest(&residual);
+        self.bound.push(if residual == 0.0 { 0.0 } else { residual / equilibrium.gap(&reflectance) });
+        self.unshot.push(open);
+        self.brightness.push(if reflected > 0.0 { squares / reflected } else { 0.0 });
+        self.received.push(received);
+    }
+
+    /// Unshot over emitted power in the worst band.
+    pub(super) fn unshot(&self) -> f64 {
+        let shares = self.unshot.iter().zip(&self.ledger.emitted).filter(|(_, emitted)| **emitted > 0.0);
+        shares.map(|(unshot, emitted)| unshot / emitted).fold(0.0, f64::max)
+    }
+
+    /// Whether the bound of every band is within a share of the brightness; where there is none, what is unshot.
+    pub(super) fn is_within(&self, tolerance: f64) -> bool {
+        let within =
+            |(bound, brightness): (&f64, &f64)| !bound.is_finite() || *bound <= tolerance * brightness;
+        self.unshot() <= tolerance && self.bound.iter().zip(&self.brightness).all(within)
+    }
+}
+
+/// The mesh of the leaves, and the leaf that each element is a part of.
+fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Cover {
+    let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
+    for (leaf, &index) in equilibrium.leaves().iter().enumerate() {
+        let tile = &tiling.tiles[index];
+        of_patch[tile.patch].push((leaf, tile.outline.corners.as_slice()));
+    }
+    let mut cover = Cover::default();
+    for (patch, tiles) in of_patch.iter().enumerate() {
+        cover.add(patch, tiles, tiling.contacts(patch));
+    }
+    cover
+}
+
+/// Light that is negative nowhere, with the same mean: less steep where that is needed.
+fn positive(tile: &Tile, [mean, first, second]: Linear) -> Linear {
+    let dip = |corner: &(glam::DVec2, glam::DVec3)| {
+        let [a, b] = tile.outline.linear(corner.0);
+        -(a * first + b * second)
+    };
+    let dip = tile.outline.corners.iter().map(dip).fold(0.0, f64::max);
+    let share = if dip > mean { mean.max(0.0) / dip } else { 1.0 };
+    [mean.max(0.0), share * first, share * second]
+}
+
+/// The solution on a mesh, as far as it is known here.
+pub(super) fn solution(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
+    let Cover { mesh, owners } = cover(tiling, equilibrium);
+    let bands = light.received.len();
+    let [mut irradiance, mut radiosity, mut reflectance] =
+        [(); 3].map(|()| Vec::with_capacity(owners.len() * bands));
+    for (element, &leaf) in owners.iter().enumerate() {
+        let index = equilibrium.leaves()[leaf];
+        let tile = &tiling.tiles[index];
+        let [a, b] = tile.outline.linear(tiling.flatten(tile.patch, mesh.centroid(element)));
+        for (band, received) in light.received.iter().enumerate() {
+            let [mean, first, second] = positive(tile, received[leaf]);
+            let here = mean + a * first + b * second;
+            irradiance.push(here);
+            reflectance.push(tile.reflectance[band]);
+            radiosity.push(tiling.emittance(index, band) + tile.reflectance[band] * here);
+        }
+    }
+    Solution {
+        bands,
+        welds: welds(tiling.scene, &mesh),
+        mesh,
+        radiosity,
+        irradiance,
+        reflectance,
+        ledger: light.ledger.clone(),
+        bound: light.bound.clone(),
+        estimate: None,
+        direct: None,
+        closure: None,
+        scaling: Some(equilibrium.scaling()),
+        shots: 0,
+        products: 0,
+        converged: false,
+        fault: None,
+        seconds: 0.0,
+    }
+}

@@ -1,0 +1,205 @@
+//! Rounds of linking, solving and refining.
+use super::budget::{BandLight, cuts};
+use super::equilibrium::largest;
+use super::estimate::estimate;
+use super::flow::Linear;
+use super::gradients::Gradients;
+use super::link::{Candidate, Link, UNSEEN};
+use super::links::Links;
+use super::output::{LeafLight, solution};
+use super::tiling::Tiling;
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::solve::{options::Options, progress::Progress, solution::Solution, state::State};
+use std::{ops::ControlFlow, time::Instant};
+
+/// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
+const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
+/// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
+const SUM: f64 = 3.0;
+/// Products in a round of refinement, and at the end.
+const FEW: usize = 8;
+const ALL: usize = 400;
+
+/// Whoever follows a run.
+pub(crate) type Follower<'w> = &'w mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
+
+/// A run by levels.
+struct Levels<'l> {
+    options: &'l Options,
+    start: Instant,
+    tiling: Tiling<'l>,
+    links: Links,
+    /// What each tile sends, band by band.
+    sent: Vec<Vec<Linear>>,
+    products: usize,
+    /// The light as of the last round.
+    light: LeafLight,
+    watch: Follower<'l>,
+    fault: Option<Error>,
+}
+
+/// Solves a scene by levels.
+pub(crate) fn solve(
+    scene: &Scene,
+    options: &Options,
+    start: Instant,
+    state: &mut State,
+    watch: Follower<'_>,
+) -> Result<Solution, Error> {
+    let tiling = Tiling::new(scene)?;
+    let links = Links::new(scene, state)?;
+    let emitted =
+        |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
+    let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
+    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling), &sent);
+    let mut levels = Levels { options, start, tiling, links, sent, products: 0, light, watch, fault: None };
+    let converged = levels.run(state)?;
+    levels.finish(converged)
+}
+
+impl Levels<'_> {
+    /// Goes on until every patch is within its budget (true), or the watcher, the time or a defect ends the run (false).
+    fn run(&mut self, state: &mut State) -> Result<bool, Error> {
+        let roots = self.tiling.tiles.len();
+        let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
+        let all = self.tiling.surfaces();
+        let candidates: Vec<Candidate> =
+            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN }).collect();
+        let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
+        self.links.open(&self.tiling, links);
+        self.links.refuse_endless(&self.tiling)?;
+        for times in COARSE {
+            loop {
+                let lights = self.settle(FEW);
+                match self.refine(&lights, times * SUM * self.options.error, state)? {
+                    None => return Ok(false),
+                    Some(false) => break,
+                    Some(true) => {}
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
+    fn measure(&mut self, candidates: &[Candidate], state: &mut State) -> Result<Option<Vec<Link>>, Error> {
+        let mut links = Vec::new();
+        for batch in candidates.chunks(Links::BATCH) {
+            if self.report(state).is_break() {
+                return Ok(None);
+            }
+            match self.links.of(&self.tiling, batch, state) {
+                Ok(found) => links.extend(found),
+                Err(defect @ Error::Defect { .. }) => {
+                    self.fault = Some(defect);
+                    return Ok(None);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(Some(links))
+    }
+
+    /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
+    fn report(&mut self, state: &State) -> ControlFlow<()> {
+        let Levels { tiling, links, sent, products, start, watch, light, .. } = self;
+        let (tiling, links, sent): (&Tiling<'_>, &Links, _) = (tiling, links, &*sent);
+        let seconds = start.elapsed().as_secs_f64();
+        let so_far = || {
+            let equilibrium = links.equilibrium(tiling);
+            let light = LeafLight::of(tiling, &equilibrium, sent);
+            Solution { products: *products, seconds, ..solution(tiling, &equilibrium, &light) }
+        };
+        watch(&Progress {
+            shots: 0,
+            products: *products,
+            unshot: light.unshot(),
+            bound: &light.bound,
+            ledger: &light.ledger,
+            seconds,
+            light: &so_far,
+            state,
+        })?;
+        let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
+        if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
+    fn settle(&mut self, most: usize) -> Vec<BandLight> {
+        self.links.enclose(&self.tiling);
+        let equilibrium = self.links.equilibrium(&self.tiling);
+        for (band, sent) in self.sent.iter_mut().enumerate() {
+            let emitted: Vec<Linear> = equilibrium
+                .leaves()
+                .iter()
+                .map(|&leaf| [self.tiling.emittance(leaf, band), 0.0, 0.0])
+                .collect();
+            let reflectance = equilibrium.reflectance(band);
+            let mut light = equilibrium.of_leaves(sent);
+            let enough = equilibrium.enough(&reflectance, &light, &emitted, self.options.tolerance);
+            self.products +=
+                Gradients::new(&equilibrium, &emitted, &reflectance).better(&mut light, enough, most);
+            *sent = equilibrium.spread(&light);
+        }
+        self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent);
+        let lit = (0..self.sent.len()).filter(|&band| largest(&self.sent[band]) > 0.0);
+        let light = |band: usize| {
+            let received = equilibrium.spread(&self.light.received[band]);
+            BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band)
+        };
+        lit.map(light).collect()
+    }
+
+    /// Refines the links whose errors exceed the budgets; false when there is nothing to refine, nothing when the run is to end.
+    fn refine(&mut self, lights: &[BandLight], share: f64, state: &mut State) -> Result<Option<bool>, Error> {
+        let chosen = cuts(&self.tiling, &self.links.all, lights, share);
+        let mut candidates = Vec::new();
+        let mut gone = vec![false; self.links.all.len()];
+        for cut in chosen {
+            if let Some(parts) = self.halve(cut.link, cut.end)? {
+                gone[cut.link] = true;
+                candidates.extend(parts);
+            }
+        }
+        let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
+        let mut gone = gone.into_iter();
+        self.links.all.retain(|_| !gone.next().unwrap_or(false));
+        self.links.all.extend(links);
+        Ok(Some(!candidates.is_empty()))
+    }
+
+    /// The pairs that take the place of a link: one of its ends is cut, or the other where that cannot be.
+    fn halve(&mut self, link: usize, first: usize) -> Result<Option<[Candidate; 2]>, Error> {
+        let link = &self.links.all[link];
+        for end in [first, 1 - first] {
+            let (tile, bend) = (link.ends[end], link.transfer.bend[end]);
+            let before = self.tiling.tiles.len();
+            let Some(halves) = self.tiling.halve(tile, usize::from(bend[1] > bend[0]))? else { continue };
+            if self.tiling.tiles.len() > before {
+                for sent in &mut self.sent {
+                    let whole = sent[tile];
+                    sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
+                }
+            }
+            return Ok(Some(link.parts(end, halves)));
+        }
+        Ok(None)
+    }
+
+    /// The solution, with an estimate of its error.
+    fn finish(mut self, converged: bool) -> Result<Solution, Error> {
+        let most = if converged { ALL } else { 0 };
+        let lights = self.settle(most);
+        let equilibrium = self.links.equilibrium(&self.tiling);
+        let estimate = estimate(&self.tiling, &self.links.all, &equilibrium, &lights, self.sent.len());
+        Ok(Solution {
+            estimate: Some(estimate),
+            converged: converged && self.light.is_within(self.options.tolerance),
+            products: self.products,
+            seconds: self.start.elapsed().as_secs_f64(),
+            fault: self.fault,
+            ..solution(&self.tiling, &equilibrium, &self.light)
+        })
+    }
+}

@@ -1,0 +1,256 @@
+//! The tree of tiles of a scene, which grows where light is not resolved.
+use super::tile::{Outline, SQUARE};
+use crate::error::Error;
+use crate::extent::Extent;
+use crate::mesh::{contacts::contacts, convex::convex_parts, frame::Frame};
+use crate::scene::Scene;
+use crate::solve::occluders::Occluders;
+use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
+use glam::{DVec2, DVec3};
+use std::{f64::consts::PI, sync::Arc};
+
+/// Edges of other patches are contacts within this share of the scene's size.
+const NEAR: f64 = 1e-9;
+/// Tiles of less than this share of the scene's area are not cut.
+const LEAST: f64 = 1e-8;
+/// No tile is made longer than this many times its width.
+const SLENDER: f64 = 3.0;
+
+/// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
+/// quicker where no two edges are in line.
+const WITHIN: f64 = 1e-7;
+
+/// A tile in its tree.
+#[derive(Clone, Debug)]
+pub(super) struct Tile {
+    pub(super) patch: usize,
+    /// The polygon of the enclosure that it is a part of.
+    pub(super) surface: usize,
+    pub(super) outline: Outline,
+    /// What form factors are taken to.
+    pub(super) polygon: PlanarPolygon,
+    /// In the scene's units.
+    pub(super) area: f64,
+    pub(super) points: [DifferentialArea; 5],
+    pub(super) normal: DVec3,
+    pub(super) halves: Option<[usize; 2]>,
+    pub(super) parent: Option<usize>,
+    /// The functions of the parent in those of this one: see [`Tiling::restriction`].
+    pub(super) restriction: [f64; 6],
+    /// Names the tile by how it was cut.
+    pub(super) key: u64,
+    pub(super) reflectance: Vec<f64>,
+}
+
+/// Where a patch is cut.
+#[derive(Debug)]
+struct Base {
+    frame: Frame,
+    contacts: Vec<[DVec2; 2]>,
+}
+
+/// The tiles of a scene; children come after their parents.
+#[derive(Debug)]
+pub(super) struct Tiling<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) enclosure: Enclosure,
+    /// The boxes around the polygons of the enclosure.
+    pub(super) extents: Vec<Extent>,
+    pub(super) tiles: Vec<Tile>,
+    /// The size of the scene.
+    pub(super) size: f64,
+    bases: Vec<Base>,
+    surface_of: Vec<usize>,
+    least: f64,
+}
+
+impl<'s> Tiling<'s> {
+    /// The convex parts of all patches.
+    pub(super) fn new(scene: &'s Scene) -> Result<Tiling<'s>, Error> {
+        let Occluders { polygons, of_patch } = Occluders::join(scene);
+        let [low, high] = scene.extent();
+        let size = (high - low).length();
+        let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
+        let base = |(patch, polygon): (usize, &PlanarPolygon)| {
+            let frame = Frame::new(polygon);
+            // A thousandth of this is near.
+            let lines = contacts(scene, &extents, patch, 1e3 * NEAR * size);
+            Base {
+                frame,
+                contacts: lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect(),
+            }
+        };
+        let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
+        let mut tiling = Tiling {
+            scene,
+            extents: polygons.iter().map(Extent::around).collect(),
+            enclosure: Enclosure::new(polygons),
+            tiles: Vec::new(),
+            size,
+            bases: scene.patches.iter().map(|patch| &patch.polygon).enumerate().map(base).collect(),
+            surface_of: of_patch,
+            least: LEAST * area,
+        };
+        for patch in 0..scene.patches.len() {
+            tiling.add_patch(patch)?;
+        }
+        Ok(tiling)
+    }
+
+    fn add_patch(&mut self, patch: usize) -> Result<(), Error> {
+        let (polygon, frame) = (&self.scene.patches[patch].polygon, self.bases[patch].frame);
+        let parts =
+            convex_parts(polygon, &frame).map_err(|refusal| refusal.of(&self.scene.patches[patch].name))?;
+        for (index, corners) in (0..).zip(parts) {
+            let Some(outline) = Outline::new(corners) else { continue };
+            let key = crate::solve::fingerprint::of(&[patch as u64, index].map(u64::to_le_bytes).concat());
+            let tile = self.tile(patch, outline, None, key)?;
+            self.tiles.push(tile);
+        }
+        Ok(())
+    }
+
+    fn tile(&self, patch: usize, outline: Outline, parent: Option<usize>, key: u64) -> Result<Tile, Error> {
+        let (source, frame) = (&self.scene.patches[patch], self.bases[patch].frame);
+        let refused = |error| Error::Shape { patch: source.name.clone(), source: error };
+        let places: Vec<DVec3> = outline.corners.iter().map(|corner| corner.1).collect();
+        let middle = frame.lift(outline.centroid);
+        let within = places
+            .iter()
+            .map(|place| if parent.is_some() { *place + (middle - *place) * WITHIN } else { *place });
+        let normal = source.polygon.normal();
+        let point = |at: DVec2| {
+            DifferentialArea::new(frame.lift(at), normal).map(|p| p.owned_by(self.surface_of[patch]))
+        };
+        let [a, b, c, d, e] = outline.points().map(point);
+        Ok(Tile {
+            patch,
+            surface: self.surface_of[patch],
+            reflectance: reflectance(source, &places),
+            polygon: PlanarPolygon::new([within.collect::<Vec<_>>()]).map_err(refused)?,
+            area: outline.area * frame.unit() * frame.unit(),
+            points: [
+                a.map_err(refused)?,
+                b.map_err(refused)?,
+                c.map_err(refused)?,
+                d.map_err(refused)?,
+                e.map_err(refused)?,
+            ],
+            normal,
+            halves: None,
+            parent,
+            restriction: parent.map_or([0.0; 6], |parent| restriction(&outline, &self.tiles[parent].outline)),
+            outline,
+            key,
+        })
+    }
+
+    /// A point of space in the frame of a patch.
+    pub(super) fn flatten(&self, patch: usize, place: DVec3) -> DVec2 {
+        self.bases[patch].frame.flatten(place)
+    }
+
+    /// The lines on which other patches touch a patch, in its frame.
+    pub(super) fn contacts(&self, patch: usize) -> &[[DVec2; 2]] {
+        &self.bases[patch].contacts
+    }
+
+    /// The halves of a tile: cut along a contact in it if there is one, else across one of its axes through the centroid. Nothing when it is too
+    /// small.
+    pub(super) fn halve(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
+        let parent = &self.tiles[tile];
+        if parent.halves.is_some() || parent.area < self.least {
+            return Ok(parent.halves);
+        }
+        let (patch, key) = (parent.patch, parent.key);
+        let frame = self.bases[patch].frame;
+        let cut = |line| parent.outline.cut(line, |flat| frame.lift(flat));
+        let contact = self.contact_in(tile).and_then(|[start, end]| cut([start, end - start]));
+        let Some(parts) = contact.or_else(|| cut(across(&parent.outline, axis))) else { return Ok(None) };
+        let way = parts[0].centroid - parts[1].centroid;
+        let mut halves = [0; 2];
+        for (index, part) in parts.into_iter().enumerate() {
+            let name = [key, index as u64, way.x.to_bits(), way.y.to_bits()].map(u64::to_le_bytes).concat();
+            let half = self.tile(patch, part, Some(tile), crate::solve::fingerprint::of(&name))?;
+            halves[index] = self.tiles.len();
+            self.tiles.push(half);
+        }
+        self.tiles[tile].halves = Some(halves);
+        Ok(Some(halves))
+    }
+
+    /// The contact of which most is inside a tile.
+    fn contact_in(&self, tile: usize) -> Option<[DVec2; 2]> {
+        let Tile { patch, outline, .. } = &self.tiles[tile];
+        let inside = self.bases[*patch].contacts.iter().map(|line| (outline.within(*line), line));
+        let longest = inside.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        (longest.0 > 1e-4 * outline.axes[0].length()).then_some(*longest.1)
+    }
+
+    /// All surfaces that may hide something.
+    pub(super) fn surfaces(&self) -> Arc<[u32]> {
+        (0..).take(self.enclosure.polygons().len()).collect()
+    }
+
+    /// The names of two tiles.
+    pub(super) fn names(&self, ends: [usize; 2]) -> [u64; 2] {
+        ends.map(|end| self.tiles[end].key)
+    }
+
+    /// The emitted radiosity of a tile.
+    pub(super) fn emittance(&self, tile: usize, band: usize) -> f64 {
+        PI * self.scene.patches[self.tiles[tile].patch].emission[band]
+    }
+
+    /// The tiles that are not cut.
+    pub(super) fn leaves(&self) -> impl Iterator<Item = usize> {
+        (0..self.tiles.len()).filter(|&tile| self.tiles[tile].halves.is_none())
+    }
+}
+
+/// A line through the centroid across an axis, or across the long one of what is slender.
+fn across(outline: &Outline, axis: usize) -> [DVec2; 2] {
+    let [long, short] = outline.axes;
+    let axis = if long.length() > SLENDER * short.length() { 0 } else { axis };
+    [outline.centroid, outline.axes[1 - axis]]
+}
+
+/// How the functions of a parent read on a part of it: 1 adds to 1 only; a linear function adds its value at the centroid to 1, and its
+/// climbs along both axes to the linear functions.
+fn restriction(part: &Outline, parent: &Outline) -> [f64; 6] {
+    let [a, b] = parent.linear(part.centroid);
+    let climb = |axis: DVec2| parent.axes.map(|of| axis.dot(of) / of.length_squared());
+    let [[aa, ab], [ba, bb]] = part.axes.map(climb);
+    [a, b, aa, ab, ba, bb]
+}
+
+/// The mean reflectance of a polygon.
+fn reflectance(patch: &crate::scene::patch::Patch, places: &[DVec3]) -> Vec<f64> {
+    if patch.texture.is_none() {
+        return patch.reflectance.clone();
+    }
+    let mut mean = vec![0.0; patch.reflectance.len()];
+    let fan = places.windows(2).skip(1).map(|ends| [places[0], ends[0], ends[1]]);
+    let areas: Vec<f64> = fan.clone().map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
+    let whole: f64 = areas.iter().sum();
+    for (corners, area) in fan.zip(areas) {
+        let share = patch.reflectance_over(corners);
+        mean.iter_mut().zip(share).for_each(|(mean, rho)| *mean += rho * area / whole);
+    }
+    mean
+}
+
+impl Tile {
+    /// Coefficients on the parent, on this tile.
+    pub(super) fn restrict(&self, [mean, first, second]: [f64; 3]) -> [f64; 3] {
+        let [a, b, aa, ab, ba, bb] = self.restriction;
+        [mean + a * first + b * second, aa * first + ab * second, ba * first + bb * second]
+    }
+
+    /// What coefficients on this tile add to those of the parent, times the parent's area: the projection.
+    pub(super) fn extend(&self, [mean, first, second]: [f64; 3]) -> [f64; 3] {
+        let [a, b, aa, ab, ba, bb] = self.restriction;
+        let onto = |centre: f64, one: f64, two: f64| mean * centre / SQUARE + first * one + second * two;
+        [self.area * mean, self.area * onto(a, aa, ba), self.area * onto(b, ab, bb)]
+    }
+}
