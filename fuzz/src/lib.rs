@@ -115,6 +115,7 @@ fn lit(scene: &Scene) -> Record {
         emission: patch.emission.clone(),
         irradiance: ones(1),
         radiosity: ones(1),
+        estimate: Vec::new(),
         picture: None,
         tint: [1.0; 3],
     };
