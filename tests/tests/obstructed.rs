@@ -106,10 +106,19 @@ fn named_cases_are_within_their_tolerances() {
 }
 
 /// Found wrong by seed: edges of three boxes seem to meet along a curve, where errors do not fall as those of analytic integrands; two
-/// differences between rules small by chance; a grille close to the source, where rules of few nodes say nothing.
+/// differences between rules small by chance; a grille close to the source, where rules of few nodes say nothing; a box so close that its
+/// cuts were too many, and a shadow in the corner of what was left uncut.
 #[test]
 fn seeds_that_were_wrong_are_within_their_tolerances() {
-    let cases = [(20055, 1e-8), (20055, 1e-10), (20271, 1e-8), (20271, 1e-10), (70089, 1e-6), (60251, 1e-2)];
+    let cases = [
+        (20055, 1e-8),
+        (20055, 1e-10),
+        (20271, 1e-8),
+        (20271, 1e-10),
+        (70089, 1e-6),
+        (60251, 1e-2),
+        (5_001_543, 1e-7),
+    ];
     let failures: Vec<String> = cases
         .into_iter()
         .filter_map(|(seed, tolerance)| complaint(&pair(seed), pair(seed).form_factor(), tolerance))

@@ -205,6 +205,11 @@ impl<'p> Cubature<'p> {
             if is_dark && (self.of.is_skew() || !view.is_cut) {
                 open.error = open.error.max(self.of.unseen(&cell));
             }
+            if !view.is_cut {
+                // Shadows may begin in between nodes.
+                let errors = self.of.errors_uncut(&cell, self.scale / self.size);
+                open.error = open.error.max(share * self.scale * errors[open.order]);
+            }
         }
         open.error += left_out.unwrap_or(0.0);
         self.open.push(open);
