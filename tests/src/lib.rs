@@ -8,6 +8,7 @@
 //! polygons, and [`obstructed`] that for factors from area to area: they use nothing of `formfactor`. [`light`] traces paths in rooms and uses nothing of
 //! `radiosity`.
 pub mod against;
+pub mod closed;
 pub mod company;
 pub mod corpus;
 pub mod enclosures;

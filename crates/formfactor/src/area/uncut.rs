@@ -1,7 +1,7 @@
 //! What rules err by on cells that are not cut at events, as a share of what the cell saw with nothing in between.
 //!
 //! As a point moves along a side of the cell, the shadow of an occluder moves over the target the other way: (D - d) / d times as far
-//! for a target at the distance D and an occluder at d. Where an edge of the shadow comes in or goes out all at once, along an edge of
+//! for what is at the distance D on the target and an occluder at d. Where an edge of the shadow comes in or goes out all at once, along an edge of
 //! the target, what is hidden begins to change at the rate of the shorter one's length: a ramp, of which Peano's kernel says
 //! what a rule may err by. Edges that are not parallel make weaker kinks.
 use super::estimate::{CellView, RULES, a_priori};
@@ -31,7 +31,9 @@ pub(super) fn errors(
     let [a, b, c, d] = *cell;
     let middle = (a + b + c + d) / 4.0;
     let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
-    let (way, distance) = (to.middle - middle).normalize_and_length();
+    let way = (to.middle - middle).normalize();
+    // Of a target that is near, parts may be behind what its middle is before.
+    let reach = to.edges.iter().map(|[a, _]| a.distance_squared(middle)).fold(0.0, f64::max).sqrt();
     let across = |side: DVec3| side.reject_from_normalized(way).length();
     let sides = across(b - a).max(across(c - d)) + across(d - a).max(across(c - b));
     let longest_edge = to.edges.iter().map(|[a, b]| across(*b - *a)).fold(0.0, f64::max);
@@ -43,8 +45,8 @@ pub(super) fn errors(
     }
     for occluder in occluders {
         let near = away_from(occluder, cell);
-        let shadow = 2.0 * occluder.radius * distance / occluder.middle.distance(middle);
-        let slope = sides / apparent * longest_edge.min(shadow) * (distance - near).max(0.0) / near;
+        let shadow = 2.0 * occluder.radius * reach / occluder.middle.distance(middle);
+        let slope = sides / apparent * longest_edge.min(shadow) * (reach - near).max(0.0) / near;
         let most = (occluder.breadth / (PI * near * near * mean)).min(1.0);
         let seen = view(2.0 * near / longest);
         for (order, error) in errors.iter_mut().enumerate() {
