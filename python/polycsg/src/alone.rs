@@ -2,7 +2,7 @@
 use crate::error::of_feature;
 use crate::ragged::{Arrays, Built, Ragged, Returned, rule};
 use crate::run::run;
-use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use polycsg::{Csg, DVec2, Limits, Location, Region, Scratch};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -21,7 +21,7 @@ pub(crate) fn united<'py>(py: Python<'py>, features: Arrays<'py>, fill: &str) ->
     let (features, rule) = (Ragged::of(&features)?, rule(fill)?);
     let region = run(py, features.vertices(), |stop| {
         let operands: PyResult<Vec<Csg>> = (0..features.len()).map(|i| features.operand(i, rule)).collect();
-        evaluated(&Csg::union(operands?), 0, &mut Scratch::default(), stop)
+        evaluate(&Csg::union(operands?), 0, &mut Scratch::default(), stop)
     })?;
     Built::of([&region]).into_python(py)
 }
@@ -36,28 +36,11 @@ pub(crate) fn areas<'py>(
     let (features, rule) = (Ragged::of(&features)?, rule(fill)?);
     let areas: Vec<f64> = run(py, features.vertices(), |stop| {
         let area = |scratch: &mut Scratch, i: usize| {
-            Ok(evaluated(&features.operand(i, rule)?, i, scratch, stop)?.area())
+            Ok(evaluate(&features.operand(i, rule)?, i, scratch, stop)?.area())
         };
         (0..features.len()).into_par_iter().map_init(Scratch::default, area).collect()
     })?;
     Ok(PyArray1::from_vec(py, areas))
-}
-
-/// Where each point lies in the one feature: 1 inside, 0 on the boundary, -1 outside.
-#[pyfunction]
-pub(crate) fn locate<'py>(
-    py: Python<'py>,
-    features: Arrays<'py>,
-    points: PyReadonlyArray2<'py, f64>,
-    fill: &str,
-) -> PyResult<Bound<'py, PyArray1<i8>>> {
-    let regions = regions(py, Ragged::of(&features)?, fill)?;
-    let points = points.as_slice()?.as_chunks::<2>().0;
-    let found = run(py, points.len(), |_| {
-        let region = polycsg::PreparedRegion::from(regions.into_iter().next().unwrap_or_default());
-        Ok(points.par_iter().map(|p| place(region.locate(DVec2::from(*p)))).collect::<Vec<i8>>())
-    })?;
-    Ok(PyArray1::from_vec(py, found))
 }
 
 pub(crate) fn place(location: Location) -> i8 {
@@ -90,12 +73,12 @@ pub(crate) fn regions(py: Python<'_>, features: Ragged<'_>, fill: &str) -> PyRes
     let rule = rule(fill)?;
     run(py, features.vertices(), |stop| {
         let region =
-            |scratch: &mut Scratch, i: usize| evaluated(&features.operand(i, rule)?, i, scratch, stop);
+            |scratch: &mut Scratch, i: usize| evaluate(&features.operand(i, rule)?, i, scratch, stop);
         (0..features.len()).into_par_iter().map_init(Scratch::default, region).collect()
     })
 }
 
-fn evaluated(
+pub(crate) fn evaluate(
     expression: &Csg<'_>,
     feature: usize,
     scratch: &mut Scratch,

@@ -13,11 +13,11 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _polycsg {
     #[pymodule_export]
-    use crate::alone::{areas, locate, repaired, triangles, united};
+    use crate::alone::{areas, repaired, triangles, united};
     #[pymodule_export]
     use crate::error::GeometryError;
     #[pymodule_export]
-    use crate::overlay::overlay;
+    use crate::overlay::{evaluated, overlay};
     #[pymodule_export]
     use crate::prepared::Prepared;
 }

@@ -1,12 +1,12 @@
 //! Booleans of two arrays of features, one by one.
-use crate::error::of_feature;
+use crate::alone::evaluate;
 use crate::ragged::{Arrays, Built, Ragged, Returned, rule};
 use crate::run::run;
-use polycsg::{Csg, FillRule, Limits, PreparedRegion, Region, Scratch};
+use polycsg::{Csg, FillRule, PreparedRegion, Region, Scratch};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 #[derive(Clone, Copy)]
 enum Operation {
@@ -19,10 +19,10 @@ enum Operation {
 impl Operation {
     fn of(name: &str) -> PyResult<Self> {
         match name {
-            "union" => Ok(Self::Union),
-            "intersection" => Ok(Self::Intersection),
-            "difference" => Ok(Self::Difference),
-            "symmetric_difference" => Ok(Self::SymmetricDifference),
+            "union" | "|" => Ok(Self::Union),
+            "intersection" | "&" => Ok(Self::Intersection),
+            "difference" | "-" => Ok(Self::Difference),
+            "symmetric_difference" | "^" => Ok(Self::SymmetricDifference),
             _ => Err(PyValueError::new_err(format!("no operation has the name {name:?}"))),
         }
     }
@@ -59,6 +59,41 @@ pub(crate) fn overlay<'py>(
     built.into_python(py)
 }
 
+/// An expression of features in postfix form: an empty word takes the next operand, an operator the last two results.
+#[pyfunction]
+pub(crate) fn evaluated<'py>(
+    py: Python<'py>,
+    operands: Vec<Arrays<'py>>,
+    program: Vec<String>,
+    fill: &str,
+) -> PyResult<Returned<'py>> {
+    let rule = rule(fill)?;
+    let operands: PyResult<Vec<Ragged>> = operands.iter().map(Ragged::of).collect();
+    let operands = operands?;
+    let vertices = operands.iter().map(|operand| operand.vertices()).sum();
+    let region = run(py, vertices, |stop| {
+        let leaves: PyResult<Vec<Csg>> = operands.iter().map(|operand| operand.operand(0, rule)).collect();
+        evaluate(&expression(leaves?, &program)?, 0, &mut Scratch::default(), stop)
+    })?;
+    Built::of([&region]).into_python(py)
+}
+
+fn expression<'a>(leaves: Vec<Csg<'a>>, program: &[String]) -> PyResult<Csg<'a>> {
+    let mut leaves = leaves.into_iter();
+    let mut found: Vec<Csg> = Vec::new();
+    for word in program {
+        let next = if word.is_empty() {
+            leaves.next()
+        } else {
+            let operation = Operation::of(word)?;
+            let (other, one) = (found.pop(), found.pop());
+            one.zip(other).map(|(one, other)| operation.apply(one, other))
+        };
+        found.push(next.ok_or_else(|| PyValueError::new_err("an operator lacks an operand"))?);
+    }
+    found.pop().ok_or_else(|| PyValueError::new_err("there is no expression"))
+}
+
 fn count([one, other]: [usize; 2]) -> PyResult<usize> {
     match (one, other) {
         (one, other) if one == other => Ok(one),
@@ -74,10 +109,7 @@ fn combined(
     scratch: &mut Scratch,
     stop: &AtomicBool,
 ) -> PyResult<Region> {
-    let expression = operation.apply(one.operand(feature)?, other.operand(feature)?);
-    let is_stopped = || stop.load(Ordering::Relaxed);
-    let found = expression.try_evaluate_with(scratch, Limits::default().stop(&is_stopped));
-    found.map_err(|error| of_feature(feature, error))
+    evaluate(&operation.apply(one.operand(feature)?, other.operand(feature)?), feature, scratch, stop)
 }
 
 /// The operands of one side.

@@ -1,0 +1,60 @@
+"""Booleans of polygons that never break: every topological decision is exact, every result is valid.
+
+Coordinates are plain doubles, in any unit. Results are *regularised*: the closure of an interior, so that inputs which only touch
+have nothing in common, and no stray lines or points come out. Input vertices that survive come back bit for bit.
+
+Every function takes one geometry or an array of them, in any of these forms:
+
+- a :class:`Region` or :class:`Regions` of this package;
+- shapely geometries, alone, in lists and numpy arrays, and GeoSeries (polygons and multipolygons);
+- anything with ``__geo_interface__``;
+- a numpy array (n, 2): one ring;
+- the pair ``(coordinates, offsets)`` of :func:`shapely.to_ragged_array`, read without a copy.
+
+Single geometries give a :class:`Region`, arrays give :class:`Regions`.
+
+>>> import polycsg
+>>> square = {"type": "Polygon", "coordinates": [[(0, 0), (2, 0), (2, 2), (0, 2), (0, 0)]]}
+>>> moved = {"type": "Polygon", "coordinates": [[(1, 1), (3, 1), (3, 3), (1, 3), (1, 1)]]}
+>>> polycsg.intersection(square, moved)
+<polycsg.Region of 1 polygon, 4 vertices>
+>>> polycsg.union(square, moved).area
+7.0
+"""
+
+from ._expression import Csg
+from ._functions import (
+    area,
+    difference,
+    evaluate,
+    intersection,
+    locate,
+    make_valid,
+    prepare,
+    symmetric_difference,
+    triangulate,
+    unary_union,
+    union,
+)
+from ._polycsg import GeometryError
+from ._prepared import PreparedRegion
+from ._regions import Region, Regions
+
+__all__ = [
+    "Csg",
+    "GeometryError",
+    "PreparedRegion",
+    "Region",
+    "Regions",
+    "area",
+    "difference",
+    "evaluate",
+    "intersection",
+    "locate",
+    "make_valid",
+    "prepare",
+    "symmetric_difference",
+    "triangulate",
+    "unary_union",
+    "union",
+]
