@@ -11,6 +11,7 @@
 //! flow          light up the tree, across the links, and down
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
+//! nearby        the mean over tiles that touch
 //! transfer      the numbers of that
 //! shaft         what can stand between two tiles
 //! tiling        the tree
@@ -28,6 +29,7 @@ mod gradients;
 mod link;
 mod links;
 mod measure;
+mod nearby;
 mod output;
 pub(super) mod rounds;
 mod shaft;
