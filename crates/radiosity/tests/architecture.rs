@@ -27,7 +27,7 @@ const ORDER: [&str; 155] = [
     "table", "record",
     "picture", "picture/raster", "picture/painting", "picture/png", "picture/framing",
     "expose",
-    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/output", "solve/levels/links", "solve/levels/measure",
+    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/output", "solve/levels/links", "solve/levels/totals", "solve/levels/measure", "solve/levels/nearby",
     "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/refine", "solve/drive", "solve/direct", "solve/relax", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",

@@ -210,7 +210,7 @@ pub(super) fn largest(light: &[Linear]) -> f64 {
 fn rooms(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let patches = tiling.scene.patches.len();
     let mut groups = UnionFind::new(patches);
-    for link in links.iter().filter(|link| link.transfer.exchange[0] > 0.0) {
+    for link in links.iter().filter(|link| link.exchange[0] > 0.0) {
         let [one, other] = link.ends.map(|end| tiling.tiles[end].patch);
         groups.join(one, other);
     }

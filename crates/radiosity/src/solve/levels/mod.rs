@@ -4,6 +4,7 @@
 //! output        the light of the leaves on a mesh
 //! rounds        rounds: link, solve, refine where the budget of a patch is exceeded
 //! links         all links of a run, by all threads, and what the state knows of them
+//! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
@@ -35,4 +36,5 @@ pub(super) mod rounds;
 mod shaft;
 mod tile;
 mod tiling;
+mod totals;
 pub(super) mod transfer;

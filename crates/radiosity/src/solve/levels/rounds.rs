@@ -65,9 +65,9 @@ impl Levels<'_> {
         let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
         let all = self.tiling.surfaces();
         let candidates: Vec<Candidate> =
-            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN }).collect();
+            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0 }).collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
-        self.links.open(&self.tiling, links);
+        self.links.open(&self.tiling, links, self.options.error);
         self.links.refuse_endless(&self.tiling)?;
         for times in COARSE {
             loop {
@@ -163,9 +163,7 @@ impl Levels<'_> {
             }
         }
         let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
-        let mut gone = gone.into_iter();
-        self.links.all.retain(|_| !gone.next().unwrap_or(false));
-        self.links.all.extend(links);
+        self.links.replace(&gone, links);
         Ok(Some(!candidates.is_empty()))
     }
 
