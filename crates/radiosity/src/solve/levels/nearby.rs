@@ -13,6 +13,8 @@ use formfactor::{Enclosure, Limits, unoccluded};
 const EVEN: f64 = 0.02;
 /// Contour integrals are as exact as this, as a share of what is seen.
 const EXACT: f64 = 1e-4;
+/// Where the contours do not do, as where one tile reaches behind the other, points may: so many.
+const MOST_POINTS: u64 = 256;
 /// Exact means differ from those of five points by no more than such a factor, but where the points are wide of all that counts.
 const MOST: f64 = 4.0;
 
@@ -30,6 +32,7 @@ pub(super) fn correction([from, to]: [&Tile; 2], exchange: f64, bend: f64) -> Op
 /// The form factor with nothing in between.
 fn whole([from, to]: [&Tile; 2], tolerance: f64) -> Option<f64> {
     let pair = Enclosure::new(vec![from.polygon.clone(), to.polygon.clone()]);
-    let found = pair.area_form_factor(0, 1, tolerance, &Limits::default()).ok()??;
-    Some(found.value)
+    let limits = Limits { per_pair: MOST_POINTS, ..Limits::default() };
+    let found = pair.area_form_factor(0, 1, tolerance, &limits).ok()??;
+    (found.error_estimate <= tolerance).then_some(found.value)
 }
