@@ -139,17 +139,17 @@ impl Links {
         Ok(Link::new(candidate, among, transfer))
     }
 
-    /// The light of all leaves at once.
-    pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>) -> Equilibrium<'e> {
+    /// The light of all leaves at once; rooms are made to close better at last.
+    pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>, is_last: bool) -> Equilibrium<'e> {
         let is_closed = |tile| self.enclosed.get(tile) == Some(&Enclosed::Wholly);
         let known: Vec<Option<f64>> =
             (0..tiling.tiles.len()).map(|tile| is_closed(tile).then_some(1.0)).collect();
-        Equilibrium::new(tiling, &self.all, &known)
+        Equilibrium::new(tiling, &self.all, &known, is_last)
     }
 
     /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.
     pub(super) fn refuse_endless(&self, tiling: &Tiling<'_>) -> Result<(), Error> {
-        let equilibrium = self.equilibrium(tiling);
+        let equilibrium = self.equilibrium(tiling, false);
         let patches = &tiling.scene.patches;
         let rooms = equilibrium.patches_of_rooms();
         for room in rooms {
