@@ -62,6 +62,19 @@ fn text_of(path: &Path) -> String {
 }
 
 #[test]
+fn options_that_the_method_would_ignore_are_refused() {
+    let solve = ["solve", "scenes/cornell-box.dae", "--json"];
+    for unused in [["--elements", "300"], ["--shadows", "2"], ["--hemicube", "64"], ["--spread", "0.1"]] {
+        let output = radiosity(&[&solve[..], &["--method", "hierarchical"], &unused].concat());
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).contains(unused[0]), "{}", stderr(&output));
+    }
+    let output = radiosity(&[&solve[..], &["--error", "1%"]].concat());
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("--method hierarchical"), "{}", stderr(&output));
+}
+
+#[test]
 fn solve_prints_the_figures_and_writes_every_kind_of_file() {
     let folder = Folder::new();
     let files: Vec<String> = ["a.png", "a.dae", "a.glb", "a.json", "a.csv", "a.elements.csv", "a.html"]

@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{Output, print};
 use interrupt::{Follower, resume};
-use options::{Solve, options};
+use options::{Solve, check, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
 use std::process::ExitCode;
@@ -29,6 +29,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("there is no output; give -o FILE or --json"));
     }
+    check(arguments)?;
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
     warn_of_darkness(&scene);

@@ -1,4 +1,5 @@
 //! The options of `radiosity solve`, and those of the solver that they lead to.
+use crate::failure::Failure;
 use crate::parse::{count, positive, share};
 use crate::view_options::ViewOptions;
 use clap::{Args, ValueEnum};
@@ -108,6 +109,27 @@ pub(super) enum Method {
     Gmres,
     /// By levels: light goes between parts of patches as large as `--error` allows, and each patch gets an estimate of its error
     Hierarchical,
+}
+
+/// Refuses options that the method would have to ignore.
+pub(super) fn check(arguments: &Solve) -> Result<(), Failure> {
+    let is_by_levels = matches!(arguments.method, Method::Hierarchical);
+    let others = [
+        ("--elements", arguments.elements.is_some()),
+        ("--passes", arguments.passes.is_some()),
+        ("--shadows", arguments.shadows.is_some()),
+        ("--spread", arguments.spread.is_some()),
+        ("--hemicube", arguments.hemicube.is_some()),
+    ];
+    match others.iter().find(|(_, is_given)| *is_given && is_by_levels) {
+        Some((name, _)) => Err(Failure::usage(format!(
+            "{name} has no meaning with --method hierarchical, which cuts patches by --error"
+        ))),
+        None if arguments.error.is_some() && !is_by_levels => {
+            Err(Failure::usage("--error needs --method hierarchical: the other methods do not know theirs"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The options of the solver.

@@ -52,7 +52,7 @@ pub(crate) fn solve(
     let emitted =
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
-    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling), &sent);
+    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent);
     let mut levels = Levels { options, start, tiling, links, sent, products: 0, light, watch, fault: None };
     let converged = levels.run(state)?;
     levels.finish(converged)
@@ -65,13 +65,13 @@ impl Levels<'_> {
         let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
         let all = self.tiling.surfaces();
         let candidates: Vec<Candidate> =
-            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN }).collect();
+            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0 }).collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
-        self.links.open(&self.tiling, links);
+        self.links.open(&self.tiling, links, self.options.error);
         self.links.refuse_endless(&self.tiling)?;
         for times in COARSE {
             loop {
-                let lights = self.settle(FEW);
+                let lights = self.settle(FEW, false);
                 match self.refine(&lights, times * SUM * self.options.error, state)? {
                     None => return Ok(false),
                     Some(false) => break,
@@ -107,7 +107,7 @@ impl Levels<'_> {
         let (tiling, links, sent): (&Tiling<'_>, &Links, _) = (tiling, links, &*sent);
         let seconds = start.elapsed().as_secs_f64();
         let so_far = || {
-            let equilibrium = links.equilibrium(tiling);
+            let equilibrium = links.equilibrium(tiling, true);
             let light = LeafLight::of(tiling, &equilibrium, sent);
             Solution { products: *products, seconds, ..solution(tiling, &equilibrium, &light) }
         };
@@ -126,9 +126,9 @@ impl Levels<'_> {
     }
 
     /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
-    fn settle(&mut self, most: usize) -> Vec<BandLight> {
+    fn settle(&mut self, most: usize, is_last: bool) -> Vec<BandLight> {
         self.links.enclose(&self.tiling);
-        let equilibrium = self.links.equilibrium(&self.tiling);
+        let equilibrium = self.links.equilibrium(&self.tiling, is_last);
         for (band, sent) in self.sent.iter_mut().enumerate() {
             let emitted: Vec<Linear> = equilibrium
                 .leaves()
@@ -163,9 +163,7 @@ impl Levels<'_> {
             }
         }
         let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
-        let mut gone = gone.into_iter();
-        self.links.all.retain(|_| !gone.next().unwrap_or(false));
-        self.links.all.extend(links);
+        self.links.replace(&gone, links);
         Ok(Some(!candidates.is_empty()))
     }
 
@@ -190,8 +188,8 @@ impl Levels<'_> {
     /// The solution, with an estimate of its error.
     fn finish(mut self, converged: bool) -> Result<Solution, Error> {
         let most = if converged { ALL } else { 0 };
-        let lights = self.settle(most);
-        let equilibrium = self.links.equilibrium(&self.tiling);
+        let lights = self.settle(most, true);
+        let equilibrium = self.links.equilibrium(&self.tiling, true);
         let estimate = estimate(&self.tiling, &self.links.all, &equilibrium, &lights, self.sent.len());
         Ok(Solution {
             estimate: Some(estimate),
