@@ -59,6 +59,11 @@ impl Links {
         }
     }
 
+    /// The tiles that are linked.
+    pub(super) fn ends(&self) -> Vec<[usize; 2]> {
+        self.all.iter().map(|link| link.ends).collect()
+    }
+
     /// Takes the links of whole patches, and finds which of these are in closed rooms.
     pub(super) fn open(&mut self, tiling: &Tiling<'_>, links: Vec<Link>) {
         let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
