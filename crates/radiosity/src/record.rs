@@ -171,6 +171,7 @@ impl Record {
             let lists = [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity];
             lists.iter().any(|list| list.len() != self.bands)
                 || ![0, self.bands].contains(&patch.estimate.len())
+                || patch.estimate.len() != self.patches[0].estimate.len()
                 || patch.picture.is_some_and(|picture| picture >= self.pictures.len())
         };
         match self.patches.iter().find(|patch| bands(patch)) {

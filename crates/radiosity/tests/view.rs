@@ -92,7 +92,7 @@ const key = name => window.dispatchEvent(new KeyboardEvent("keydown", { key: nam
 const slide = value => { $("step").value = value; $("step").dispatchEvent(new Event("input", { bubbles: true })); };
 const steps = {
   last: () => {}, home: () => key("Home"), right: () => key("ArrowRight"), dot: () => key("."), left: () => key("ArrowLeft"),
-  unshot: () => key("u"), light: () => key("u"), links: () => key("k"), no_links: () => key("k"), link: () => key("k"),
+  unshot: () => key("u"), light: () => key("u"), estimate: () => key("4"), no_estimate: () => key("3"), links: () => key("k"), no_links: () => key("k"), link: () => key("k"),
   slid: () => slide(2), on: () => $("on").click(), back: () => $("back").click(), end: () => key("End"), beyond: () => key("."),
 };
 window.onload = () => {
@@ -156,6 +156,11 @@ fn a_recorded_run_is_walked_through_by_keys_slider_and_buttons() {
         }
         assert_eq!(report["on"]["step"], 3);
         assert_eq!(hash("unshot") != hash("left"), method != Method::Hierarchical);
+        assert_eq!(
+            hash("estimate") != hash("no_estimate"),
+            method == Method::Hierarchical,
+            "only levels know their error"
+        );
         assert_eq!(hash("links") != hash("no_links"), method == Method::Hierarchical);
         assert!(
             report.as_object().unwrap().values().all(|step| step["wide"] != true),
