@@ -1,18 +1,23 @@
 //! Whole solutions of scenes against what their faces truly receive: every method on finer and finer meshes, every quality,
 //! and path tracing beside them.
+use super::mitsuba;
 use super::path_tracer::PathTracer;
 use super::truth::Truth;
 use crate::clock::{Job, interleaved};
 use crate::plan::{Plan, Rounds};
-use crate::rows::{Chapter, Deviation, Measured, Time};
+use crate::rows::{Chapter, Deviation, Measured, Spread, Time};
 use radiosity::{Error, Method, Options, Quality, Scene, Solution, solve};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// The name of the series of path tracing.
 const PATHS: &str = "path tracing";
+/// The name of the series of Mitsuba's path tracing.
+pub(crate) const MITSUBA: &str = "Mitsuba 3";
 /// The name of the series of qualities.
 const QUALITIES: &str = "qualities";
+/// The name of the series of levels.
+const LEVELS: &str = "levels";
 
 /// What is solved, and how it is called.
 struct Task {
@@ -24,7 +29,7 @@ struct Task {
 /// The names of all series, in their order.
 #[cfg(test)]
 pub(crate) fn series(plan: &Plan) -> Vec<&'static str> {
-    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS]).collect();
+    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS, MITSUBA]).collect();
     series.dedup();
     series
 }
@@ -45,6 +50,7 @@ pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Meas
             rows.push(subject.solved(&task)?);
         }
         rows.extend(paths(plan).map(|paths| subject.traced(paths)));
+        rows.extend(subject.metered(&paths(plan).collect::<Vec<_>>()));
     }
     Ok(rows)
 }
@@ -77,8 +83,20 @@ fn tasks(plan: &Plan) -> Vec<Task> {
     tasks.extend(meshes(fine).map(|elements| on("GMRES", Method::Gmres, elements)));
     tasks.extend(meshes(coarse).map(|elements| on("full matrix", Method::Matrix, elements)));
     tasks.extend(meshes(coarse).map(hemicube));
+    tasks.extend(levels(plan));
     tasks.extend(qualities(plan));
     tasks
+}
+
+/// Half a decade finer from step to step; the last takes a minute.
+fn levels(plan: &Plan) -> impl Iterator<Item = Task> {
+    let errors = [("10 %", 0.1), ("3 %", 0.03), ("1 %", 0.01), ("0.3 %", 0.003)];
+    let task = |(name, error): (&str, f64)| Task {
+        series: LEVELS,
+        setting: format!("--error {name}"),
+        options: Options { method: Method::Hierarchical, error, ..Options::default() },
+    };
+    errors.into_iter().take(if plan.quick { 3 } else { 4 }).map(task)
 }
 
 /// As `--quality` names them; high takes minutes.
@@ -111,7 +129,7 @@ impl Subject<'_> {
         let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
         let solution = solution?;
         let (series, elements) = (task.series, solution.mesh.elements.len());
-        let setting = if series == QUALITIES {
+        let setting = if [QUALITIES, LEVELS].contains(&series) {
             format!("{}, {elements} elements", task.setting)
         } else {
             task.setting.clone()
@@ -119,6 +137,26 @@ impl Subject<'_> {
         let error = Deviation::of(&self.truth.deviations(&self.truth.received(self.scene, &solution)));
         let valid = Some(solution.converged);
         Ok(Measured { amount: elements as f64, valid, time, ..row(self.name, series, setting, error) })
+    }
+
+    /// So many paths from every patch by Mitsuba, for each number; nothing where it is not installed.
+    fn metered(&self, paths: &[u32]) -> Vec<Measured> {
+        let runs = mitsuba::runs(self.scene, paths).unwrap_or_default();
+        let row = |(&paths, run): (&u32, &mitsuba::MeteredRun)| {
+            let found = self.truth.of_faces(self.scene, |patch, band| run.irradiance[patch][band]);
+            let seconds = Spread::of(vec![run.seconds]);
+            Measured {
+                amount: f64::from(paths),
+                time: Time { cpu: seconds, wall: seconds, rounds: 1 },
+                ..row(
+                    self.name,
+                    MITSUBA,
+                    format!("{paths} paths a patch"),
+                    Deviation::of(&self.truth.deviations(&found)),
+                )
+            }
+        };
+        paths.iter().zip(&runs).map(row).collect()
     }
 
     /// So many paths from every face, each face with a sequence of its own.
