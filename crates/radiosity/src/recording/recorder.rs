@@ -89,18 +89,7 @@ impl Recorder {
         if let Some((step, _)) = self.steps.last().filter(|(step, _)| step.kind == StepKind::Rounds) {
             (last.links, last.link_count) = (step.links.clone(), step.link_count);
         }
-        let mut meshes = Vec::new();
-        let mut places = vec![None; self.meshes.len()];
-        for (step, mesh) in &mut self.steps {
-            let own = &self.meshes[*mesh];
-            if !is_same(own, &solution.mesh) {
-                let place = places[*mesh].get_or_insert_with(|| {
-                    meshes.push(pack(own));
-                    meshes.len() - 1
-                });
-                step.mesh = Some(*place);
-            }
-        }
+        let meshes = self.pack_meshes(&solution.mesh);
         let corners = self.tiles.iter().flatten().flat_map(|corner| corner.to_array());
         Recording {
             first: self.first,
@@ -114,6 +103,22 @@ impl Recorder {
             },
             steps: self.steps.into_iter().map(|(step, _)| step).chain([last]).collect(),
         }
+    }
+
+    /// The meshes of the steps that stayed, without the last; each step gets the number of its own.
+    fn pack_meshes(&mut self, last: &Mesh) -> Vec<PackedMesh> {
+        let mut packed = Vec::new();
+        let mut numbers = vec![None; self.meshes.len()];
+        for (step, mesh) in &mut self.steps {
+            let own = &self.meshes[*mesh];
+            if !is_same(own, last) {
+                step.mesh = Some(*numbers[*mesh].get_or_insert_with(|| {
+                    packed.push(pack(own));
+                    packed.len() - 1
+                }));
+            }
+        }
+        packed
     }
 
     fn step(&self, kind: StepKind, count: usize, solution: &Solution, ledger: &Ledger) -> Step {
