@@ -2,7 +2,6 @@
 //!
 //! ```text
 //! solutions, truth, path_tracer           whole solutions against the truth, and path tracing beside them
-//! mitsuba                                 the same by Mitsuba 3, where Python has it
 //! published, left_out, stiff, booleans    tables of the sources, economies, solvers, polygon Booleans
 //! error_image                             pictures of a scene and of the errors in it
 //! stress, cases                           points along axes of stress, and points known to 34 digits
@@ -15,7 +14,6 @@ pub(crate) mod cases;
 pub(crate) mod error_image;
 pub(crate) mod left_out;
 pub(crate) mod matrices;
-pub(crate) mod mitsuba;
 pub(crate) mod path_tracer;
 pub(crate) mod published;
 pub(crate) mod query;

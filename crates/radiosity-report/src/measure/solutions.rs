@@ -1,19 +1,16 @@
 //! Whole solutions of scenes against what their faces truly receive: every method on finer and finer meshes, every quality,
 //! and path tracing beside them.
-use super::mitsuba;
 use super::path_tracer::PathTracer;
 use super::truth::Truth;
 use crate::clock::{Job, interleaved};
 use crate::plan::{Plan, Rounds};
-use crate::rows::{Chapter, Deviation, Measured, Spread, Time};
+use crate::rows::{Chapter, Deviation, Measured, Time};
 use radiosity::{Error, Method, Options, Quality, Scene, Solution, solve};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// The name of the series of path tracing.
 const PATHS: &str = "path tracing";
-/// The name of the series of Mitsuba's path tracing.
-pub(crate) const MITSUBA: &str = "Mitsuba 3";
 /// The name of the series of qualities.
 const QUALITIES: &str = "qualities";
 /// The name of the series of levels.
@@ -29,7 +26,7 @@ struct Task {
 /// The names of all series, in their order.
 #[cfg(test)]
 pub(crate) fn series(plan: &Plan) -> Vec<&'static str> {
-    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS, MITSUBA]).collect();
+    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS]).collect();
     series.dedup();
     series
 }
@@ -50,7 +47,6 @@ pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Meas
             rows.push(subject.solved(&task)?);
         }
         rows.extend(paths(plan).map(|paths| subject.traced(paths)));
-        rows.extend(subject.metered(&paths(plan).collect::<Vec<_>>()));
     }
     Ok(rows)
 }
@@ -137,26 +133,6 @@ impl Subject<'_> {
         let error = Deviation::of(&self.truth.deviations(&self.truth.received(self.scene, &solution)));
         let valid = Some(solution.converged);
         Ok(Measured { amount: elements as f64, valid, time, ..row(self.name, series, setting, error) })
-    }
-
-    /// So many paths from every patch by Mitsuba, for each number; nothing where it is not installed.
-    fn metered(&self, paths: &[u32]) -> Vec<Measured> {
-        let runs = mitsuba::runs(self.scene, paths).unwrap_or_default();
-        let row = |(&paths, run): (&u32, &mitsuba::MeteredRun)| {
-            let found = self.truth.of_faces(self.scene, |patch, band| run.irradiance[patch][band]);
-            let seconds = Spread::of(vec![run.seconds]);
-            Measured {
-                amount: f64::from(paths),
-                time: Time { cpu: seconds, wall: seconds, rounds: 1 },
-                ..row(
-                    self.name,
-                    MITSUBA,
-                    format!("{paths} paths a patch"),
-                    Deviation::of(&self.truth.deviations(&found)),
-                )
-            }
-        };
-        paths.iter().zip(&runs).map(row).collect()
     }
 
     /// So many paths from every face, each face with a sequence of its own.

@@ -7,7 +7,6 @@ use super::style::style;
 use super::table::{Table, error, percent, seconds};
 use super::work_precision::{curve, every, largest, mean, signed};
 use crate::analysis::{Line, lines, subjects};
-use crate::measure::solutions::MITSUBA;
 use crate::results::Report;
 use crate::rows::{Chapter, Deviation, Measured};
 
@@ -16,13 +15,8 @@ const INTRO: &str = "<p>How far a whole solution is from the truth: the mean irr
     receive on average, if that is more. Methods solve on equal elements, finer from point to point, until the \
     discrete system is solved to 0.1 %: what is drawn is the error of the mesh and of how finely its light is sent, of which that \
     bound says nothing. <em>Levels</em> ask for an error (<code>--error</code>) instead of a mesh. Path tracing is that of this report, the same number of paths from every face; it finds these means and \
-    nothing else, where a solution holds the light of every element, and its error is chance, so that its points scatter. <em>Mitsuba 3</em> is \
-    another path tracer (<code>scalar_rgb</code>, its wheel), with as many paths from every patch. Below the \
+    nothing else, where a solution holds the light of every element, and its error is chance, so that its points scatter. Below the \
     dotted line errors drown in those of the reference.</p>\n";
-
-/// What stands there where no Python has Mitsuba.
-const MISSING: &str = "<p>Mitsuba 3 is not drawn: the Python that made this report, <code>python3</code> or what the variable \
-    <code>PYTHON</code> names, does not have it. <code>pip install mitsuba</code> gets it.</p>\n";
 
 /// The errors for which the time is asked.
 const TARGETS: [f64; 3] = [0.1, 0.03, 0.01];
@@ -32,9 +26,7 @@ pub(crate) fn section(report: &Report) -> Section {
     let body = subjects(report.measured(Chapter::Solutions))
         .into_iter()
         .map(|(name, rows)| of_scene(report, name, &rows));
-    let has_mitsuba = report.measured(Chapter::Solutions).any(|row| row.series == MITSUBA);
-    let other = if has_mitsuba { "" } else { MISSING };
-    Section::new(["solutions", "Whole solutions"], body.collect()).opened_by(&format!("{INTRO}{other}"))
+    Section::new(["solutions", "Whole solutions"], body.collect()).opened_by(INTRO)
 }
 
 /// The table of each scene, by name.

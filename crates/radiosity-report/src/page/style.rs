@@ -25,7 +25,6 @@ pub(crate) fn style(name: &str) -> usize {
         "qualities" => 5,
         "hemicubes, 64 × 64 cells" => 6,
         "levels" => 7,
-        "Mitsuba 3" => 11,
         "path tracing" => 10,
         "reference" => 1,
         "rays, random" => 10,
