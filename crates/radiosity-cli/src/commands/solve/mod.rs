@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
-    let figures = writer.write(&solution)?;
+    let figures = writer.write(&solution, follower.recording(&solution))?;
     ended?;
     if arguments.json {
         print(&figures)?;

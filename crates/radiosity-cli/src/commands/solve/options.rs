@@ -65,6 +65,9 @@ pub(crate) struct Solve {
     /// Write the bound and the ledger of every step as CSV
     #[arg(long, value_name = "FILE")]
     pub(super) steps: Option<PathBuf>,
+    /// Keep the steps of the run in the page (.html) and in .json, to walk through them: who shoots, each reflection, each round of links
+    #[arg(long, requires = "output")]
+    pub(super) record: bool,
     #[command(flatten)]
     pub(super) view: ViewOptions,
 }
@@ -165,6 +168,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         spread: arguments.spread.unwrap_or(given.spread),
         hemicube: arguments.hemicube,
         gather: given.gather,
+        record: arguments.record,
         max_shots: arguments.max_shots,
         max_seconds: arguments.time,
     }

@@ -61,6 +61,11 @@ impl Links {
         }
     }
 
+    /// The tiles that are linked.
+    pub(super) fn ends(&self) -> Vec<[usize; 2]> {
+        self.all.iter().map(|link| link.ends).collect()
+    }
+
     /// Takes the links of whole tiles, and finds what they exchange in all and which of them are in closed rooms.
     pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>, error: f64) {
         let mut seen = vec![[0.0; 5]; tiling.tiles.len()];

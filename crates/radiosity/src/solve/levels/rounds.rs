@@ -10,7 +10,8 @@ use super::output::{LeafLight, solution};
 use super::tiling::Tiling;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::solve::{options::Options, progress::Progress, solution::Solution, state::State};
+use crate::solve::progress::{LinkedTiles, Moment, Progress};
+use crate::solve::{options::Options, solution::Solution, state::State};
 use std::{ops::ControlFlow, time::Instant};
 
 /// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
@@ -32,6 +33,8 @@ struct Levels<'l> {
     links: Links,
     /// What each tile sends, band by band.
     sent: Vec<Vec<Linear>>,
+    /// How often the light was bettered.
+    rounds: usize,
     products: usize,
     /// The light as of the last round.
     light: LeafLight,
@@ -53,9 +56,10 @@ pub(crate) fn solve(
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
     let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent);
-    let mut levels = Levels { options, start, tiling, links, sent, products: 0, light, watch, fault: None };
+    let mut levels =
+        Levels { options, start, tiling, links, sent, rounds: 0, products: 0, light, watch, fault: None };
     let converged = levels.run(state)?;
-    levels.finish(converged)
+    levels.finish(converged, state)
 }
 
 impl Levels<'_> {
@@ -103,7 +107,7 @@ impl Levels<'_> {
 
     /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
     fn report(&mut self, state: &State) -> ControlFlow<()> {
-        let Levels { tiling, links, sent, products, start, watch, light, .. } = self;
+        let Levels { tiling, links, sent, rounds, products, start, watch, light, .. } = self;
         let (tiling, links, sent): (&Tiling<'_>, &Links, _) = (tiling, links, &*sent);
         let seconds = start.elapsed().as_secs_f64();
         let so_far = || {
@@ -112,6 +116,9 @@ impl Levels<'_> {
             Solution { products: *products, seconds, ..solution(tiling, &equilibrium, &light) }
         };
         watch(&Progress {
+            moment: Moment::Round(*rounds),
+            open: &Vec::new,
+            tiles: &|| LinkedTiles { tiles: tiling.outlines(), links: links.ends() },
             shots: 0,
             products: *products,
             unshot: light.unshot(),
@@ -143,6 +150,7 @@ impl Levels<'_> {
             *sent = equilibrium.spread(&light);
         }
         self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent);
+        self.rounds += 1;
         let lit = (0..self.sent.len()).filter(|&band| largest(&self.sent[band]) > 0.0);
         let light = |band: usize| {
             let received = equilibrium.spread(&self.light.received[band]);
@@ -186,9 +194,13 @@ impl Levels<'_> {
     }
 
     /// The solution, with an estimate of its error.
-    fn finish(mut self, converged: bool) -> Result<Solution, Error> {
+    fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
         let most = if converged { ALL } else { 0 };
         let lights = self.settle(most, true);
+        if self.options.record {
+            // The run is over: there is nothing to stop.
+            let _ = self.report(state);
+        }
         let equilibrium = self.links.equilibrium(&self.tiling, true);
         let estimate = estimate(&self.tiling, &self.links.all, &equilibrium, &lights, self.sent.len());
         Ok(Solution {
