@@ -133,6 +133,7 @@ fn lit(scene: &Scene) -> Record {
         radiosity: ones(elements.len()),
         irradiance: ones(elements.len()),
         pictures: Vec::new(),
+        recording: None,
         vertices,
         elements,
     }

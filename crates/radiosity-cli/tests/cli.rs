@@ -62,6 +62,19 @@ fn text_of(path: &Path) -> String {
 }
 
 #[test]
+fn options_that_the_method_would_ignore_are_refused() {
+    let solve = ["solve", "scenes/cornell-box.dae", "--json"];
+    for unused in [["--elements", "300"], ["--shadows", "2"], ["--hemicube", "64"], ["--spread", "0.1"]] {
+        let output = radiosity(&[&solve[..], &["--method", "hierarchical"], &unused].concat());
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).contains(unused[0]), "{}", stderr(&output));
+    }
+    let output = radiosity(&[&solve[..], &["--error", "1%"]].concat());
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("--method hierarchical"), "{}", stderr(&output));
+}
+
+#[test]
 fn solve_prints_the_figures_and_writes_every_kind_of_file() {
     let folder = Folder::new();
     let files: Vec<String> = ["a.png", "a.dae", "a.glb", "a.json", "a.csv", "a.elements.csv", "a.html"]
@@ -110,6 +123,36 @@ fn solved(folder: &Folder, kinds: &[&str]) -> Vec<String> {
     let output = radiosity(&arguments);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     files
+}
+
+#[test]
+fn a_recorded_run_is_kept_in_the_page_and_in_json_and_changes_nothing_else() {
+    let folder = Folder::new();
+    let solve = |name: &str, more: &[&str]| {
+        let files = ["json", "html", "csv"].map(|end| text_of(&folder.path(&format!("{name}.{end}"))));
+        let mut arguments = [&SOLVE[..], more].concat();
+        files.iter().for_each(|file| arguments.extend(["-o", file]));
+        let output = radiosity(&arguments);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        files.map(|file| std::fs::read_to_string(file).expect("a file"))
+    };
+    let [plain, recorded] = [solve("plain", &[]), solve("recorded", &["--record"])];
+    assert_eq!(plain[2], recorded[2], "another table");
+    let [mut light, mut other] = [&plain[0], &recorded[0]]
+        .map(|text| serde_json::from_str::<Value>(text).expect("JSON")["light"].take());
+    let recording = other.as_object_mut().expect("an object").remove("recording").expect("the run");
+    assert_eq!(light.as_object_mut().expect("an object").remove("recording"), None);
+    assert!(light == other, "another light");
+    let steps = recording["steps"].as_array().expect("steps");
+    assert!(
+        steps.len() > 20 && steps[0]["shooter"].is_array() && steps[steps.len() - 1]["kind"] == "solution"
+    );
+    assert!(!plain[1].contains("\"recording\":{") && recorded[1].contains("\"recording\":{"));
+    // What was kept is there in a page that is made of it later.
+    let [from, to] = ["recorded.json", "later.html"].map(|name| text_of(&folder.path(name)));
+    assert_eq!(code(&radiosity(&["view", &from, "-o", &to])), 0);
+    assert!(std::fs::read_to_string(&to).expect("a page").contains("\"recording\":{"));
+    assert_eq!(code(&radiosity(&["solve", "scenes/cornell-box.dae", "--record", "--json"])), 2);
 }
 
 #[test]

@@ -3,6 +3,7 @@ use crate::expose::Exposure;
 use crate::image_file::fetch;
 use crate::mesh::element::{Element, Mesh};
 use crate::picture::{framing::framing, paint, painting::Painting};
+use crate::recording::Recording;
 use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Image};
 use crate::solve::solution::Solution;
 use crate::spectrum::Colours;
@@ -48,6 +49,9 @@ pub struct Record {
     pub irradiance: Vec<f64>,
     /// The pictures, as `data:` URLs.
     pub pictures: Vec<String>,
+    /// The run, step by step, where it was recorded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recording: Option<Recording>,
 }
 
 /// A patch as it is written.
@@ -113,6 +117,7 @@ impl Record {
             radiosity: solution.radiosity.clone(),
             irradiance: solution.irradiance.clone(),
             pictures,
+            recording: None,
         }
     }
 
@@ -158,10 +163,15 @@ impl Record {
         if let Some(element) = self.elements.iter().position(outside) {
             return Err(format!("element {element} names a patch or a vertex that is not there"));
         }
+        let sound = |recording: &Recording| recording.is_sound(self.bands, self.patches.len(), elements);
+        if !self.recording.as_ref().is_none_or(sound) {
+            return Err("the recording does not fit the solution".to_owned());
+        }
         let bands = |patch: &PatchRecord| {
             let lists = [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity];
             lists.iter().any(|list| list.len() != self.bands)
                 || ![0, self.bands].contains(&patch.estimate.len())
+                || patch.estimate.len() != self.patches[0].estimate.len()
                 || patch.picture.is_some_and(|picture| picture >= self.pictures.len())
         };
         match self.patches.iter().find(|patch| bands(patch)) {

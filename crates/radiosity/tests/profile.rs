@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 use radiosity::glam::DVec3;
 use radiosity::profile::{Profile, ProfileError, profile};
-use radiosity::{Options, Record, scenes, solve};
+use radiosity::{Method, Options, Record, scenes, solve};
 use std::ops::ControlFlow;
 
 /// A solution of a built-in scene, of so many elements.
@@ -127,6 +127,33 @@ fn a_line_on_two_surfaces_is_refused_until_one_is_named() {
     for name in [first, second] {
         assert_covers(&profile(&record, edge, Some(&name)).unwrap());
     }
+}
+
+#[test]
+fn what_light_may_be_off_by_is_a_band_in_the_drawing_and_columns_in_the_table() {
+    let scene = scenes::scene("cornell-box").unwrap();
+    let options = Options { method: Method::Hierarchical, error: 0.1, ..Options::default() };
+    let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).unwrap();
+    let record = Record::new("cornell-box", &scene, &solution);
+    let ends = [DVec3::new(10.0, 0.0, 280.0), DVec3::new(540.0, 0.0, 280.0)];
+    let found = profile(&record, ends, None).unwrap();
+    let floor = record.patches.iter().position(|patch| patch.name == "floor").unwrap();
+    for crossing in &found.crossings {
+        for band in 0..3 {
+            let wanted = solution.patch_estimate(floor)[band] * record.patches[floor].reflectance[band];
+            assert!((crossing.estimate[band] - wanted).abs() < 1e-12 * wanted && wanted > 0.0);
+        }
+    }
+    let table = found.csv();
+    assert!(table.lines().next().unwrap().ends_with("element_radiosity.2,estimate.0,estimate.1,estimate.2"));
+    let drawing = found.svg();
+    assert_eq!(drawing.matches("class=\"estimate\"").count(), 3);
+    roxmltree::Document::parse(&drawing).unwrap();
+    let plain = profile(&solved("cornell-box", 100), ends, None).unwrap();
+    assert!(!plain.csv().contains("estimate") && !plain.svg().contains("estimate"));
+    let mut mixed = record;
+    mixed.patches[1].estimate.clear();
+    assert!(mixed.check().is_err(), "estimates of some patches only");
 }
 
 #[test]

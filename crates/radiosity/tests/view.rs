@@ -3,7 +3,7 @@
 mod browser;
 
 use browser::{browser, reported};
-use radiosity::{Options, Record, scenes, solve, viewer};
+use radiosity::{Method, Options, Record, Recorder, scenes, solve, viewer};
 use std::ops::ControlFlow;
 
 /// Uses the controls as a person would, one after the other, and notes a hash of the picture after each.
@@ -78,6 +78,97 @@ window.onload = () => {
 };
 </script>
 </html>"#;
+
+/// Walks through a run as a person would, by keys, by the slider and by buttons; notes the picture and the words after each.
+const WALK: &str = r#"<script>
+const look = () => {
+  if (waiting) draw();
+  const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+  gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  return { hash: pixels.reduce((hash, byte) => (hash * 31 + byte) % 4294967291, 7), story: $("story").textContent,
+    shares: $("shares").textContent, wide: document.documentElement.scrollWidth > innerWidth, step: Number($("step").value) };
+};
+const key = name => window.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
+const slide = value => { $("step").value = value; $("step").dispatchEvent(new Event("input", { bubbles: true })); };
+const steps = {
+  last: () => {}, home: () => key("Home"), right: () => key("ArrowRight"), dot: () => key("."), left: () => key("ArrowLeft"),
+  unshot: () => key("u"), light: () => key("u"), estimate: () => key("4"), no_estimate: () => key("3"), links: () => key("k"), no_links: () => key("k"), link: () => key("k"),
+  slid: () => slide(2), on: () => $("on").click(), back: () => $("back").click(), end: () => key("End"), beyond: () => key("."),
+};
+window.onload = () => {
+  const report = {};
+  for (const [name, act] of Object.entries(steps)) {
+    act();
+    report[name] = look();
+  }
+  report.error = gl.getError();
+  document.body.innerHTML = "<pre>REPORT" + ":" + JSON.stringify(report) + "</pre>";
+};
+</script>
+</html>"#;
+
+/// What a browser 400 pixels wide reports of a walk through a run of one method.
+fn walked(browser: &str, method: Method) -> serde_json::Value {
+    let scene = scenes::scene("cornell-box").unwrap();
+    let options = Options { method, elements: 200, error: 0.2, record: true, ..Options::default() };
+    let mut recorder = Recorder::new(&scene);
+    let follow = |progress: &radiosity::Progress<'_>| {
+        recorder.note(progress);
+        ControlFlow::Continue(())
+    };
+    let solution = solve(&scene, &options, follow).unwrap();
+    let recording = Some(recorder.end(&solution));
+    let record = Record { recording, ..Record::new("cornell-box", &scene, &solution) };
+    let folder = tempfile::tempdir().unwrap();
+    let text = viewer::page(&record, record.exposure()).replace("</html>", WALK);
+    std::fs::write(folder.path().join("page.html"), text).unwrap();
+    let flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=400,700"];
+    reported(browser, folder.path(), &[&flags[..], &["--virtual-time-budget=20000"]].concat())
+}
+
+#[test]
+fn a_recorded_run_is_walked_through_by_keys_slider_and_buttons() {
+    let Some(browser) = browser() else { return };
+    for (method, words) in [
+        (Method::Shoot, "next shoots light"),
+        (Method::Matrix, "emitted light only"),
+        (Method::Hierarchical, "before the first round"),
+    ] {
+        let report = walked(&browser, method);
+        let hash = |step: &str| report[step]["hash"].as_u64().unwrap_or_else(|| panic!("no step {step}"));
+        let story = |step: &str| report[step]["story"].as_str().unwrap().to_owned();
+        assert!(story("home").contains(words) && story("last").contains("the solution"), "{report}");
+        // Where nothing is linked yet, all light escapes.
+        let open = if method == Method::Hierarchical { "escaped 100.0 %" } else { "unshot 100.0 %" };
+        assert!(report["home"]["shares"].as_str().unwrap().contains(open), "{report}");
+        for pair in [["last", "home"], ["home", "right"], ["right", "dot"]] {
+            assert_ne!(hash(pair[0]), hash(pair[1]), "{pair:?} {report}");
+        }
+        for pair in [
+            ["left", "right"],
+            ["light", "left"],
+            ["slid", "dot"],
+            ["back", "slid"],
+            ["end", "last"],
+            ["beyond", "end"],
+        ] {
+            assert_eq!(hash(pair[0]), hash(pair[1]), "{pair:?} {report}");
+        }
+        assert_eq!(report["on"]["step"], 3);
+        assert_eq!(hash("unshot") != hash("left"), method != Method::Hierarchical);
+        assert_eq!(
+            hash("estimate") != hash("no_estimate"),
+            method == Method::Hierarchical,
+            "only levels know their error"
+        );
+        assert_eq!(hash("links") != hash("no_links"), method == Method::Hierarchical);
+        assert!(
+            report.as_object().unwrap().values().all(|step| step["wide"] != true),
+            "wider than 400 pixels"
+        );
+        assert_eq!(report["error"], 0);
+    }
+}
 
 #[test]
 fn the_page_draws_and_its_controls_change_the_picture() {

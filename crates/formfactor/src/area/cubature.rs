@@ -35,6 +35,9 @@ pub(super) struct Cubature<'p> {
 /// The share of the tolerance that any cut which is not made may take.
 const UNCUT: f64 = 1e-3;
 
+/// Where there are too many cuts, those that change less than so many times that are not made.
+const LEAVE_OUT: [f64; 3] = [1.0, 20.0, 400.0];
+
 /// The share of the tolerance that any cell may take at first.
 const START: f64 = 0.1;
 
@@ -169,10 +172,12 @@ impl<'p> Cubature<'p> {
         plan(fan(piece), [self.tolerance, self.scale], most_nodes, share, errors)
     }
 
-    /// Integrates over a patch cut at all events, but for those that change less than `least` there; whether they are few enough.
+    /// Integrates over a patch cut at all events, but for those that change less than `least` there, or some times that if there are too
+    /// many parts; whether they are few enough.
     fn cut(&mut self, patch: Patch, least: f64) -> bool {
         let (events, are_all) = self.of.events(&patch);
-        let Some(parts) = cut(patch, &events, self.most, least).filter(|_| are_all) else { return false };
+        let parts = LEAVE_OUT.iter().find_map(|more| cut(patch, &events, self.most, more * least));
+        let Some(parts) = parts.filter(|_| are_all) else { return false };
         for (part, left_out) in parts {
             let size = part.area();
             for cell in fan(part.corners()) {

@@ -29,11 +29,9 @@ pub(super) fn errors(
     occluders: &[Near],
 ) -> [f64; RULES.len()] {
     let [a, b, c, d] = *cell;
-    let middle = (a + b + c + d) / 4.0;
+    let middle = middle_of(cell);
     let longest = [b - a, c - b, d - c, a - d].map(DVec3::length).into_iter().fold(0.0, f64::max);
     let way = (to.middle - middle).normalize();
-    // Of a target that is near, parts may be behind what its middle is before.
-    let reach = to.edges.iter().map(|[a, _]| a.distance_squared(middle)).fold(0.0, f64::max).sqrt();
     let across = |side: DVec3| side.reject_from_normalized(way).length();
     let sides = across(b - a).max(across(c - d)) + across(d - a).max(across(c - b));
     let longest_edge = to.edges.iter().map(|[a, b]| across(*b - *a)).fold(0.0, f64::max);
@@ -44,7 +42,10 @@ pub(super) fn errors(
         errors = std::array::from_fn(|order| a_priori(&view(apart), order));
     }
     for occluder in occluders {
-        let near = away_from(occluder, cell);
+        let (ahead, near) = gap(occluder, cell);
+        let near = near.max(0.0);
+        // D / d is at most this for all that is behind some of the occluder, measured along any way.
+        let reach = to.edges.iter().map(|[a, _]| ahead.dot(*a - middle)).fold(0.0, f64::max);
         let shadow = 2.0 * occluder.radius * reach / occluder.middle.distance(middle);
         let slope = sides / apparent * longest_edge.min(shadow) * (reach - near).max(0.0) / near;
         let most = (occluder.breadth / (PI * near * near * mean)).min(1.0);
@@ -58,8 +59,15 @@ pub(super) fn errors(
 
 /// How far a cell is at least from an occluder.
 pub(super) fn away_from(occluder: &Occluder, cell: &Cell) -> f64 {
-    let plane = occluder.faces.iter().map(|face| above(face, cell)).fold(f64::NEG_INFINITY, f64::max);
-    away_from_ball(occluder.middle, occluder.radius, cell).max(plane).max(0.0)
+    gap(occluder, cell).1.max(0.0)
+}
+
+/// A way along which all of an occluder is farther than a cell, by so much at least.
+fn gap(occluder: &Occluder, cell: &Cell) -> (DVec3, f64) {
+    let ahead = (occluder.middle - middle_of(cell)).normalize_or_zero();
+    let to_ball = (ahead, away_from_ball(occluder.middle, occluder.radius, cell));
+    let to_planes = occluder.faces.iter().map(|face| (-face[1], above(face, cell)));
+    to_planes.fold(to_ball, |most, next| if next.1 > most.1 { next } else { most })
 }
 
 /// How far a cell is at least from a surface or its plane.
@@ -68,9 +76,13 @@ pub(super) fn away_from_surface(surface: &Surface, cell: &Cell) -> f64 {
 }
 
 fn away_from_ball(at: DVec3, size: f64, cell: &Cell) -> f64 {
-    let middle = (cell[0] + cell[1] + cell[2] + cell[3]) / 4.0;
+    let middle = middle_of(cell);
     let radius = cell.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt();
     middle.distance(at) - size - radius
+}
+
+fn middle_of([a, b, c, d]: &Cell) -> DVec3 {
+    (a + b + c + d) / 4.0
 }
 
 /// How far all of a cell is above a plane.

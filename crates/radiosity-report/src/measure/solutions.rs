@@ -13,6 +13,8 @@ use std::ops::ControlFlow;
 const PATHS: &str = "path tracing";
 /// The name of the series of qualities.
 const QUALITIES: &str = "qualities";
+/// The name of the series of levels.
+const LEVELS: &str = "levels";
 
 /// What is solved, and how it is called.
 struct Task {
@@ -77,8 +79,20 @@ fn tasks(plan: &Plan) -> Vec<Task> {
     tasks.extend(meshes(fine).map(|elements| on("GMRES", Method::Gmres, elements)));
     tasks.extend(meshes(coarse).map(|elements| on("full matrix", Method::Matrix, elements)));
     tasks.extend(meshes(coarse).map(hemicube));
+    tasks.extend(levels(plan));
     tasks.extend(qualities(plan));
     tasks
+}
+
+/// Half a decade finer from step to step; the last takes a minute.
+fn levels(plan: &Plan) -> impl Iterator<Item = Task> {
+    let errors = [("10 %", 0.1), ("3 %", 0.03), ("1 %", 0.01), ("0.3 %", 0.003)];
+    let task = |(name, error): (&str, f64)| Task {
+        series: LEVELS,
+        setting: format!("--error {name}"),
+        options: Options { method: Method::Hierarchical, error, ..Options::default() },
+    };
+    errors.into_iter().take(if plan.quick { 3 } else { 4 }).map(task)
 }
 
 /// As `--quality` names them; high takes minutes.
@@ -111,7 +125,7 @@ impl Subject<'_> {
         let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
         let solution = solution?;
         let (series, elements) = (task.series, solution.mesh.elements.len());
-        let setting = if series == QUALITIES {
+        let setting = if [QUALITIES, LEVELS].contains(&series) {
             format!("{}, {elements} elements", task.setting)
         } else {
             task.setting.clone()

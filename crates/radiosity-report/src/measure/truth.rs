@@ -105,9 +105,14 @@ impl Truth {
     /// What each face receives by a solution.
     pub(crate) fn received(&self, scene: &Scene, solution: &Solution) -> Vec<[f64; 3]> {
         let means = solution.patch_means(&solution.irradiance, scene.patches.len());
+        self.of_faces(scene, |patch, band| means[patch][band])
+    }
+
+    /// What each face receives, by what each patch receives in each band.
+    pub(crate) fn of_faces(&self, scene: &Scene, mean_of: impl Fn(usize, usize) -> f64) -> Vec<[f64; 3]> {
         let mean = |patches: &[usize]| {
             let received = |band: usize| {
-                patches.iter().map(|&patch| means[patch][band] * area(scene, &[patch])).sum::<f64>()
+                patches.iter().map(|&patch| mean_of(patch, band) * area(scene, &[patch])).sum::<f64>()
             };
             [0, 1, 2].map(|band| received(band) / area(scene, patches))
         };

@@ -24,6 +24,7 @@ pub(crate) fn style(name: &str) -> usize {
         "View3D" => 3,
         "qualities" => 5,
         "hemicubes, 64 × 64 cells" => 6,
+        "levels" => 7,
         "path tracing" => 10,
         "reference" => 1,
         "rays, random" => 10,

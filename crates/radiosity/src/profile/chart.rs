@@ -36,7 +36,7 @@ pub(super) fn svg(profile: &Profile) -> String {
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n"
     );
     title(&mut svg, profile);
-    grid(&mut svg, [across, up]);
+    grid(&mut svg, [across, up], profile.is_estimated());
     match drawn(profile.bands).as_slice() {
         [band] => draw(&mut svg, profile, [across, up], *band, ("#1b1d21", "")),
         bands => {
@@ -53,11 +53,21 @@ pub(super) fn svg(profile: &Profile) -> String {
 fn brightest(profile: &Profile) -> f64 {
     let ends = profile.points().flat_map(|point| &point.radiosity);
     let own = profile.crossings.iter().flat_map(|crossing| &crossing.radiosity);
-    ends.chain(own).copied().fold(0.0, f64::max)
+    let above = profile.crossings.iter().flat_map(|crossing| {
+        let sums = |end: &ProfilePoint| -> Vec<f64> {
+            end.radiosity.iter().zip(&crossing.estimate).map(|(light, error)| light + error).collect()
+        };
+        crossing.ends.iter().flat_map(sums).collect::<Vec<f64>>()
+    });
+    ends.chain(own).copied().chain(above).fold(0.0, f64::max)
 }
 
 /// Both lines of a band.
 fn draw(svg: &mut String, profile: &Profile, axes: [Scale; 2], band: usize, (colour, dashes): (&str, &str)) {
+    if profile.is_estimated() {
+        let area = area(profile, axes, band);
+        let _ = writeln!(svg, "<path class=\"estimate\" d=\"{area}\" fill=\"{colour}\" opacity=\".16\"/>");
+    }
     let thick = path(profile, axes, |_, end| end.radiosity[band]);
     let thin = path(profile, axes, |crossing, _| crossing.radiosity[band]);
     let _ = writeln!(
@@ -117,7 +127,7 @@ fn title(svg: &mut String, profile: &Profile) {
     );
 }
 
-fn grid(svg: &mut String, [across, up]: [Scale; 2]) {
+fn grid(svg: &mut String, [across, up]: [Scale; 2], is_estimated: bool) {
     for (value, text) in across.ticks() {
         let x = across.place(value);
         let _ = writeln!(
@@ -135,15 +145,32 @@ fn grid(svg: &mut String, [across, up]: [Scale; 2]) {
             y + 4.5
         );
     }
+    let around = if is_estimated { "; around it: what the patch's mean may be off by" } else { "" };
     let (middle, centre) = (f64::midpoint(LEFT, RIGHT), f64::midpoint(TOP, BOTTOM));
     let _ = writeln!(
         svg,
         "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">distance from the start (the scene's unit)</text>\
-         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" fill=\"#5d626b\">thick: interpolated; thin: the elements' own</text>\
+         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" fill=\"#5d626b\">thick: interpolated; thin: the elements' own{around}</text>\
          <text transform=\"translate(20 {centre}) rotate(-90)\" text-anchor=\"middle\">radiosity (W/m²)</text>",
         BOTTOM + 42.0,
         BOTTOM + 62.0
     );
+}
+
+/// What is within the estimate of the error around a band's interpolated radiosity, element by element.
+fn area(profile: &Profile, [across, up]: [Scale; 2], band: usize) -> String {
+    let mut area = String::new();
+    for Crossing { ends: [enter, leave], estimate, .. } in &profile.crossings {
+        let error = estimate.get(band).copied().unwrap_or(0.0);
+        for (end, sign, word) in
+            [(enter, 1.0, "M"), (leave, 1.0, "L"), (leave, -1.0, "L"), (enter, -1.0, "L")]
+        {
+            let light = (end.radiosity[band] + sign * error).max(0.0);
+            let _ = write!(area, "{word}{:.2} {:.2}", across.place(end.distance), up.place(light));
+        }
+        area.push('Z');
+    }
+    area
 }
 
 /// A line over all crossings, which breaks where the surface does.

@@ -27,6 +27,9 @@ pub struct Crossing {
     pub element: usize,
     /// The element's own radiosity per band, W/m².
     pub radiosity: Vec<f64>,
+    /// What the patch's mean radiosity may be off by per band, W/m², by the estimate for its irradiance and its reflectance; empty where
+    /// that is not known. See [`Solution::estimate`](crate::Solution::estimate).
+    pub estimate: Vec<f64>,
     /// Where the line enters and leaves it.
     pub ends: [ProfilePoint; 2],
 }

@@ -75,8 +75,10 @@ fn crossing(record: &Record, ends: [DVec3; 2], stretch: &Stretch) -> Crossing {
         ProfilePoint { distance: share * length, place, radiosity: (0..record.bands).map(value).collect() }
     };
     let own = stretch.element * record.bands..(stretch.element + 1) * record.bands;
+    let of = &record.patches[patch];
     Crossing {
-        patch: record.patches[patch].name.clone(),
+        patch: of.name.clone(),
+        estimate: of.estimate.iter().zip(&of.reflectance).map(|(error, rho)| error * rho).collect(),
         element: stretch.element,
         radiosity: record.radiosity[own].to_vec(),
         ends: stretch.shares.map(point),
@@ -90,16 +92,19 @@ impl Profile {
     }
 
     /// Comma-separated values, two rows for each element: the distance from the start, the place, the patch, the element, the
-    /// interpolated radiosity per band, and that of the element.
+    /// interpolated radiosity per band, and that of the element; then what the patch's radiosity may be off by, where that is known.
     #[must_use]
     pub fn csv(&self) -> String {
+        let groups = ["radiosity", "element_radiosity", "estimate"];
+        let groups = &groups[..if self.is_estimated() { 3 } else { 2 }];
         let first = ["distance", "x", "y", "z", "patch", "element"].map(Into::into);
-        let header = first.into_iter().chain(columns(&["radiosity", "element_radiosity"], self.bands));
+        let header = first.into_iter().chain(columns(groups, self.bands));
         let row = |(crossing, point): (&Crossing, &ProfilePoint)| {
             let [x, y, z] = point.place.to_array();
             let numbers = [point.distance, x, y, z].map(|number| number.to_string());
             let names = [crossing.patch.clone(), crossing.element.to_string()];
-            let values = point.radiosity.iter().chain(&crossing.radiosity).map(ToString::to_string);
+            let values = point.radiosity.iter().chain(&crossing.radiosity).chain(&crossing.estimate);
+            let values = values.map(ToString::to_string);
             numbers.into_iter().chain(names).chain(values).collect()
         };
         let rows =
@@ -107,8 +112,13 @@ impl Profile {
         table(header.collect(), rows.map(row))
     }
 
+    /// Whether it is known what the light may be off by.
+    fn is_estimated(&self) -> bool {
+        self.crossings.iter().any(|crossing| !crossing.estimate.is_empty())
+    }
+
     /// A drawing: interpolated radiosity as thick lines, that of the elements as thin ones, for each band; of more than six
-    /// bands six, evenly picked.
+    /// bands six, evenly picked. What the patches' radiosity may be off by is a band around the thick lines, where it is known.
     #[must_use]
     pub fn svg(&self) -> String {
         chart::svg(self)

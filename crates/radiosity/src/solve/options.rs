@@ -47,6 +47,9 @@ pub struct Options {
     /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
     /// pieces send.
     pub spread: f64,
+    /// Show the watcher more than the run needs: where all pieces are solved for at once, the light after each reflection
+    /// ([`Moment::Bounce`](crate::Moment::Bounce)), and the last round of [`Method::Hierarchical`]. The solution has the same bits.
+    pub record: bool,
     /// Stop after so many shots.
     pub max_shots: usize,
     /// Stop after so many seconds.
@@ -67,6 +70,7 @@ impl Default for Options {
             tolerance: 1e-3,
             error: 1e-2,
             spread: 2e-4,
+            record: false,
             max_shots: 1_000_000,
             max_seconds: None,
         }

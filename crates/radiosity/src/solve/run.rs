@@ -2,7 +2,12 @@
 use super::ledger::{Ledger, bound, gaps};
 use super::solution::{DirectLight, Solution};
 use super::{factors::Factors, interpolate::welds, light::Light, magnitude::largest, options::Options};
-use super::{progress::Progress, rooms::Rooms, shooters::Shooters, state::State};
+use super::{
+    progress::{LinkedTiles, Moment, Progress},
+    rooms::Rooms,
+    shooters::Shooters,
+    state::State,
+};
 use crate::error::Error;
 use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
@@ -110,8 +115,13 @@ impl<'r> Run<'r> {
         bound == 0.0 || bound == f64::INFINITY || bound <= self.options.tolerance * brightness
     }
 
-    /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
+    /// Shows the watcher where the run stands while it prepares its next step; a break when it, or the time, says to stop.
     pub(super) fn report(&mut self) -> ControlFlow<()> {
+        self.show(Moment::Preparation)
+    }
+
+    /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
+    pub(super) fn show(&mut self, moment: Moment<'_>) -> ControlFlow<()> {
         let seconds = self.start.elapsed().as_secs_f64();
         let Run { light, factors, shooters, bound, ledger, products, scaling, welds, .. } = self;
         let so_far = || Solution {
@@ -140,7 +150,10 @@ impl<'r> Run<'r> {
             bound,
             ledger,
             seconds,
+            moment,
             light: &so_far,
+            open: &|| shooters.unshot_radiosity(light),
+            tiles: &LinkedTiles::default,
             state: factors.state,
         })?;
         let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);

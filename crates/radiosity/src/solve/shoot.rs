@@ -1,5 +1,5 @@
 //! Progressive refinement with substructuring.
-use super::run::Run;
+use super::{progress::Moment, run::Run};
 use crate::error::Error;
 
 /// Shoots until light and bound are within the tolerance (true), or a limit is met (false).
@@ -12,10 +12,11 @@ pub(super) fn shoot(run: &mut Run<'_>) -> Result<bool, Error> {
         if run.measure() {
             return Ok(true);
         }
-        if run.report().is_break() || run.shooters.shots >= run.options.max_shots {
+        let next = run.next();
+        let moment = Moment::Shot(run.shooters.shots, run.shooters.elements(next));
+        if run.show(moment).is_break() || run.shooters.shots >= run.options.max_shots {
             return Ok(false);
         }
-        let next = run.next();
         // A piece that was split shoots in a later round, as its halves.
         if !run.shooters.split(next, &run.light, run.options.spread) {
             let column = run.factors.column(run.shooters.node(next))?;

@@ -1,6 +1,7 @@
 //! Who shoots: pieces of patches, and what each has sent so far.
 use super::light::Light;
 use crate::mesh::{subdivide::Subdivision, tree::Node};
+use std::ops::Range;
 
 /// A piece, and what it has sent per band.
 #[derive(Clone, Debug)]
@@ -160,6 +161,25 @@ impl<'s> Shooters<'s> {
     /// The nodes of all pieces.
     pub(super) fn front(&self) -> impl Iterator<Item = usize> {
         self.front.iter().map(|shooter| shooter.node)
+    }
+
+    /// The elements of a piece.
+    pub(super) fn elements(&self, index: usize) -> &'s Range<usize> {
+        &self.nodes[self.node(index)].elements
+    }
+
+    /// Radiosity still to be shot, of every element: elements × bands.
+    pub(super) fn unshot_radiosity(&self, light: &Light) -> Vec<f64> {
+        let mut unshot = vec![0.0; light.radiosity.len()];
+        for shooter in &self.front {
+            for element in self.nodes[shooter.node].elements.clone() {
+                for (band, shot) in shooter.shot.iter().enumerate() {
+                    let at = element * light.bands + band;
+                    unshot[at] = light.radiosity[at] - shot;
+                }
+            }
+        }
+        unshot
     }
 
     /// Power still to be shot, per band, as measured last.

@@ -119,6 +119,7 @@ pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
         radiosity: light.repeat(mesh.elements.len()),
         irradiance: light.repeat(mesh.elements.len()),
         vertices: mesh.vertices,
+        recording: None,
         pictures: Vec::new(),
     }
 }

@@ -56,6 +56,20 @@ fn a_square_receives_what_the_closed_form_says() {
     }
 }
 
+/// A floor and a wall on its edge: five points of each miss light.
+#[test]
+fn squares_that_touch_receive_what_the_closed_form_says_however_coarse_they_are() {
+    let floor = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    let wall = [[0., 0., 0.], [0., 1., 0.], [0., 1., 1.], [0., 0., 1.]];
+    let lit = scene(vec![patch("floor", &floor, 0.5, 0.0), patch("wall", &wall, 0.0, 1.0)]);
+    for error in [0.3, 0.03] {
+        let solution = solved(&lit, &options(error));
+        let found = solution.patch_means(&solution.irradiance, 2)[0][0];
+        let true_error = (found / 0.200_043_776_075_403_2 - 1.0).abs();
+        assert!(true_error < 1e-3 && true_error * found < solution.patch_estimate(0)[0], "{true_error}");
+    }
+}
+
 #[test]
 fn all_power_is_accounted_for_and_the_finer_solution_is_within_the_estimates() {
     let scene = furnished();

@@ -1,7 +1,7 @@
 //! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
 use super::{options::options, progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
 use crate::failure::Failure;
-use radiosity::{Progress, Solution, State, io};
+use radiosity::{Progress, Recorder, Recording, Solution, State, io};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::{ops::ControlFlow, process::ExitCode, sync::Arc, time::Instant};
@@ -23,6 +23,8 @@ pub(super) struct Follower<'o> {
     outputs: &'o SolveOutputs<'o>,
     bar: Bar,
     steps: Steps,
+    /// Where steps are asked for.
+    recorder: Option<Recorder>,
     /// Where the state goes: beside the first output.
     state: Option<PathBuf>,
     interrupted: Arc<AtomicBool>,
@@ -49,6 +51,7 @@ impl<'o> Follower<'o> {
             outputs,
             bar: Bar::new(options(outputs.arguments).tolerance),
             steps: Steps::new(outputs.arguments.steps.as_deref()),
+            recorder: outputs.arguments.record.then(|| Recorder::new(outputs.scene)),
             state: outputs.arguments.output.first().map(|path| {
                 let mut name = path.clone().into_os_string();
                 name.push(".state");
@@ -65,9 +68,11 @@ impl<'o> Follower<'o> {
     pub(super) fn follow(&mut self, progress: &Progress<'_>) -> ControlFlow<()> {
         self.bar.show(progress);
         self.steps.note(progress);
+        self.recorder.iter_mut().for_each(|recorder| recorder.note(progress));
         let due = self.outputs.arguments.snapshot_every;
         if due.is_some_and(|seconds| self.saved.elapsed().as_secs_f64() >= seconds) {
-            let written = self.outputs.write(&progress.solution()).and_then(|_| self.save(progress.state()));
+            let written =
+                self.outputs.write(&progress.solution(), None).and_then(|_| self.save(progress.state()));
             self.failure = written.err();
             self.saved = Instant::now();
         }
@@ -90,6 +95,11 @@ impl<'o> Follower<'o> {
             _ => {}
         }
         self.steps.save()
+    }
+
+    /// The steps of the run, where they were asked for.
+    pub(super) fn recording(&mut self, solution: &Solution) -> Option<Recording> {
+        Some(self.recorder.take()?.end(solution))
     }
 
     /// Writes the state, whole or not at all.

@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{Output, print};
 use interrupt::{Follower, resume};
-use options::{Solve, options};
+use options::{Solve, check, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
 use std::process::ExitCode;
@@ -29,6 +29,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("there is no output; give -o FILE or --json"));
     }
+    check(arguments)?;
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
     warn_of_darkness(&scene);
@@ -40,7 +41,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
-    let figures = writer.write(&solution)?;
+    let figures = writer.write(&solution, follower.recording(&solution))?;
     ended?;
     if arguments.json {
         print(&figures)?;

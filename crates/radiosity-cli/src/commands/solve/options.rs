@@ -1,4 +1,5 @@
 //! The options of `radiosity solve`, and those of the solver that they lead to.
+use crate::failure::Failure;
 use crate::parse::{count, positive, share};
 use crate::view_options::ViewOptions;
 use clap::{Args, ValueEnum};
@@ -64,6 +65,9 @@ pub(crate) struct Solve {
     /// Write the bound and the ledger of every step as CSV
     #[arg(long, value_name = "FILE")]
     pub(super) steps: Option<PathBuf>,
+    /// Keep the steps of the run in the page (.html) and in .json, to walk through them: who shoots, each reflection, each round of links
+    #[arg(long, requires = "output")]
+    pub(super) record: bool,
     #[command(flatten)]
     pub(super) view: ViewOptions,
 }
@@ -110,6 +114,27 @@ pub(super) enum Method {
     Hierarchical,
 }
 
+/// Refuses options that the method would have to ignore.
+pub(super) fn check(arguments: &Solve) -> Result<(), Failure> {
+    let is_by_levels = matches!(arguments.method, Method::Hierarchical);
+    let others = [
+        ("--elements", arguments.elements.is_some()),
+        ("--passes", arguments.passes.is_some()),
+        ("--shadows", arguments.shadows.is_some()),
+        ("--spread", arguments.spread.is_some()),
+        ("--hemicube", arguments.hemicube.is_some()),
+    ];
+    match others.iter().find(|(_, is_given)| *is_given && is_by_levels) {
+        Some((name, _)) => Err(Failure::usage(format!(
+            "{name} has no meaning with --method hierarchical, which cuts patches by --error"
+        ))),
+        None if arguments.error.is_some() && !is_by_levels => {
+            Err(Failure::usage("--error needs --method hierarchical: the other methods do not know theirs"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// The options of the solver.
 pub(super) fn options(arguments: &Solve) -> Options {
     let by_quality = match arguments.quality {
@@ -143,6 +168,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         spread: arguments.spread.unwrap_or(given.spread),
         hemicube: arguments.hemicube,
         gather: given.gather,
+        record: arguments.record,
         max_shots: arguments.max_shots,
         max_seconds: arguments.time,
     }

@@ -3,7 +3,7 @@ use super::options::Solve;
 use crate::failure::Failure;
 use crate::json;
 use crate::outputs::{Contents, Output};
-use radiosity::{Record, Scene, Solution, io};
+use radiosity::{Record, Recording, Scene, Solution, io};
 
 /// What results are written with.
 #[derive(Debug)]
@@ -15,13 +15,14 @@ pub(super) struct SolveOutputs<'s> {
 }
 
 impl SolveOutputs<'_> {
-    /// Writes every output; gives the figures.
-    pub(super) fn write(&self, solution: &Solution) -> Result<String, Failure> {
+    /// Writes every output, with the steps of the run where they are known; gives the figures.
+    pub(super) fn write(&self, solution: &Solution, recording: Option<Recording>) -> Result<String, Failure> {
         let &SolveOutputs { arguments, outputs, source, scene } = self;
         let name = arguments.scene.display().to_string();
         let figures = json::Figures::new(&name, scene, solution);
         if !outputs.is_empty() {
-            let (view, record) = (&arguments.view, &Record::new(&name, scene, solution));
+            let view = &arguments.view;
+            let record = &Record { recording, ..Record::new(&name, scene, solution) };
             let contents = Contents { view, record, source: Some((source, scene)), figures: Some(&figures) };
             // A picture of a stopped run shows what is unshot as if it had spread evenly.
             let shown = Record::new(&name, scene, &solution.with_ambient());

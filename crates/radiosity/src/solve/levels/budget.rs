@@ -56,7 +56,7 @@ fn importances(tiling: &Tiling<'_>, links: &[Link], unit: &[f64]) -> Vec<f64> {
         for end in [0, 1] {
             let patch = tiling.tiles[link.ends[end]].patch;
             if unit[patch] > 0.0 && tiling.tiles[link.ends[1 - end]].parent.is_some() {
-                of_patch[patch].push((link.ends[1 - end], link.transfer.exchange[0] / unit[patch]));
+                of_patch[patch].push((link.ends[1 - end], link.exchange[0] / unit[patch]));
             }
         }
     }
@@ -88,7 +88,7 @@ impl BandLight {
         let missed = if is_missed { transfer.gap * self.reflected[sender] } else { 0.0 };
         let for_others =
             self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[tile.patch];
-        let elsewhere = PLACE * transfer.locality() * transfer.exchange[0];
+        let elsewhere = PLACE * transfer.locality() * link.exchange[0];
         Flaw {
             of_mean: link.error() * bright,
             within: (WITHIN + OTHERS * for_others) * here * bright,
@@ -137,7 +137,7 @@ fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &
             let [here, there] = [link.ends[end], link.ends[1 - end]];
             let area = tiling.tiles[here].area;
             let bend = link.curvature(end) / area;
-            let carried = link.transfer.locality() * link.transfer.exchange[0] / area * deviation[there];
+            let carried = link.transfer.locality() * link.exchange[0] / area * deviation[there];
             squares[here] += SQUARE * bend * bend * square(sent[there]) + carried * carried;
         }
     }

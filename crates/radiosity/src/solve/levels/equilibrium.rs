@@ -11,8 +11,9 @@ use crate::union_find::UnionFind;
 
 /// A leaf of a closed room of which less is seen lies in part under something.
 const OPEN: f64 = 0.8;
-/// After so many rounds of scaling, or when only this much is missing anywhere, the rest is no matter.
+/// After so many rounds of scaling, or when only this much is missing anywhere, the rest is no matter: a few while links change.
 const ROUNDS: usize = 30;
+const FEW_ROUNDS: usize = 4;
 const SLIGHT: f64 = 1e-9;
 
 /// The links of a tree as one operator.
@@ -36,21 +37,26 @@ pub(super) struct Equilibrium<'e> {
 
 impl<'e> Equilibrium<'e> {
     /// `known` is ΣF of the tiles of which it is known: 1 in closed rooms.
-    pub(super) fn new(tiling: &'e Tiling<'e>, links: &'e [Link], known: &[Option<f64>]) -> Equilibrium<'e> {
+    pub(super) fn new(
+        tiling: &'e Tiling<'e>,
+        links: &'e [Link],
+        known: &[Option<f64>],
+        is_last: bool,
+    ) -> Equilibrium<'e> {
         let leaves: Vec<usize> = tiling.leaves().collect();
         let (room_of, first_of) = rooms(tiling, links, &leaves);
         let count = leaves.len();
         let (scales, missing, sums) = (vec![1.0; count], vec![[0.0; 3]; count], Vec::new());
         let mut equilibrium =
             Equilibrium { tiling, links, leaves, scales, missing, sums, room_of, first_of, scaling: 0.0 };
-        equilibrium.close(known);
+        equilibrium.close(known, if is_last { ROUNDS } else { FEW_ROUNDS });
         equilibrium
     }
 
     /// Scales what the leaves exchange until ΣF is what it is known to be; in closed rooms what remains goes to their own light.
-    fn close(&mut self, known: &[Option<f64>]) {
+    fn close(&mut self, known: &[Option<f64>], rounds: usize) {
         let even = vec![[1.0, 0.0, 0.0]; self.leaves.len()];
-        for round in 0..ROUNDS {
+        for round in 0..rounds {
             let mut largest = 0.0f64;
             for (leaf, sums) in self.receive(&even).iter().enumerate() {
                 let right = known[self.leaves[leaf]].filter(|right| sums[0] > OPEN * right);
@@ -210,7 +216,7 @@ pub(super) fn largest(light: &[Linear]) -> f64 {
 fn rooms(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let patches = tiling.scene.patches.len();
     let mut groups = UnionFind::new(patches);
-    for link in links.iter().filter(|link| link.transfer.exchange[0] > 0.0) {
+    for link in links.iter().filter(|link| link.exchange[0] > 0.0) {
         let [one, other] = link.ends.map(|end| tiling.tiles[end].patch);
         groups.join(one, other);
     }

@@ -34,7 +34,7 @@ pub(super) fn gather(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear]) -> Ve
     let mut received = vec![[0.0; 3]; sent.len()];
     for link in links {
         let [one, other] = link.ends;
-        let g = &link.transfer.exchange;
+        let g = &link.exchange;
         let (from, back) = (sent[other], sent[one]);
         for k in 0..3 {
             received[one][k] += g[3 * k] * from[0] + g[3 * k + 1] * from[1] + g[3 * k + 2] * from[2];

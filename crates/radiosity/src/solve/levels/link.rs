@@ -13,6 +13,8 @@ pub(super) struct Candidate {
     pub(super) among: Arc<[u32]>,
     /// What share may be seen though nothing is: it halves with each cut of a pair that does not see each other.
     pub(super) unseen: f64,
+    /// Which pair of whole tiles they are parts of.
+    pub(super) pair: usize,
 }
 
 /// Two tiles that exchange light as a whole, both ways.
@@ -22,14 +24,31 @@ pub(super) struct Link {
     /// What may stand between them.
     pub(super) among: Arc<[u32]>,
     unseen: f64,
+    /// Which pair of whole tiles they are parts of.
+    pub(super) pair: usize,
+    /// As measured.
     pub(super) transfer: Arc<Transfer>,
+    /// What passes: as measured, or by what all links of the pair are known to exchange.
+    pub(super) exchange: [f64; 9],
 }
 
 impl Link {
     /// The link of a candidate; nothing where no light can pass.
     pub(super) fn new(candidate: &Candidate, among: Arc<[u32]>, transfer: Arc<Transfer>) -> Option<Link> {
-        let link = Link { ends: candidate.ends, among, unseen: candidate.unseen, transfer };
+        let Candidate { ends, unseen, pair, .. } = *candidate;
+        let exchange = transfer.exchange;
+        let link = Link { ends, among, unseen, pair, transfer, exchange };
         (link.transfer.exchange[0] > 0.0 || link.error() > 0.0).then_some(link)
+    }
+
+    /// Carries so much of constant light, and of other light in proportion.
+    pub(super) fn carry(&mut self, whole: f64) {
+        let measured = self.transfer.exchange;
+        self.exchange = if measured[0] > 0.0 {
+            measured.map(|g| g * (whole / measured[0]).max(0.0))
+        } else {
+            [whole.max(0.0), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        };
     }
 
     /// The estimated error of the light that passes, for a radiosity of 1.
@@ -48,7 +67,7 @@ impl Link {
         halves.map(|half| {
             let mut ends = self.ends;
             ends[end] = half;
-            Candidate { ends, among: self.among.clone(), unseen }
+            Candidate { ends, among: self.among.clone(), unseen, pair: self.pair }
         })
     }
 }

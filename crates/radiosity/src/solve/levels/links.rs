@@ -3,6 +3,7 @@ use super::equilibrium::Equilibrium;
 use super::link::{Candidate, Link};
 use super::measure::{between, faces, measure};
 use super::tiling::{Tile, Tiling};
+use super::totals::Totals;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::solve::{fingerprint, state::State, workers::attempt};
@@ -39,6 +40,7 @@ pub(super) struct Links {
     shapes: u64,
     /// Which tiles are in closed rooms.
     enclosed: Vec<Enclosed>,
+    totals: Totals,
 }
 
 impl Links {
@@ -55,12 +57,17 @@ impl Links {
         if foreign {
             Err(Error::Foreign)
         } else {
-            Ok(Links { all: Vec::new(), shapes, enclosed: Vec::new() })
+            Ok(Links { all: Vec::new(), shapes, enclosed: Vec::new(), totals: Totals::default() })
         }
     }
 
-    /// Takes the links of whole patches, and finds which of these are in closed rooms.
-    pub(super) fn open(&mut self, tiling: &Tiling<'_>, links: Vec<Link>) {
+    /// The tiles that are linked.
+    pub(super) fn ends(&self) -> Vec<[usize; 2]> {
+        self.all.iter().map(|link| link.ends).collect()
+    }
+
+    /// Takes the links of whole tiles, and finds what they exchange in all and which of them are in closed rooms.
+    pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>, error: f64) {
         let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
         for link in &links {
             for end in [0, 1] {
@@ -69,7 +76,18 @@ impl Links {
             }
         }
         self.enclosed = seen.iter().map(Enclosed::by).collect();
+        links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
+        self.totals = Totals::of(tiling, &links, error);
+        self.totals.share(&mut links);
         self.all = links;
+    }
+
+    /// Replaces those of the links that are `gone` by others.
+    pub(super) fn replace(&mut self, gone: &[bool], by: Vec<Link>) {
+        let mut gone = gone.iter();
+        self.all.retain(|_| !gone.next().is_some_and(|is_gone| *is_gone));
+        self.all.extend(by);
+        self.totals.share(&mut self.all);
     }
 
     /// Finds which of the tiles since the last time are in closed rooms: those of which a part is are looked at again when they are cut.
@@ -126,17 +144,17 @@ impl Links {
         Ok(Link::new(candidate, among, transfer))
     }
 
-    /// The light of all leaves at once.
-    pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>) -> Equilibrium<'e> {
+    /// The light of all leaves at once; rooms are made to close better at last.
+    pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>, is_last: bool) -> Equilibrium<'e> {
         let is_closed = |tile| self.enclosed.get(tile) == Some(&Enclosed::Wholly);
         let known: Vec<Option<f64>> =
             (0..tiling.tiles.len()).map(|tile| is_closed(tile).then_some(1.0)).collect();
-        Equilibrium::new(tiling, &self.all, &known)
+        Equilibrium::new(tiling, &self.all, &known, is_last)
     }
 
     /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.
     pub(super) fn refuse_endless(&self, tiling: &Tiling<'_>) -> Result<(), Error> {
-        let equilibrium = self.equilibrium(tiling);
+        let equilibrium = self.equilibrium(tiling, false);
         let patches = &tiling.scene.patches;
         let rooms = equilibrium.patches_of_rooms();
         for room in rooms {

@@ -1,4 +1,5 @@
 //! Measuring what two tiles exchange.
+use super::nearby::correction;
 use super::shaft::Shaft;
 use super::tile::{INNER, OUTER};
 use super::tiling::{Tile, Tiling};
@@ -8,6 +9,9 @@ use glam::DVec3;
 
 /// How many curvatures a mean over five points may be off by.
 const CUBATURE: f64 = 0.3;
+
+/// What share of that is left when the mean is exact, and only how it climbs is not.
+const SLOPES: f64 = 0.2;
 
 /// What reaches less than this share of the scene's size into a shaft hides nothing that counts.
 const SLIGHT: f64 = 1e-9;
@@ -48,15 +52,21 @@ pub(super) fn measure(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u3
     let [at_first, at_second] = [&first, &second].map(|view| view.bend[0] + view.bend[1]);
     let is_dark = [&first, &second].map(|view| view.seen.iter().all(|factor| *factor == 0.0));
     let from_second = !is_dark[1] && (is_dark[0] || at_second < at_first);
-    let (exchange, bend) =
+    let (mut exchange, bend) =
         if from_second { (transposed(second.exchange), at_second) } else { (first.exchange, at_first) };
     let gap = (first.exchange[0] - second.exchange[0]).abs();
+    let mut error = gap.min(CUBATURE * bend);
+    let ends = if from_second { [other, one] } else { [one, other] };
+    if let Some(times) = correction(ends, exchange[0], bend) {
+        exchange = exchange.map(|g| g * times);
+        error *= if among.is_empty() { SLOPES } else { 1.0 };
+    }
     let may_be_seen = is_dark == [true; 2] && !among.is_empty();
     Transfer {
         exchange: if exchange[0] > 0.0 { exchange } else { [0.0; 9] },
         bend: [first.bend, second.bend],
         gap,
-        error: gap.min(CUBATURE * bend),
+        error,
         from_second,
         open: if may_be_seen { one.area * unoccluded(&one.points[0], &other.polygon).value } else { 0.0 },
         seen: [first.seen, second.seen],

@@ -4,6 +4,7 @@
 //! output        the light of the leaves on a mesh
 //! rounds        rounds: link, solve, refine where the budget of a patch is exceeded
 //! links         all links of a run, by all threads, and what the state knows of them
+//! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
@@ -11,6 +12,7 @@
 //! flow          light up the tree, across the links, and down
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
+//! nearby        the mean over tiles that touch
 //! transfer      the numbers of that
 //! shaft         what can stand between two tiles
 //! tiling        the tree
@@ -28,9 +30,11 @@ mod gradients;
 mod link;
 mod links;
 mod measure;
+mod nearby;
 mod output;
 pub(super) mod rounds;
 mod shaft;
 mod tile;
 mod tiling;
+mod totals;
 pub(super) mod transfer;

@@ -10,7 +10,8 @@ use super::output::{LeafLight, solution};
 use super::tiling::Tiling;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::solve::{options::Options, progress::Progress, solution::Solution, state::State};
+use crate::solve::progress::{LinkedTiles, Moment, Progress};
+use crate::solve::{options::Options, solution::Solution, state::State};
 use std::{ops::ControlFlow, time::Instant};
 
 /// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
@@ -32,6 +33,8 @@ struct Levels<'l> {
     links: Links,
     /// What each tile sends, band by band.
     sent: Vec<Vec<Linear>>,
+    /// How often the light was bettered.
+    rounds: usize,
     products: usize,
     /// The light as of the last round.
     light: LeafLight,
@@ -52,10 +55,11 @@ pub(crate) fn solve(
     let emitted =
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
-    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling), &sent);
-    let mut levels = Levels { options, start, tiling, links, sent, products: 0, light, watch, fault: None };
+    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent);
+    let mut levels =
+        Levels { options, start, tiling, links, sent, rounds: 0, products: 0, light, watch, fault: None };
     let converged = levels.run(state)?;
-    levels.finish(converged)
+    levels.finish(converged, state)
 }
 
 impl Levels<'_> {
@@ -65,13 +69,13 @@ impl Levels<'_> {
         let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
         let all = self.tiling.surfaces();
         let candidates: Vec<Candidate> =
-            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN }).collect();
+            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0 }).collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
-        self.links.open(&self.tiling, links);
+        self.links.open(&self.tiling, links, self.options.error);
         self.links.refuse_endless(&self.tiling)?;
         for times in COARSE {
             loop {
-                let lights = self.settle(FEW);
+                let lights = self.settle(FEW, false);
                 match self.refine(&lights, times * SUM * self.options.error, state)? {
                     None => return Ok(false),
                     Some(false) => break,
@@ -103,15 +107,18 @@ impl Levels<'_> {
 
     /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
     fn report(&mut self, state: &State) -> ControlFlow<()> {
-        let Levels { tiling, links, sent, products, start, watch, light, .. } = self;
+        let Levels { tiling, links, sent, rounds, products, start, watch, light, .. } = self;
         let (tiling, links, sent): (&Tiling<'_>, &Links, _) = (tiling, links, &*sent);
         let seconds = start.elapsed().as_secs_f64();
         let so_far = || {
-            let equilibrium = links.equilibrium(tiling);
+            let equilibrium = links.equilibrium(tiling, true);
             let light = LeafLight::of(tiling, &equilibrium, sent);
             Solution { products: *products, seconds, ..solution(tiling, &equilibrium, &light) }
         };
         watch(&Progress {
+            moment: Moment::Round(*rounds),
+            open: &Vec::new,
+            tiles: &|| LinkedTiles { tiles: tiling.outlines(), links: links.ends() },
             shots: 0,
             products: *products,
             unshot: light.unshot(),
@@ -126,9 +133,9 @@ impl Levels<'_> {
     }
 
     /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
-    fn settle(&mut self, most: usize) -> Vec<BandLight> {
+    fn settle(&mut self, most: usize, is_last: bool) -> Vec<BandLight> {
         self.links.enclose(&self.tiling);
-        let equilibrium = self.links.equilibrium(&self.tiling);
+        let equilibrium = self.links.equilibrium(&self.tiling, is_last);
         for (band, sent) in self.sent.iter_mut().enumerate() {
             let emitted: Vec<Linear> = equilibrium
                 .leaves()
@@ -143,6 +150,7 @@ impl Levels<'_> {
             *sent = equilibrium.spread(&light);
         }
         self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent);
+        self.rounds += 1;
         let lit = (0..self.sent.len()).filter(|&band| largest(&self.sent[band]) > 0.0);
         let light = |band: usize| {
             let received = equilibrium.spread(&self.light.received[band]);
@@ -163,9 +171,7 @@ impl Levels<'_> {
             }
         }
         let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
-        let mut gone = gone.into_iter();
-        self.links.all.retain(|_| !gone.next().unwrap_or(false));
-        self.links.all.extend(links);
+        self.links.replace(&gone, links);
         Ok(Some(!candidates.is_empty()))
     }
 
@@ -188,10 +194,14 @@ impl Levels<'_> {
     }
 
     /// The solution, with an estimate of its error.
-    fn finish(mut self, converged: bool) -> Result<Solution, Error> {
+    fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
         let most = if converged { ALL } else { 0 };
-        let lights = self.settle(most);
-        let equilibrium = self.links.equilibrium(&self.tiling);
+        let lights = self.settle(most, true);
+        if self.options.record {
+            // The run is over: there is nothing to stop.
+            let _ = self.report(state);
+        }
+        let equilibrium = self.links.equilibrium(&self.tiling, true);
         let estimate = estimate(&self.tiling, &self.links.all, &equilibrium, &lights, self.sent.len());
         Ok(Solution {
             estimate: Some(estimate),

@@ -197,6 +197,12 @@ impl<'s> Tiling<'s> {
         ends.map(|end| self.tiles[end].key)
     }
 
+    /// The corners of all tiles.
+    pub(super) fn outlines(&self) -> Vec<Vec<DVec3>> {
+        let corners = |tile: &Tile| tile.outline.corners.iter().map(|corner| corner.1).collect();
+        self.tiles.iter().map(corners).collect()
+    }
+
     /// The emitted radiosity of a tile.
     pub(super) fn emittance(&self, tile: usize, band: usize) -> f64 {
         PI * self.scene.patches[self.tiles[tile].patch].emission[band]

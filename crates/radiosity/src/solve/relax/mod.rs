@@ -1,12 +1,14 @@
 //! The matrix of all pieces, solved at once: rounds of solving and splitting.
 //!
 //! ```text
+//! bounces             what is known of the solution, reflection by reflection, for whoever watches
 //! cg, gmres, gauss    three ways to solve
 //! gather              from what the pieces send to what every element receives
 //! balance             one band's light: x = e + ρ F x
 //! exchange            mean form factors between pieces, made to close
 //! ```
 mod balance;
+mod bounces;
 mod cg;
 mod exchange;
 mod gather;
@@ -46,7 +48,9 @@ pub(super) fn relax(run: &mut Run<'_>, method: Method) -> Result<bool, Error> {
             return Ok(false);
         }
         if method == Method::Matrix || !run.shooters.split_all(&run.light, run.options.spread) {
-            return Ok(run.is_solved());
+            let solved = run.is_solved();
+            bounces::show(run, &exchange, &columns);
+            return Ok(solved);
         }
     }
 }
