@@ -1,7 +1,7 @@
 //! Arrays of multipolygons as one array of vertices and three of offsets: where the rings begin in the vertices, the polygons in the
 //! rings, and the features in the polygons. The layout is that of GeoArrow and of `shapely.to_ragged_array`.
 use crate::error::{GeometryError, of_feature};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, ToPyArray};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use polycsg::{Csg, DVec2, FillRule, Region};
 use pyo3::prelude::*;
 
