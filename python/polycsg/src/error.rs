@@ -2,6 +2,7 @@
 use polycsg::Error;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::{PyErr, create_exception};
+use std::fmt::Display;
 
 create_exception!(
     polycsg,
@@ -10,13 +11,16 @@ create_exception!(
     "A geometry that cannot be read: the message names the feature, the ring and the vertex."
 );
 
-/// An error of the feature with a number.
-pub(crate) fn of_feature(feature: usize, error: Error) -> PyErr {
-    match error {
-        Error::NonFinite { ring, vertex } => GeometryError::new_err(format!(
-            "feature {feature}, ring {ring}, vertex {vertex}: a coordinate is NaN or infinite; give finite numbers"
-        )),
-        Error::Stopped => PyKeyboardInterrupt::new_err(()),
-        other => GeometryError::new_err(format!("feature {feature}: {other}")),
+/// An error of a feature, which may be one of several operands'.
+pub(crate) fn of_feature(operand: Option<usize>, feature: usize, error: Error) -> PyErr {
+    if error == Error::Stopped {
+        return PyKeyboardInterrupt::new_err(());
     }
+    let operand = operand.map_or(String::new(), |operand| format!("operand {operand}, "));
+    GeometryError::new_err(format!("{operand}feature {feature}, {error}"))
+}
+
+/// An error in how geometries are written.
+pub(crate) fn unreadable(what: impl Display) -> PyErr {
+    GeometryError::new_err(what.to_string())
 }

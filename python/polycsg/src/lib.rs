@@ -1,12 +1,19 @@
-//! What the Python package `polycsg` calls: Booleans of arrays of polygons in ragged form.
+//! What the Python package `polycsg` calls: Booleans of arrays of polygons.
 //!
-//! `ragged` reads and writes arrays, `overlay`, `alone` and `prepared` compute, `run` lets go of the interpreter meanwhile.
+//! `input` takes numpy arrays, `held` Arrow and WKB; `ragged` reads both, `built` makes results; `expression`, `alone`, `validity` and
+//! `prepared` compute; `run` lets go of the interpreter meanwhile.
 mod alone;
+mod arrow;
+mod built;
 mod error;
-mod overlay;
+mod expression;
+mod held;
+mod input;
 mod prepared;
 mod ragged;
 mod run;
+mod validity;
+mod wkb;
 
 use pyo3::prelude::*;
 
@@ -15,9 +22,17 @@ mod _polycsg {
     #[pymodule_export]
     use crate::alone::{areas, repaired, triangles, united};
     #[pymodule_export]
+    use crate::arrow::{of_arrow, to_arrow};
+    #[pymodule_export]
     use crate::error::GeometryError;
     #[pymodule_export]
-    use crate::overlay::{evaluated, overlay};
+    use crate::expression::evaluated;
+    #[pymodule_export]
+    use crate::held::HeldFeatures;
     #[pymodule_export]
     use crate::prepared::Prepared;
+    #[pymodule_export]
+    use crate::validity::flaws;
+    #[pymodule_export]
+    use crate::wkb::{of_wkb, to_wkb};
 }

@@ -7,9 +7,14 @@ Every function takes one geometry or an array of them, in any of these forms:
 
 - a :class:`Region` or :class:`Regions` of this package;
 - shapely geometries, alone, in lists and numpy arrays, and GeoSeries (polygons and multipolygons);
-- anything with ``__geo_interface__``;
-- a numpy array (n, 2): one ring;
-- the pair ``(coordinates, offsets)`` of :func:`shapely.to_ragged_array`, read without a copy.
+- a numpy array (n, 2) or a list of pairs: one ring; a numpy array (k, n, 2): k of them;
+- ``(coordinates, offsets)`` of :func:`shapely.to_ragged_array`, and GeoArrow by ``__arrow_c_array__`` or ``__arrow_c_stream__``;
+- well-known binary, as bytes;
+- anything with ``__geo_interface__``, and GeoJSON as dictionaries;
+- lists and arrays of these, None where one is missing.
+
+Doubles in one piece, offsets of 32 or 64 bits, and Arrow arrays of one chunk are read where they are, without a copy. Z and M are
+left out.
 
 Single geometries give a :class:`Region`, arrays give :class:`Regions`.
 
@@ -28,6 +33,8 @@ from ._functions import (
     difference,
     evaluate,
     intersection,
+    is_valid,
+    is_valid_reason,
     locate,
     make_valid,
     prepare,
@@ -50,6 +57,8 @@ __all__ = [
     "difference",
     "evaluate",
     "intersection",
+    "is_valid",
+    "is_valid_reason",
     "locate",
     "make_valid",
     "prepare",

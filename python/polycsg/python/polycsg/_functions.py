@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias, overload
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -11,8 +12,8 @@ from . import _polycsg
 from ._expression import Csg
 from ._polycsg import GeometryError
 from ._prepared import PreparedRegion
-from ._read import Layer, read
-from ._regions import Arrays, Region, Regions
+from ._read import Features, Layer, read
+from ._regions import Arrays, Frame, Region, Regions
 
 #: Which points rings enclose: those that an odd number of them goes around; those around which the windings do not add to 0; or add
 #: to more than 0.
@@ -27,7 +28,7 @@ def union(a: object, b: object, *, fill: Fill = "evenodd") -> Region | Regions:
     >>> union(square, square + 1).area
     7.0
     """
-    return _overlay("union", a, b, fill)
+    return evaluate(Csg(a) | Csg(b), fill=fill)
 
 
 def intersection(a: object, b: object, *, fill: Fill = "evenodd") -> Region | Regions:
@@ -38,7 +39,7 @@ def intersection(a: object, b: object, *, fill: Fill = "evenodd") -> Region | Re
     >>> intersection([square, square + 9], square + 1).area
     array([1., 0.])
     """
-    return _overlay("intersection", a, b, fill)
+    return evaluate(Csg(a) & Csg(b), fill=fill)
 
 
 def difference(a: object, b: object, *, fill: Fill = "evenodd") -> Region | Regions:
@@ -49,7 +50,7 @@ def difference(a: object, b: object, *, fill: Fill = "evenodd") -> Region | Regi
     >>> difference(square, square + 1).area
     3.0
     """
-    return _overlay("difference", a, b, fill)
+    return evaluate(Csg(a) - Csg(b), fill=fill)
 
 
 def symmetric_difference(a: object, b: object, *, fill: Fill = "evenodd") -> Region | Regions:
@@ -60,23 +61,11 @@ def symmetric_difference(a: object, b: object, *, fill: Fill = "evenodd") -> Reg
     >>> symmetric_difference(square, square + 1).area
     6.0
     """
-    return _overlay("symmetric_difference", a, b, fill)
+    return evaluate(Csg(a) ^ Csg(b), fill=fill)
 
 
-def _overlay(operation: str, a: object, b: object, fill: Fill) -> Region | Regions:
-    one, other = read(a), read(b)
-    arrays = _polycsg.overlay(operation, one.arrays, other.arrays, fill)
-    if one.is_single and other.is_single:
-        return Region(arrays)
-    missing = [layer.missing for layer in (one, other) if layer.missing is not None]
-    if not missing:
-        return Regions(arrays)
-    count = len(arrays[3]) - 1
-    return Regions(arrays, np.logical_or.reduce([np.broadcast_to(mask, count) for mask in missing]))
-
-
-def evaluate(expression: Csg, *, fill: Fill = "evenodd") -> Region:
-    """The region of an expression of single geometries, found in one arrangement: nothing is rounded in between.
+def evaluate(expression: Csg, *, fill: Fill = "evenodd") -> Region | Regions:
+    """The region of an expression, found in one arrangement: nothing is rounded in between. With arrays in it, one for each feature.
 
     >>> import numpy as np
     >>> from polycsg import Csg
@@ -85,7 +74,25 @@ def evaluate(expression: Csg, *, fill: Fill = "evenodd") -> Region:
     3.5
     """
     operands, program = expression.postfix()
-    return Region(_polycsg.evaluated([_single(operand) for operand in operands], program, fill))
+    layers = [read(operand) for operand in operands]
+    arrays = _polycsg.evaluated([layer.features for layer in layers], program, fill)
+    if all(layer.is_single for layer in layers):
+        return Region(arrays)
+    count = len(arrays[3]) - 1
+    masks = [np.broadcast_to(layer.missing, count) for layer in layers if layer.missing is not None]
+    return Regions(arrays, np.logical_or.reduce(masks) if masks else None, _frame(layers, count))
+
+
+def _frame(layers: Sequence[Layer], count: int) -> Frame | None:
+    """What all layers have in common: their index and their coordinates' system."""
+    frames = [layer.frame for layer in layers if layer.frame is not None]
+    systems = [frame.crs for frame in frames if frame.crs is not None]
+    if any(crs != systems[0] for crs in systems):
+        raise GeometryError("the coordinates' systems differ; convert one by to_crs")
+    indexes = [frame.index for frame in frames if frame.index is not None and len(frame.index) == count]
+    if any(not index.equals(indexes[0]) for index in indexes):
+        raise GeometryError("the indexes differ; align one with the other, or drop both by reset_index")
+    return Frame(indexes[0] if indexes else None, systems[0] if systems else None) if frames else None
 
 
 def unary_union(geometries: object, *, fill: Fill = "evenodd") -> Region:
@@ -96,13 +103,9 @@ def unary_union(geometries: object, *, fill: Fill = "evenodd") -> Region:
     >>> unary_union([square, square + 1, square + 2]).area
     10.0
     """
-    return Region(_polycsg.united(read(geometries).arrays, fill))
+    return Region(_polycsg.united(read(geometries).features, fill))
 
 
-@overload
-def make_valid(geometry: Region, *, fill: Fill = "evenodd") -> Region: ...
-@overload
-def make_valid(geometry: object, *, fill: Fill = "evenodd") -> Region | Regions: ...
 def make_valid(geometry: object, *, fill: Fill = "evenodd") -> Region | Regions:
     """What the rings enclose, as valid polygons.
 
@@ -112,8 +115,40 @@ def make_valid(geometry: object, *, fill: Fill = "evenodd") -> Region | Regions:
     <polycsg.Region of 2 polygons, 6 vertices>
     """
     layer = read(geometry)
-    arrays = _polycsg.repaired(layer.arrays, fill)
-    return Region(arrays) if layer.is_single else Regions(arrays, layer.missing)
+    return _given(_polycsg.repaired(layer.features, fill), layer)
+
+
+def _given(arrays: Arrays, layer: Layer) -> Region | Regions:
+    return Region(arrays) if layer.is_single else Regions(arrays, layer.missing, layer.frame)
+
+
+def is_valid(geometry: object) -> bool | npt.NDArray[np.bool_]:
+    """Whether geometries are valid as they are, in the sense of OGC's simple features (:func:`shapely.is_valid` asks the same),
+    decided exactly. A ring may be closed or not, and run either way. A missing geometry is not valid.
+
+    >>> import numpy as np
+    >>> is_valid(np.array([[0, 0], [2, 2], [2, 0], [0, 2]]))
+    False
+    """
+    layer = read(geometry)
+    valid = np.array([flaw is None for flaw in _polycsg.flaws(layer.features)], dtype=bool)
+    if layer.missing is not None:
+        valid &= ~layer.missing
+    return bool(valid[0]) if layer.is_single else valid
+
+
+def is_valid_reason(geometry: object) -> str | npt.NDArray[np.object_]:
+    """Why a geometry is not valid, where: rings and vertices are counted from 0 through a geometry. "valid" if it is.
+
+    >>> import numpy as np
+    >>> is_valid_reason(np.array([[0, 0], [2, 2], [2, 0], [0, 2]]))
+    'ring 0, vertex 0: the edge from there crosses or covers another edge'
+    """
+    layer = read(geometry)
+    reasons = np.array([flaw or "valid" for flaw in _polycsg.flaws(layer.features)], dtype=object)
+    if layer.missing is not None:
+        reasons[layer.missing] = "missing"
+    return str(reasons[0]) if layer.is_single else reasons
 
 
 def area(geometry: object, *, fill: Fill = "evenodd") -> float | npt.NDArray[np.float64]:
@@ -124,12 +159,10 @@ def area(geometry: object, *, fill: Fill = "evenodd") -> float | npt.NDArray[np.
     4.0
     """
     layer = read(geometry)
-    areas = _polycsg.areas(layer.arrays, fill)
-    if layer.is_single:
-        return float(areas[0])
+    areas = _polycsg.areas(layer.features, fill)
     if layer.missing is not None:
         areas[layer.missing] = np.nan
-    return areas
+    return float(areas[0]) if layer.is_single else areas
 
 
 def locate(geometry: object, points: npt.ArrayLike, *, fill: Fill = "evenodd") -> npt.NDArray[np.int8]:
@@ -164,11 +197,11 @@ def triangulate(
     >>> triangles.shape, owners
     ((2, 3, 2), array([0, 0]))
     """
-    return _polycsg.triangles(read(geometry).arrays, fill)
+    return _polycsg.triangles(read(geometry).features, fill)
 
 
-def _single(geometry: object) -> Arrays:
-    layer: Layer = read(geometry)
-    if not layer.is_single and len(layer.arrays[3]) != 2:
-        raise GeometryError(f"one geometry is wanted, not {len(layer.arrays[3]) - 1}")
-    return layer.arrays
+def _single(geometry: object) -> Features:
+    layer = read(geometry)
+    if layer.size() != 1 or layer.missing is not None:
+        raise GeometryError(f"one geometry is wanted, not {layer.size()}; unary_union makes one of many")
+    return layer.features

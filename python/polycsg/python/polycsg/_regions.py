@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -11,11 +12,20 @@ import numpy.typing as npt
 from . import _polycsg
 
 if TYPE_CHECKING:
+    import geopandas
     import shapely
 
 Coordinates: TypeAlias = npt.NDArray[np.float64]
 Offsets: TypeAlias = npt.NDArray[np.int64] | npt.NDArray[np.int32]
 Arrays: TypeAlias = tuple[Coordinates, Offsets, Offsets, Offsets]
+
+
+class Frame(NamedTuple):
+    """What a GeoSeries has beside its geometries."""
+
+    index: Any
+    #: The coordinates' system, as pyproj or PROJJSON has it.
+    crs: Any
 
 
 class Regions:
@@ -26,13 +36,19 @@ class Regions:
     clockwise, and each ends with its first vertex.
     """
 
-    __slots__ = ("_arrays", "_missing")
+    __slots__ = ("_arrays", "_frame", "_missing")
 
-    def __init__(self, arrays: Arrays, missing: npt.NDArray[np.bool_] | None = None) -> None:
+    def __init__(
+        self, arrays: Arrays, missing: npt.NDArray[np.bool_] | None = None, frame: Frame | None = None
+    ) -> None:
         for array in arrays:
             array.flags.writeable = False
         self._arrays = arrays
         self._missing = missing
+        self._frame = frame
+
+    def __reduce__(self) -> tuple[type[Regions], tuple[object, ...]]:
+        return Regions, (self._arrays, self._missing, self._frame)
 
     @property
     def coordinates(self) -> Coordinates:
@@ -94,6 +110,35 @@ class Regions:
         found[self.missing] = None
         return found
 
+    def to_wkb(self) -> list[bytes | None]:
+        """Each region as well-known binary, None where it is missing."""
+        found = _polycsg.to_wkb(self._arrays)
+        return [None if gone else bytes for bytes, gone in zip(found, self.missing, strict=True)]
+
+    def to_geopandas(self) -> geopandas.GeoSeries:
+        """A GeoSeries, with the index and the coordinates' system of the one that the regions were made from."""
+        import geopandas
+
+        frame = self._frame or Frame(None, None)
+        return geopandas.GeoSeries(self.to_shapely(), index=frame.index, crs=frame.crs)
+
+    def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]:
+        """GeoArrow's multipolygons, for whatever reads Arrow."""
+        crs: Any = self._frame.crs if self._frame else None
+        if hasattr(crs, "to_json_dict"):
+            crs = crs.to_json_dict()
+        metadata = json.dumps({"crs": crs, "crs_type": "projjson"}) if crs else None
+        present = None if self._missing is None else ~self._missing
+        return _polycsg.to_arrow(self._arrays, present, metadata, requested_schema)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Regions):
+            return NotImplemented
+        mine, its = (*self._arrays, self.missing), (*other._arrays, other.missing)
+        return all(map(np.array_equal, mine, its))
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         return f"<polycsg.Regions: {len(self)}, with {len(self.coordinates)} vertices>"
 
@@ -107,6 +152,9 @@ class Region:
         for array in arrays:
             array.flags.writeable = False
         self._arrays = arrays
+
+    def __reduce__(self) -> tuple[type[Region], tuple[object, ...]]:
+        return Region, (self._arrays,)
 
     @property
     def area(self) -> float:
@@ -136,9 +184,15 @@ class Region:
 
     def to_shapely(self) -> shapely.Polygon | shapely.MultiPolygon:
         """A shapely polygon, or a multipolygon where there are none or several."""
-        import shapely.geometry
+        import shapely
 
-        return shapely.geometry.shape(self.__geo_interface__)
+        kind = shapely.GeometryType.MULTIPOLYGON
+        whole = shapely.from_ragged_array(kind, self._arrays[0], self._arrays[1:])[0]
+        return whole.geoms[0] if len(whole.geoms) == 1 else whole
+
+    def to_wkb(self) -> bytes:
+        """Well-known binary: a multipolygon."""
+        return _polycsg.to_wkb(self._arrays)[0]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Region):
