@@ -8,7 +8,7 @@ use crate::run::{each, run};
 use exactfloat::orient2d;
 use polycsg::{Csg, FillRule, Region, Scratch};
 use pyo3::prelude::*;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Why each feature is not valid; None where it is.
 #[pyfunction]
@@ -83,12 +83,17 @@ impl<'a> Rings<'a> {
         for edge in expression.boundary(scratch).edges() {
             of_edge[edge.edge].push([edge.start, edge.end].map(|p| p.to_array()));
         }
+        let vertices: HashSet<[u64; 2]> =
+            self.rings.iter().copied().flatten().map(|p| key(plain(*p))).collect();
+        let touches = |start, end, p| vertices.contains(&key(p)) && orient2d(start, end, p) == 0.0;
         let (mut of_edge, mut all) = (of_edge.into_iter(), vec![]);
         for (number, ring) in self.rings.iter().enumerate() {
             let mut found = vec![];
             let ends = ring.iter().cycle().skip(1);
             for (vertex, ((start, end), pieces)) in ring.iter().zip(ends).zip(of_edge.by_ref()).enumerate() {
-                found.extend(chained(plain(*start), plain(*end), pieces).ok_or([number, vertex])?);
+                found.extend(
+                    chained([start, end].map(|p| plain(*p)), pieces, touches).ok_or([number, vertex])?,
+                );
             }
             all.push(found);
         }
@@ -97,7 +102,6 @@ impl<'a> Rings<'a> {
 
     /// What is wrong with the places of rings that only touch one another.
     fn misplaced(&self, pieces: &[Vec<Piece>], region: &Region) -> Option<String> {
-        let key = |[x, y]: [f64; 2]| [x.to_bits(), y.to_bits()];
         let mut owner = HashMap::new();
         for (ring, pieces) in pieces.iter().enumerate() {
             for Piece { start, end } in pieces {
@@ -134,13 +138,21 @@ impl<'a> Rings<'a> {
     }
 }
 
+fn key([x, y]: [f64; 2]) -> [u64; 2] {
+    [x.to_bits(), y.to_bits()]
+}
+
 /// -0.0 reads as 0.0.
 fn plain(p: [f64; 2]) -> [f64; 2] {
     p.map(|x| x + 0.0)
 }
 
 /// The pieces of an edge, in its direction; none unless they make up all of it, and are cut where a vertex touches it.
-fn chained(start: [f64; 2], end: [f64; 2], mut pieces: Vec<[[f64; 2]; 2]>) -> Option<Vec<Piece>> {
+fn chained(
+    [start, end]: [[f64; 2]; 2],
+    mut pieces: Vec<[[f64; 2]; 2]>,
+    touches: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> bool,
+) -> Option<Vec<Piece>> {
     if start == end {
         return Some(vec![]);
     }
@@ -149,7 +161,7 @@ fn chained(start: [f64; 2], end: [f64; 2], mut pieces: Vec<[[f64; 2]; 2]>) -> Op
         let next = pieces.iter().position(|ends| ends.contains(&at))?;
         let [a, b] = pieces.swap_remove(next);
         let to = if a == at { b } else { a };
-        if to != end && orient2d(start, end, to) != 0.0 {
+        if to != end && !touches(start, end, to) {
             return None;
         }
         found.push(Piece { start: at, end: to });
