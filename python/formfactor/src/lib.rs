@@ -21,4 +21,7 @@ mod _formfactor {
     use crate::matrix::Matrix;
     #[pymodule_export]
     use crate::points::{form_factor, unoccluded_complement, visible_part};
+    /// The package's version, on which the bits of results may depend.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
 }

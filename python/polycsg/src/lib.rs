@@ -35,4 +35,7 @@ mod _polycsg {
     use crate::validity::flaws;
     #[pymodule_export]
     use crate::wkb::{of_wkb, to_wkb};
+    /// The package's version, on which the bits of results may depend.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
 }

@@ -43,6 +43,7 @@ from ._functions import (
     unary_union,
     union,
 )
+from ._polycsg import VERSION as __version__
 from ._polycsg import GeometryError
 from ._prepared import PreparedRegion
 from ._regions import Region, Regions
@@ -66,4 +67,5 @@ __all__ = [
     "triangulate",
     "unary_union",
     "union",
+    "__version__",
 ]

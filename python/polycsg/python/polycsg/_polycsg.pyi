@@ -3,6 +3,8 @@ import numpy.typing as npt
 
 from ._regions import Arrays
 
+VERSION: str
+
 class GeometryError(ValueError):
     """A geometry that cannot be read: the message names the feature, the ring and the vertex."""
 
