@@ -6,6 +6,7 @@ use crate::input::Features;
 use crate::ragged::Ragged;
 use crate::wkb::parsed;
 use arrow_array::cast::AsArray;
+use arrow_array::ffi::{FFI_ArrowArray, FFI_ArrowSchema};
 use arrow_array::types::Float64Type;
 use arrow_array::{
     Array, ArrayRef, FixedSizeListArray, Float64Array, GenericListArray, OffsetSizeTrait, StructArray,
@@ -14,8 +15,7 @@ use arrow_buffer::{NullBuffer, OffsetBuffer, ScalarBuffer};
 use arrow_schema::{DataType, Field, FieldRef};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyTuple};
-use pyo3_arrow::ffi::to_array_pycapsules;
+use pyo3::types::PyCapsule;
 use pyo3_arrow::input::AnyArray;
 use std::sync::Arc;
 
@@ -123,23 +123,26 @@ fn separate(vertices: &StructArray) -> PyResult<ScalarBuffer<f64>> {
     Ok(x.values().iter().zip(y.values()).flat_map(|(x, y)| [*x, *y]).collect::<Vec<f64>>().into())
 }
 
-/// Features as a GeoArrow array of multipolygons, null where `present` says no.
+/// Features as a GeoArrow array of multipolygons, null where `present` says no: capsules of its schema and of itself.
 #[pyfunction]
-#[pyo3(signature = (features, present, metadata, requested_schema))]
 pub(crate) fn to_arrow<'py>(
     py: Python<'py>,
     features: Features<'py>,
     present: Option<PyReadonlyArray1<'py, bool>>,
     metadata: Option<String>,
-    requested_schema: Option<Bound<'py, PyCapsule>>,
-) -> PyResult<Bound<'py, PyTuple>> {
+) -> PyResult<[Bound<'py, PyCapsule>; 2]> {
     let present = present.map(|present| Ok::<_, PyErr>(NullBuffer::from(present.as_slice()?))).transpose()?;
     let array = multipolygons(features.read()?, present)?;
     let name = [(NAME.to_string(), "geoarrow.multipolygon".to_string())];
     let metadata = metadata.map(|metadata| (METADATA.to_string(), metadata));
     let field = Field::new("geometry", array.data_type().clone(), true);
     let field = field.with_metadata(name.into_iter().chain(metadata).collect());
-    to_array_pycapsules(py, Arc::new(field), &array, requested_schema).map_err(PyErr::from)
+    let schema = FFI_ArrowSchema::try_from(&field).map_err(unreadable)?;
+    let array = FFI_ArrowArray::new(&array.to_data());
+    Ok([
+        PyCapsule::new_with_value(py, schema, c"arrow_schema")?,
+        PyCapsule::new_with_value(py, array, c"arrow_array")?,
+    ])
 }
 
 fn multipolygons(features: Ragged<'_>, present: Option<NullBuffer>) -> PyResult<ArrayRef> {

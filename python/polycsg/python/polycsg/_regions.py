@@ -123,13 +123,14 @@ class Regions:
         return geopandas.GeoSeries(self.to_shapely(), index=frame.index, crs=frame.crs)
 
     def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]:
-        """GeoArrow's multipolygons, for whatever reads Arrow."""
+        """GeoArrow's multipolygons, for whatever reads Arrow; of a wish for another schema nothing is heard, as the interface allows."""
         crs: Any = self._frame.crs if self._frame else None
         if hasattr(crs, "to_json_dict"):
             crs = crs.to_json_dict()
         metadata = json.dumps({"crs": crs, "crs_type": "projjson"}) if crs else None
         present = None if self._missing is None else ~self._missing
-        return _polycsg.to_arrow(self._arrays, present, metadata, requested_schema)
+        schema, array = _polycsg.to_arrow(self._arrays, present, metadata)
+        return schema, array
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Regions):
