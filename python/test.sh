@@ -37,7 +37,7 @@ done
 
 step "source distributions"
 for package in polycsg formfactor; do
-    (cd "$package" && maturin sdist --quiet --out "$out/sources" 2>/dev/null)
+    (cd "$package" && maturin sdist --out "$out/sources" 2>"$out/log" || { cat "$out/log" >&2; exit 1; })
 done
 CARGO_NET_OFFLINE=true pip wheel --quiet --no-build-isolation --no-deps --no-index --wheel-dir "$out/built" "$out"/sources/*.tar.gz
 [ "$(ls "$out/built" | wc -l)" = 2 ] || { echo "a wheel is missing" >&2; exit 1; }
