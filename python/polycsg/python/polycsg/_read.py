@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
@@ -50,7 +51,7 @@ def read(geometry: object) -> Layer:
     if isinstance(geometry, bytes):
         return _of_held(_polycsg.of_wkb([geometry]))._replace(is_single=True)
     if _is_shapely(geometry):
-        return _of_shapely(_objects([geometry]))._replace(is_single=True)
+        return _of_shapely(_objects([geometry]), np.zeros(1, dtype=bool))._replace(is_single=True)
     if hasattr(geometry, "iloc") and hasattr(geometry, "to_numpy"):
         return _of_pandas(geometry)
     if hasattr(geometry, "__arrow_c_array__") or hasattr(geometry, "__arrow_c_stream__"):
@@ -173,19 +174,34 @@ def _integers(offsets: npt.NDArray[Any]) -> Offsets:
     return np.ascontiguousarray(offsets, dtype=np.int64)
 
 
-def _of_shapely(values: npt.NDArray[np.object_]) -> Layer:
+def _of_shapely(values: npt.NDArray[np.object_], missing: npt.NDArray[np.bool_]) -> Layer:
     import shapely
 
-    missing = np.array([_is_missing(value) for value in values], dtype=bool)
     if missing.any():
         values = np.where(missing, shapely.Polygon(), values)
     kinds = shapely.get_type_id(values)
-    others = ~np.isin(kinds, [shapely.GeometryType.POLYGON, shapely.GeometryType.MULTIPOLYGON])
+    are_polygons = kinds == shapely.GeometryType.POLYGON
+    others = ~are_polygons & (kinds != shapely.GeometryType.MULTIPOLYGON)
     if others.any():
         feature = int(np.flatnonzero(others)[0])
         raise GeometryError(f"feature {feature}: a {values[feature].geom_type} has no area; give polygons")
-    _, coordinates, offsets = shapely.to_ragged_array(values, include_z=False)
-    return _of_ragged(coordinates, offsets)._replace(missing=missing if missing.any() else None)
+    if are_polygons.all() and not shapely.get_num_interior_rings(values).any():
+        # The same as below, sooner.
+        rings = _ends([shapely.get_num_coordinates(values)])
+        layer = Layer((doubles(shapely.get_coordinates(values)), rings, None, None))
+    else:
+        layer = _of_ragged(*shapely.to_ragged_array(values, include_z=False)[1:])
+    return layer._replace(missing=missing if missing.any() else None)
+
+
+def _sorted_out(values: npt.NDArray[np.object_]) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+    """Which values are shapely's geometries, and which are missing."""
+    shapely: Any = sys.modules.get("shapely")
+    are_known = shapely.is_geometry(values) if shapely else np.zeros(len(values), dtype=bool)
+    missing = np.zeros(len(values), dtype=bool)
+    for place in np.flatnonzero(~are_known):
+        missing[place] = _is_missing(values[place])
+    return are_known, missing
 
 
 def _of_pandas(values: Any) -> Layer:
@@ -201,10 +217,10 @@ def _of_pandas(values: Any) -> Layer:
 def _of_objects(values: npt.NDArray[np.object_]) -> Layer:
     if values.ndim != 1:
         raise GeometryError(f"an array of geometries has one dimension, not {values.ndim}")
-    missing = np.array([_is_missing(value) for value in values], dtype=bool)
+    are_known, missing = _sorted_out(values)
+    if are_known.any() and (are_known | missing).all():
+        return _of_shapely(values, missing)
     present = values[~missing]
-    if len(present) and all(map(_is_shapely, present)):
-        return _of_shapely(values)
     if len(present) and all(isinstance(value, bytes) for value in present):
         whole: Any = [None if is_missing else value for value, is_missing in zip(values, missing, strict=True)]
         return _of_held(_polycsg.of_wkb(whole))
