@@ -4,6 +4,7 @@ import pickle
 
 import geopandas
 import numpy as np
+import pandas
 import polycsg
 import pyarrow
 import pytest
@@ -27,6 +28,9 @@ class TestRings:
             SQUARE,
             SQUARE.astype(np.float32),
             SQUARE.astype(np.int32),
+            SQUARE.astype(">f8"),
+            SQUARE.astype(np.float16),
+            SQUARE.astype(np.uint64),
             SQUARE.astype(np.int64),
             np.asfortranarray(SQUARE),
             np.repeat(SQUARE, 2, axis=0)[::2],
@@ -207,6 +211,27 @@ class TestInterface:
     def test_ours(self):
         region = polycsg.make_valid(MULTI)
         assert shapely.geometry.shape(region).equals(MULTI)
+
+
+def test_some_of_many():
+    regions = polycsg.make_valid(SERIES)
+    for chosen in (slice(None, None, -1), [2, 0], np.array([True, False, True, False]), np.array([], int)):
+        some = regions[chosen]
+        same(some.area, np.array(AREAS)[chosen])
+        assert some.to_geopandas().dropna().geom_equals(regions.to_geopandas().iloc[chosen].dropna()).all()
+        assert list(some.to_geopandas().index) == list(SERIES.index[chosen])
+    with pytest.raises(IndexError):
+        regions[4]
+    with pytest.raises(IndexError):
+        regions[[0, 9]]
+
+
+def test_missing_values_of_pandas():
+    values = np.array([HOLED, pandas.NA, None, float("nan"), pandas.NaT, MULTI], dtype=object)
+    same(polycsg.area(values), [80, np.nan, np.nan, np.nan, np.nan, 84])
+    same(polycsg.area(pandas.Series(values, index=list("abcdef"))), [80, np.nan, np.nan, np.nan, np.nan, 84])
+    same(polycsg.area([None, None]), [np.nan, np.nan])
+    assert polycsg.unary_union(values).area == 84 and not polycsg.is_valid([None])[0]
 
 
 def test_results_are_pickled():

@@ -57,7 +57,10 @@ def read(geometry: object) -> Layer:
     if hasattr(geometry, "__arrow_c_array__") or hasattr(geometry, "__arrow_c_stream__"):
         return _of_held(_polycsg.of_arrow(geometry))
     if isinstance(geometry, Mapping) or hasattr(geometry, "__geo_interface__"):
-        return _of_interface(geometry)
+        try:
+            return _of_interface(geometry)
+        except (KeyError, IndexError, TypeError) as error:
+            raise GeometryError(f"this is no GeoJSON: {error!r}") from None
     if hasattr(geometry, "__array__"):
         return read(np.asarray(geometry))
     if isinstance(geometry, Iterable) and not isinstance(geometry, str):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -75,24 +75,33 @@ class Regions:
     def __len__(self) -> int:
         return len(self._arrays[3]) - 1
 
-    def __getitem__(self, place: int) -> Region | None:
-        count = len(self)
-        if not -count <= place < count:
-            raise IndexError(f"there are {count} regions, none has the number {place}")
-        place %= count
-        if self._missing is not None and self._missing[place]:
+    @overload
+    def __getitem__(self, place: int) -> Region | None: ...
+    @overload
+    def __getitem__(self, place: slice | npt.NDArray[Any] | list[Any]) -> Regions: ...
+    def __getitem__(self, place: int | slice | npt.NDArray[Any] | list[Any]) -> Region | Regions | None:
+        chosen = np.arange(len(self))[place]
+        if chosen.ndim == 1:
+            missing = None if self._missing is None else self._missing[chosen]
+            frame = self._frame
+            if frame is not None and frame.index is not None:
+                frame = frame._replace(index=frame.index[chosen])
+            return Regions(self._of(chosen), missing, frame)
+        if self._missing is not None and self._missing[chosen]:
             return None
+        return Region(self._of(chosen.reshape(1)))
+
+    def _of(self, places: npt.NDArray[np.int64]) -> Arrays:
+        """The arrays of some of them, in any order."""
         coordinates, rings, polygons, regions = self._arrays
-        first, last = regions[place], regions[place + 1]
-        polygons = polygons[first : last + 1]
-        rings = rings[polygons[0] : polygons[-1] + 1]
-        arrays = (
-            coordinates[rings[0] : rings[-1]],
-            rings - rings[0],
-            polygons - polygons[0],
-            np.array([0, last - first]),
-        )
-        return Region(arrays)
+        found = []
+        for offsets in (regions, polygons, rings):
+            counts = np.diff(offsets)[places]
+            ends = np.concatenate([[0], np.cumsum(counts)])
+            # From where each part begins on, one by one.
+            places = np.repeat(offsets[places] - ends[:-1], counts) + np.arange(ends[-1])
+            found.append(ends)
+        return coordinates[places], found[2], found[1], found[0]
 
     def __iter__(self) -> Iterator[Region | None]:
         return (self[place] for place in range(len(self)))
