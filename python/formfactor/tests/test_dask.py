@@ -8,6 +8,7 @@ import time
 import formfactor.dask
 import numpy as np
 import pytest
+import scipy.sparse
 from formfactor import Enclosure
 
 distributed = pytest.importorskip("distributed")
@@ -22,7 +23,7 @@ def client():
 
 
 def shards(folder):
-    return {path.name: path.stat().st_mtime_ns for path in folder.glob("rows-*.npz")}
+    return {path.name: path.stat().st_mtime_ns for path in folder.glob("*/triangle-*.npz")}
 
 
 @pytest.mark.parametrize("blocks", [1, 2, 7])
@@ -31,7 +32,10 @@ def test_any_blocks(client, room, tmp_path, blocks):
     files = formfactor.dask.matrix(client, scene, tmp_path, blocks=blocks)
     assert len(files) == blocks
     assert formfactor.dask.sha256(files) == scene.matrix().sha256()
-    assert [block.first for block in formfactor.dask.rows(files)] == sorted({int(file.name[7:16]) for file in files})
+    found = list(formfactor.dask.rows(files))
+    assert [block.first for block in found] == formfactor.dask._ends(len(scene), blocks)[:-1]
+    matrix = scipy.sparse.vstack([scipy.sparse.csr_array((block.values, block.columns, block.starts), (len(block.starts) - 1, 60)) for block in found])
+    assert (matrix != scene.matrix().to_scipy()).nnz == 0
 
 
 def test_a_worker_that_is_killed(client, room, tmp_path):
@@ -57,7 +61,7 @@ def test_a_restart(client, room, tmp_path):
     scene = Enclosure(room)
     files = formfactor.dask.matrix(client, scene, tmp_path, blocks=7)
     wanted, before = formfactor.dask.sha256(files), shards(tmp_path)
-    for lost in [*list(tmp_path.glob("rows-*"))[:3], *tmp_path.glob("matrix-*")]:
+    for lost in [*list(tmp_path.glob("*/triangle-*"))[:3], *tmp_path.glob("*/rows-*")]:
         lost.unlink()
     kept = shards(tmp_path)
     assert formfactor.dask.sha256(formfactor.dask.matrix(client, scene, tmp_path, blocks=7)) == wanted

@@ -18,7 +18,7 @@ import numpy as np
 from ._enclosure import Enclosure, Tolerance
 from ._matrix import RowHash
 from ._read import Polygons
-from ._shards import ExchangeRows, Rows, claim, save, shard
+from ._shards import Rows, claim, save
 
 
 def matrix(
@@ -38,43 +38,55 @@ def matrix(
     claim(root, enclosure.fingerprint(tolerance))
     save(root / "scene.npz", enclosure.polygons._asdict())
     ends = _ends(len(enclosure), blocks)
-    spans = list(zip(ends, ends[1:], strict=False))
-    client.gather([client.submit(_find, root, *span, tolerance, pure=False) for span in spans])
-    files = client.gather([client.submit(_put_together, root, *span, spans, pure=False) for span in spans])
-    return [Path(file) for file in files]
+    (root / f"{len(ends) - 1}-blocks").mkdir(exist_ok=True)
+    numbers = range(len(ends) - 1)
+    client.gather([client.submit(_find, root, ends, block, tolerance, pure=False) for block in numbers])
+    files: list[Path] = client.gather([client.submit(_put_together, root, ends, block, pure=False) for block in numbers])
+    return files
 
 
-def _find(root: Path, first: int, last: int, tolerance: float | Tolerance) -> None:
-    """The rows of the upper triangle of one block."""
-    path = shard(root, first, last)
-    if not path.exists():
-        save(path, _scene(root).exchange_rows(first, last, tolerance)._asdict())
+def _find(root: Path, ends: list[int], block: int, tolerance: float | Tolerance) -> None:
+    """The rows of the upper triangle of one block, in parts by the blocks that their columns are of."""
+    path = _file(root, "triangle", ends, block)
+    if path.exists():
+        return
+    found = _scene(root).exchange_rows(ends[block], ends[block + 1], tolerance)
+    entries = np.empty(len(found.to), dtype=_ENTRY)
+    entries["row"] = np.repeat(np.arange(found.first, found.last), np.diff(found.starts))
+    entries["column"], entries["area"], entries["error"] = found.to, found.area, found.error
+    of = np.searchsorted(ends, found.to, side="right") - 1
+    save(path, {str(other): entries[of == other] for other in range(block, len(ends) - 1)})
 
 
-def _put_together(root: Path, first: int, last: int, spans: Sequence[tuple[int, int]]) -> str:
-    """The full rows of one block, from the triangle's rows up to its end."""
-    path = root / f"matrix-{first:09}-{last:09}.npz"
-    if not path.exists():
-        areas = _scene(root).areas
-        parts = [_between(first, last, shard(root, *span)) for span in spans if span[0] < last]
-        row, column, area, error = (np.concatenate(part) for part in zip(*parts, strict=True))
-        order = np.lexsort((column, row))
-        row, column, area, error = row[order], column[order], area[order], error[order]
-        starts = np.searchsorted(row, np.arange(first, last + 1))
-        values = np.clip(area / areas[row], 0.0, 1.0)
-        save(path, Rows(first, starts, column.astype(np.uint32), values, error / areas[row])._asdict())
-    return str(path)
+def _put_together(root: Path, ends: list[int], block: int) -> Path:
+    """The full rows of one block: what it found, and what those before it found with it."""
+    path = _file(root, "rows", ends, block)
+    if path.exists():
+        return path
+    first, last, areas = ends[block], ends[block + 1], _scene(root).areas
+    with np.load(_file(root, "triangle", ends, block), allow_pickle=False) as own:
+        there = np.concatenate([own[part] for part in own.files])
+        back = [own[str(block)]]
+    for before in range(block):
+        with np.load(_file(root, "triangle", ends, before), allow_pickle=False) as other:
+            back.append(other[str(block)])
+    turned = np.concatenate(back)
+    turned["row"], turned["column"] = turned["column"], turned["row"].copy()
+    entries = np.concatenate([there, turned])
+    entries = entries[np.lexsort((entries["column"], entries["row"]))]
+    starts = np.searchsorted(entries["row"], np.arange(first, last + 1))
+    values = np.clip(entries["area"] / areas[entries["row"]], 0.0, 1.0)
+    errors = entries["error"] / areas[entries["row"]]
+    save(path, Rows(first, starts, np.ascontiguousarray(entries["column"]), values, errors)._asdict())
+    return path
 
 
-def _between(first: int, last: int, path: Path) -> tuple[Any, Any, Any, Any]:
-    """What a file has for the rows of a block, in both directions."""
-    found = ExchangeRows.load(path)
-    one = np.repeat(np.arange(found.first, found.last), np.diff(found.starts))
-    other = found.to.astype(np.int64)
-    there, back = ((side >= first) & (side < last) for side in (one, other))
-    chosen = [(one, other), (other, one), (found.area, found.area), (found.error, found.error)]
-    row, column, area, error = (np.concatenate([a[there], b[back]]) for a, b in chosen)
-    return row, column, area, error
+#: What two polygons exchange, 24 bytes.
+_ENTRY = np.dtype([("row", "<u4"), ("column", "<u4"), ("area", "<f8"), ("error", "<f8")])
+
+
+def _file(root: Path, what: str, ends: list[int], block: int) -> Path:
+    return root / f"{len(ends) - 1}-blocks" / f"{what}-{block:06}.npz"
 
 
 @functools.lru_cache(1)
