@@ -4,7 +4,7 @@ use crate::error::{refused, stopped, wrong};
 use crate::points::{Points, points};
 use crate::polygons::{Arrays, polygons};
 use crate::tolerance::{Asked, limits};
-use formfactor::{ExchangeRow, FormFactor};
+use formfactor::{AreaFormFactor, ExchangeRow, FormFactor};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,11 +15,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 #[pyclass(frozen, module = "formfactor._formfactor")]
 pub(crate) struct Enclosure(formfactor::Enclosure);
 
-/// Values and bounds of their errors.
-type Factors<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
-
-/// Rows of exchange areas: where each begins, with which polygons, the areas, and estimates of their errors.
-pub(crate) type Rows<'py> = (
+/// Rows of numbers: where each begins, of which polygons, the numbers, and their errors.
+type Rows<'py> = (
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<f64>>,
@@ -49,34 +46,36 @@ impl Enclosure {
         PyArray1::from_iter(py, normals).reshape([self.0.polygons().len(), 3])
     }
 
-    /// From points to polygons, to all if none are named.
+    /// From points to polygons, to all if none are named: rows of what is not nothing for certain, by places among those named.
     fn rows<'py>(
         &self,
         py: Python<'py>,
         from: Points<'py>,
         to: Option<Vec<usize>>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<Factors<'py>> {
+    ) -> PyResult<Rows<'py>> {
         let from = points(&from, self.0.polygons().len())?;
         let to = self.named(to)?;
         let done = Done::new(from.len());
-        let rows = watched(py, done.reports(progress), |stop| {
+        let rows: Vec<Vec<Entry>> = watched(py, done.reports(progress), |stop| {
             each(
                 from.len(),
                 || (),
                 |_, i| {
-                    let row =
-                        to.iter().map(|id| not_stopped(stop).map(|()| self.0.form_factor(&from[i], *id)));
-                    let row: PyResult<Vec<FormFactor>> = row.collect();
+                    let mut row = vec![];
+                    for (place, id) in (0..).zip(&to) {
+                        not_stopped(stop)?;
+                        let FormFactor { value, error_bound } = self.0.form_factor(&from[i], *id);
+                        if value != 0.0 || error_bound != 0.0 {
+                            row.push((place, value, error_bound));
+                        }
+                    }
                     done.add(1);
-                    row
+                    Ok(row)
                 },
             )
         })?;
-        let column = |number: fn(&FormFactor) -> f64| {
-            PyArray1::from_iter(py, rows.iter().flatten().map(number)).reshape([rows.len(), to.len()])
-        };
-        Ok((column(|factor| factor.value)?, column(|factor| factor.error_bound)?))
+        arrays(py, rows.iter().map(|row| row.iter().copied()))
     }
 
     /// From points to polygons by an approximate method.
@@ -165,9 +164,37 @@ impl Enclosure {
                 },
             )
         })?;
-        arrays(py, &rows)
+        arrays(py, rows.iter().map(|row| row.with.iter().map(|with| (with.to, with.area, with.error))))
+    }
+
+    /// From a polygon to all that it sees.
+    fn area_row<'py>(
+        &self,
+        py: Python<'py>,
+        from: usize,
+        tolerance: Asked,
+        per_pair: Option<u64>,
+    ) -> PyResult<Rows<'py>> {
+        self.named(Some(vec![from]))?;
+        let tolerance = tolerance.tolerance()?;
+        let row = watched(
+            py,
+            |_| Ok(()),
+            |stop| {
+                let is_stopped = || stop.load(Ordering::Relaxed);
+                let row = self.0.area_row(from, tolerance, &limits(per_pair, &is_stopped)).map_err(wrong)?;
+                let entry = |(to, factor): &(usize, AreaFormFactor)| {
+                    Ok((u32::try_from(*to)?, factor.value, factor.error_estimate))
+                };
+                row.ok_or_else(stopped)?.iter().map(entry).collect::<PyResult<Vec<Entry>>>()
+            },
+        )?;
+        arrays(py, std::iter::once(row.iter().copied()))
     }
 }
+
+/// A polygon, a number, and its error.
+type Entry = (u32, f64, f64);
 
 impl Enclosure {
     /// Polygons by their ids, checked; all if none are named.
@@ -181,17 +208,24 @@ impl Enclosure {
     }
 }
 
-fn arrays<'py>(py: Python<'py>, rows: &[ExchangeRow]) -> PyResult<Rows<'py>> {
-    let mut starts = vec![0];
+fn arrays<'py>(
+    py: Python<'py>,
+    rows: impl Iterator<Item = impl Iterator<Item = Entry>>,
+) -> PyResult<Rows<'py>> {
+    let (mut starts, mut columns, mut values, mut errors) = (vec![0], vec![], vec![], vec![]);
     for row in rows {
-        starts.push(starts[starts.len() - 1] + i64::try_from(row.with.len())?);
+        for (column, value, error) in row {
+            columns.push(column);
+            values.push(value);
+            errors.push(error);
+        }
+        starts.push(i64::try_from(columns.len())?);
     }
-    let all = || rows.iter().flat_map(|row| &row.with);
     Ok((
         PyArray1::from_vec(py, starts),
-        PyArray1::from_iter(py, all().map(|exchange| exchange.to)),
-        PyArray1::from_iter(py, all().map(|exchange| exchange.area)),
-        PyArray1::from_iter(py, all().map(|exchange| exchange.error)),
+        PyArray1::from_vec(py, columns),
+        PyArray1::from_vec(py, values),
+        PyArray1::from_vec(py, errors),
     ))
 }
 

@@ -65,6 +65,15 @@ def test_rows_in_any_blocks(room, matrix):
         scene.exchange_rows(0, 61)
 
 
+def test_one_row(room, matrix):
+    row = Enclosure(room).area_row(57)
+    wanted = slice(*matrix.starts[57:59])
+    np.testing.assert_array_equal(row.columns, matrix.columns[wanted])
+    np.testing.assert_allclose(row.values, matrix.values[wanted], rtol=1e-15)
+    with pytest.raises(formfactor.GeometryError, match="none has the number 60"):
+        Enclosure(room).area_row(60)
+
+
 def test_what_is_no_row(room):
     scene = Enclosure(room)
     rows = scene.exchange_rows(0, 2)

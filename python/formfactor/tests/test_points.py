@@ -104,6 +104,17 @@ def test_real_packages():
     assert len(formfactor.Enclosure(pyvista.Box().triangulate())) == 12
 
 
+def test_sparse_rows():
+    room = formfactor.Enclosure([LAMP, BOARD, LAMP + [0, 0, 9]])
+    at = [[0, 0, 0], [0, 0, 1.5], [0, 0, 20]], [0, 0, 1]
+    for to in (None, [2, 0]):
+        full, sparse = room.rows(*at, to=to), room.rows(*at, to=to, sparse=True)
+        assert sparse.values.nnz < full.values.size
+        for one, other in zip(full, sparse):
+            np.testing.assert_array_equal(one, other.toarray())
+        np.testing.assert_allclose(full.sky(), sparse.sky(), rtol=1e-15)
+
+
 def test_owners():
     room = formfactor.Enclosure([LAMP, BOARD])
     on_board = room.rows([[-1, 0, 1]], [0, 0, 1], 1)

@@ -20,7 +20,7 @@ def path(geometry, style):
 
 
 disks = [disk(x, 2 * (x % 2), 1.5) for x in range(5)]
-stars = [star(x, 1, 0.9) for x in range(5)]
+stars = [star(x, 1, 0.6) for x in range(5)]
 left = polycsg.unary_union(disks)
 right = polycsg.evaluate(polycsg.Csg.union(disks) - polycsg.Csg.union(stars))
 outline = 'fill="none" stroke="#888" stroke-width="0.03"'

@@ -15,6 +15,7 @@ counter-clockwise; it receives on its front and hides with both sides. Units are
 
 from ._enclosure import (
     AreaFormFactor,
+    AreaRow,
     Enclosure,
     FormFactor,
     PointRows,
@@ -30,6 +31,7 @@ from ._shards import ExchangeRows
 
 __all__ = [
     "AreaFormFactor",
+    "AreaRow",
     "Closure",
     "Enclosure",
     "ExchangeRows",

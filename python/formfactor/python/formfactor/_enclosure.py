@@ -6,7 +6,7 @@ import hashlib
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -41,16 +41,25 @@ class AreaFormFactor(NamedTuple):
 
 
 class PointRows(NamedTuple):
-    """Form factors from points (rows) to polygons (columns)."""
+    """Form factors from points (rows) to polygons (columns): arrays, or scipy's sparse ones."""
 
-    values: npt.NDArray[np.float64]
+    values: Any
     #: Bounds on the errors.
-    error_bounds: npt.NDArray[np.float64]
+    error_bounds: Any
 
     def sky(self) -> npt.NDArray[np.float64]:
         """What each row lacks of 1: what reaches no front of a polygon, as the sky does above a town of closed buildings."""
-        lacking: npt.NDArray[np.float64] = 1.0 - self.values.sum(axis=1)
-        return np.clip(lacking, 0.0, 1.0)
+        return np.clip(1.0 - np.asarray(self.values.sum(axis=1)), 0.0, 1.0)
+
+
+class AreaRow(NamedTuple):
+    """Form factors from one polygon to those that it sees."""
+
+    #: The numbers of those.
+    columns: npt.NDArray[np.uint32]
+    values: npt.NDArray[np.float64]
+    #: Estimates of the errors.
+    errors: npt.NDArray[np.float64]
 
 
 class Tolerance(NamedTuple):
@@ -164,14 +173,27 @@ class Enclosure:
         owners: npt.ArrayLike | None = None,
         *,
         to: npt.ArrayLike | None = None,
+        sparse: bool = False,
         progress: Progress | None = None,
     ) -> PointRows:
         """Form factors from points (n, 3) with normals (n, 3), or one for all, to polygons, all if none are named.
 
         Name the polygons that points lie on (-1 for none) as ``owners``: those never hide anything, though rounding may have moved a point
-        through its polygon. ``progress`` is called with the number of points done and of all.
+        through its polygon. If ``sparse``, the results are scipy's sparse arrays. ``progress`` is called with the number of points done and of all.
         """
-        return PointRows(*self._enclosure.rows(_points(positions, normals, owners), _ids(to), progress))
+        places = _points(positions, normals, owners)
+        ids = _ids(to)
+        starts, columns, *numbers = self._enclosure.rows(places, ids, progress)
+        shape = (len(starts) - 1, len(self) if ids is None else len(ids))
+        if sparse:
+            from scipy.sparse import csr_array
+
+            return PointRows(*(csr_array((some, columns.astype(np.int64), starts), shape=shape) for some in numbers))
+        full = np.zeros((2, *shape))
+        rows = np.repeat(np.arange(shape[0]), np.diff(starts))
+        for which, some in enumerate(numbers):
+            full[which, rows, columns] = some
+        return PointRows(*full)
 
     def approximate_rows(
         self,
@@ -200,6 +222,13 @@ class Enclosure:
         """The form factor from one polygon to another, past all others. If ``bounded``, its error is a bound that holds, which takes some
         50 times as long. ``evaluations`` is the most that it may take; the error says how far that went."""
         return AreaFormFactor(*self._enclosure.area_form_factor(first, to, _tolerance(tolerance), evaluations, bounded))
+
+    def area_row(
+        self, first: int, tolerance: float | Tolerance = 1e-4, *, evaluations: int | None = None
+    ) -> AreaRow:
+        """The form factors from one polygon to all that it sees: a row of :meth:`matrix`."""
+        _, columns, values, errors = self._enclosure.area_row(first, _tolerance(tolerance), evaluations)
+        return AreaRow(columns, values, errors)
 
     def exchange_rows(
         self,
