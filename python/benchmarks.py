@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The packages beside others, in one run: python python/benchmarks.py [polycsg] [nasty] [formfactor] > python/benchmarks.md
+"""The packages beside others, in one run: python python/benchmarks.py [polycsg] [nasty] [formfactor] >
+python/benchmarks.md
 
-Needs shapely 2 (GEOS), pyviewfactor, and for the maps `npm install --prefix python/target world-atlas@2.0.2`. Times are CPU time of the
-process on one thread (what RAYON_NUM_THREADS=1 leaves of it), the least of several rounds taken by turns.
+Needs shapely 2 (GEOS), pyviewfactor, and for the maps `npm install --prefix python/target world-atlas@2.0.2`. Times
+are CPU time of the process on one thread (what RAYON_NUM_THREADS=1 leaves of it), the least of several rounds taken
+by turns.
 """
 
 import json
@@ -97,7 +99,9 @@ def ragged(shapes):
 
 def beside_shapely():
     print("## polycsg beside shapely\n")
-    print("| workload | vertices | polycsg | shapely | ratio | greatest difference in area |\n| --- | --- | --- | --- | --- | --- |")
+    print(
+        "| workload | vertices | polycsg | shapely | ratio | greatest difference in area |\n| --- | --- | --- | --- | --- | --- |"
+    )
 
     def row(name, shapes, mine, its, area=lambda shape: shape.area):
         vertices = sum(int(shapely.get_num_coordinates(some).sum()) for some in shapes)
@@ -108,19 +112,41 @@ def beside_shapely():
 
     for name, rings in (("parcels", parcels(100)), ("octagons", octagons(10_000))):
         shapes = shapely.polygons(rings)
-        row(f"`unary_union` of 10 000 {name}, from geometries", [shapes], lambda: polycsg.unary_union(shapes), lambda: shapely.union_all(shapes))
+        row(
+            f"`unary_union` of 10 000 {name}, from geometries",
+            [shapes],
+            lambda: polycsg.unary_union(shapes),
+            lambda: shapely.union_all(shapes),
+        )
         given = ragged(shapes)
-        row(f"the same, from ragged arrays", [shapes], lambda: polycsg.unary_union(given), lambda: shapely.union_all(shapes))
+        row(
+            "the same, from ragged arrays",
+            [shapes],
+            lambda: polycsg.unary_union(given),
+            lambda: shapely.union_all(shapes),
+        )
     pairs = [shapely.polygons(outlines(100_000, 100, seed)) for seed in (1, 2)]
     given = [ragged(some) for some in pairs]
     get_area = shapely.area
     for name in ("intersection", "union"):
         ours, theirs = getattr(polycsg, name), getattr(shapely, name)
-        row(f"`{name}` of 1e5 pairs of 100 vertices, from geometries", pairs, lambda: ours(*pairs), lambda: theirs(*pairs), get_area)
+        row(
+            f"`{name}` of 1e5 pairs of 100 vertices, from geometries",
+            pairs,
+            lambda: ours(*pairs),
+            lambda: theirs(*pairs),
+            get_area,
+        )
         row("the same, from ragged arrays", pairs, lambda: ours(*given), lambda: theirs(*pairs), get_area)
     clip = shapely.Polygon(outlines(1, 10_000, 3)[0])
     small = shapely.polygons(octagons(100_000) * 0.006 - 1.9)
-    row("1e5 octagons clipped by one of 10 000 vertices", [small], lambda: polycsg.prepare(clip).clip(small), lambda: shapely.intersection(small, clip), get_area)
+    row(
+        "1e5 octagons clipped by one of 10 000 vertices",
+        [small],
+        lambda: polycsg.prepare(clip).clip(small),
+        lambda: shapely.intersection(small, clip),
+        get_area,
+    )
     if not ATLAS.exists():
         print("\nThe maps are missing: `npm install --prefix python/target world-atlas@2.0.2`.")
         return
@@ -128,9 +154,25 @@ def beside_shapely():
     moved = shapely.transform(land, lambda points: points + [1.0, 0.5])
     for name in ("intersection", "union", "difference"):
         ours, theirs = getattr(polycsg, name), getattr(shapely, name)
-        row(f"`{name}` of Natural Earth's land (1:10m) and itself, shifted", [land, moved], lambda: ours(land[0], moved[0]), lambda: theirs(land[0], moved[0]))
-    row("`unary_union` of its countries", [countries], lambda: polycsg.unary_union(countries), lambda: shapely.union_all(countries))
-    row("its countries less the shifted land", [countries, moved], lambda: polycsg.difference(countries, moved[0]), lambda: shapely.difference(countries, moved[0]), get_area)
+        row(
+            f"`{name}` of Natural Earth's land (1:10m) and itself, shifted",
+            [land, moved],
+            lambda: ours(land[0], moved[0]),
+            lambda: theirs(land[0], moved[0]),
+        )
+    row(
+        "`unary_union` of its countries",
+        [countries],
+        lambda: polycsg.unary_union(countries),
+        lambda: shapely.union_all(countries),
+    )
+    row(
+        "its countries less the shifted land",
+        [countries, moved],
+        lambda: polycsg.difference(countries, moved[0]),
+        lambda: shapely.difference(countries, moved[0]),
+        get_area,
+    )
     print()
 
 
@@ -160,7 +202,9 @@ def exact_area(a, b, keep):
     total, cuts = Fraction(0), sorted(cuts)
     for low, high in zip(cuts, cuts[1:]):
         middle = (low + high) / 2
-        across = sorted((height(edge, middle), edge[2]) for edge in all_edges if edge[0][0] <= low and edge[1][0] >= high)
+        across = sorted(
+            (height(edge, middle), edge[2]) for edge in all_edges if edge[0][0] <= low and edge[1][0] >= high
+        )
         inside, last = [False, False], None
         for at, which in across:
             if last is not None and keep(*inside):
@@ -201,18 +245,24 @@ NASTY = {
     "scale 1e-150": lambda rng: (regular(rng, 6) * 1e-150, regular(rng, 6) * 1e-150),
     "1e-9 beside 1e9": lambda rng: (regular(rng, 6, 1e9), regular(rng, 6, 1e-9)),
     "shared edges": lambda rng: (ring := regular(rng, 8), np.vstack([ring[:4], regular(rng, 3)])),
-    "random walks": lambda rng: (np.cumsum(rng.integers(-2, 3, (12, 2)), axis=0) / 7.0, np.cumsum(rng.integers(-2, 3, (12, 2)), axis=0) / 7.0),
+    "random walks": lambda rng: (
+        np.cumsum(rng.integers(-2, 3, (12, 2)), axis=0) / 7.0,
+        np.cumsum(rng.integers(-2, 3, (12, 2)), axis=0) / 7.0,
+    ),
     "needles": lambda rng: (ring := rng.uniform(-1, 1, (3, 2)) * [1, 1e-13], ring[::-1] + [0, 3e-14]),
 }
 
-#: Kinds whose rings cross themselves. shapely counts edges that cover one another once: only rings that both read alike are taken.
+#: Kinds whose rings cross themselves. shapely counts edges that cover one another once: only rings that both read
+#: alike are taken.
 CROSSING = ("bow-ties", "pentagrams", "small lattices", "shared edges", "random walks")
 
 
 def drawn(name, make, rng):
     while True:
         pair = make(rng)
-        areas = [(exact_area(ring, ring, KEEP["union"]), shapely.make_valid(shapely.Polygon(ring)).area) for ring in pair]
+        areas = [
+            (exact_area(ring, ring, KEEP["union"]), shapely.make_valid(shapely.Polygon(ring)).area) for ring in pair
+        ]
         if name not in CROSSING or all(abs(exact - its) <= 1e-9 * (1 + exact) for exact, its in areas):
             return pair
 
@@ -227,9 +277,13 @@ KEEP = {
 
 def nasty(count=100):
     print(f"## Nasty input: {count} pairs of each kind, 4 operations each\n")
-    print("Wrong is an area off by more than 1e-9 of that of the box around both, and by more than the last bits of coordinates allow, judged by rational numbers. shapely takes what `shapely.make_valid` makes of each ring,")
+    print(
+        "Wrong is an area off by more than 1e-9 of that of the box around both, and by more than the last bits of coordinates allow, judged by rational numbers. shapely takes what `shapely.make_valid` makes of each ring,"
+    )
     print("which is not timed.\n")
-    print("| kind | polycsg: wrong, raised, not valid to shapely | shapely: wrong, raised, not valid |\n| --- | --- | --- |")
+    print(
+        "| kind | polycsg: wrong, raised, not valid to shapely | shapely: wrong, raised, not valid |\n| --- | --- | --- |"
+    )
     for name, make in NASTY.items():
         rng, counts = np.random.default_rng(5), np.zeros((2, 3), int)
         for _ in range(count):
@@ -289,14 +343,16 @@ def room(parts, boxes, seed=3):
 
 
 def beside_pyviewfactor():
-    import pyvista
     import pyviewfactor
+    import pyvista
 
     import formfactor
 
     print("## formfactor beside pyViewFactor\n")
     print("Errors are differences from factors at 1e-7. pyViewFactor sees a pair whole or not at all.\n")
-    print("| surfaces | formfactor, 1e-3 and rows 8e-3 | pyViewFactor by centroids | by all pairs of vertices | greatest error of each | of rows from 1 |\n| --- | --- | --- | --- | --- | --- |")
+    print(
+        "| surfaces | formfactor, 1e-3 and rows 8e-3 | pyViewFactor by centroids | by all pairs of vertices | greatest error of each | of rows from 1 |\n| --- | --- | --- | --- | --- | --- |"
+    )
     for parts, boxes in ((4, 2), (6, 8), (12, 20)):
         quads = room(parts, boxes)
         count = len(quads)
@@ -306,7 +362,9 @@ def beside_pyviewfactor():
         tolerance = formfactor.Tolerance(1e-3, row=8e-3)
 
         def its(strict):
-            return pyviewfactor.compute_viewfactor_matrix(mesh, obstacles=[mesh], strict_obstruction=strict, verbose=False).T
+            return pyviewfactor.compute_viewfactor_matrix(
+                mesh, obstacles=[mesh], strict_obstruction=strict, verbose=False
+            ).T
 
         its(False)  # compiled once
         tasks = [lambda: scene.matrix(tolerance).to_scipy().toarray(), lambda: its(False), lambda: its(True)]
@@ -314,14 +372,19 @@ def beside_pyviewfactor():
         exact = scene.matrix(1e-7).to_scipy().toarray()
         errors = ", ".join(f"{abs(some - exact).max():.1e}" for some in found)
         rows = ", ".join(f"{abs(some.sum(axis=1) - 1).max():.1e}" for some in found)
-        print(f"| {count} | {' | '.join(map(milliseconds, times))} |{' – |' * (3 - len(times))} {errors} | {rows} |", flush=True)
+        print(
+            f"| {count} | {' | '.join(map(milliseconds, times))} |{' – |' * (3 - len(times))} {errors} | {rows} |",
+            flush=True,
+        )
     print()
 
 
 if __name__ == "__main__":
     chosen = sys.argv[1:] or ["polycsg", "nasty", "formfactor"]
     print("# The Python packages beside others\n")
-    print(f"By `{Path(sys.argv[0]).name}`: CPU time on one thread, the least of rounds by turns, on a machine that others used at the same time. Python {sys.version.split()[0]}, shapely {shapely.__version__} (GEOS {shapely.geos_version_string}), numpy {np.__version__}.\n")
+    print(
+        f"By `{Path(sys.argv[0]).name}`: CPU time on one thread, the least of rounds by turns, on a machine that others used at the same time. Python {sys.version.split()[0]}, shapely {shapely.__version__} (GEOS {shapely.geos_version_string}), numpy {np.__version__}.\n"
+    )
     if "polycsg" in chosen:
         beside_shapely()
     if "nasty" in chosen:

@@ -19,6 +19,8 @@ python -m pip install --quiet --disable-pip-version-check --requirement requirem
 step "format and lint"
 cargo fmt --check -p polycsg-python -p formfactor-python -p python-run
 cargo clippy --release --all-targets --locked -- -D warnings
+ruff format --check --quiet .
+ruff check --quiet .
 (cd polycsg && mypy)
 (cd formfactor && mypy)
 

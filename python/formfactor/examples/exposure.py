@@ -2,10 +2,11 @@
 
 import sys
 
-import formfactor
 import matplotlib.pyplot as plt
 import trimesh
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+import formfactor
 
 mesh = trimesh.util.concatenate(
     [

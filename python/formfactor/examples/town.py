@@ -2,9 +2,10 @@
 
 import sys
 
-import formfactor
 import numpy as np
 import pyvista
+
+import formfactor
 
 rng = np.random.default_rng(4)
 houses = []

@@ -9,6 +9,7 @@ import formfactor.dask
 import numpy as np
 import pytest
 import scipy.sparse
+
 from formfactor import Enclosure
 
 distributed = pytest.importorskip("distributed")
@@ -34,7 +35,12 @@ def test_any_blocks(client, room, tmp_path, blocks):
     assert formfactor.dask.sha256(files) == scene.matrix().sha256()
     found = list(formfactor.dask.rows(files))
     assert [block.first for block in found] == formfactor.dask._ends(len(scene), blocks)[:-1]
-    matrix = scipy.sparse.vstack([scipy.sparse.csr_array((block.values, block.columns, block.starts), (len(block.starts) - 1, 60)) for block in found])
+    matrix = scipy.sparse.vstack(
+        [
+            scipy.sparse.csr_array((block.values, block.columns, block.starts), (len(block.starts) - 1, 60))
+            for block in found
+        ]
+    )
     assert (matrix != scene.matrix().to_scipy()).nnz == 0
 
 

@@ -8,12 +8,12 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import formfactor
 import numpy as np
 import pytest
-from formfactor import Enclosure, FactorMatrix, Tolerance
-
 from conftest import box
+
+import formfactor
+from formfactor import Enclosure, FactorMatrix, Tolerance
 
 UNIT = 0.1998248956983874
 
@@ -191,7 +191,8 @@ def test_threads_at_once(room, matrix):
 
 def test_the_same_for_any_number_of_threads(room, matrix, tmp_path):
     np.save(tmp_path / "room.npy", room)
-    code = f"import formfactor, numpy; print(formfactor.Enclosure(numpy.load({str(tmp_path / 'room.npy')!r})).matrix().sha256())"
+    room = f"numpy.load({str(tmp_path / 'room.npy')!r})"
+    code = f"import formfactor, numpy; print(formfactor.Enclosure({room}).matrix().sha256())"
     for threads in "13":
         environment = {**os.environ, "RAYON_NUM_THREADS": threads}
         found = subprocess.check_output([sys.executable, "-c", code], env=environment, text=True)

@@ -4,11 +4,12 @@ import math
 import pickle
 from types import SimpleNamespace
 
-import formfactor
 import hypothesis.strategies as st
 import numpy as np
 import pytest
 from hypothesis import given, settings
+
+import formfactor
 
 LAMP = np.array([[-1.0, 1, 2], [1, 1, 2], [1, -1, 2], [-1, -1, 2]])
 BOARD = np.array([[-2.0, -2, 1], [0, -2, 1], [0, 2, 1], [-2, 2, 1]])
@@ -137,7 +138,17 @@ def test_what_is_seen_adds_to_one():
 
 @pytest.mark.parametrize(
     "method",
-    ["exact", "wallace", "pietrek", "visibility_index", "hemicube", "baum", "single_plane", "monte_carlo", "paraboloid"],
+    [
+        "exact",
+        "wallace",
+        "pietrek",
+        "visibility_index",
+        "hemicube",
+        "baum",
+        "single_plane",
+        "monte_carlo",
+        "paraboloid",
+    ],
 )
 def test_comparators(method):
     room = formfactor.Enclosure([LAMP, BOARD])
@@ -155,7 +166,9 @@ def test_parameters_of_comparators():
         for method, given in [("exact", {}), ("hemicube", {"resolution": 512}), ("hemicube", {"resolution": 4})]
     )
     assert abs(fine - exact) < 1e-3 < abs(coarse - exact)
-    seeds = [room.approximate_rows("monte_carlo", *at, seed=seed, rays=100, stratified=False)[0, 0] for seed in (1, 1, 2)]
+    seeds = [
+        room.approximate_rows("monte_carlo", *at, seed=seed, rays=100, stratified=False)[0, 0] for seed in (1, 1, 2)
+    ]
     assert seeds[0] == seeds[1] != seeds[2]
     with pytest.raises(ValueError, match="no parameter rays, but resolution"):
         room.approximate_rows("hemicube", *at, rays=5)
@@ -173,8 +186,14 @@ def test_parameters_of_comparators():
         ([LAMP, LAMP[:2]], "polygon 1: loop 0 has 2 vertices"),
         ([LAMP, None], "polygon 1: points have the shape"),
         ([LAMP[:, :2]], r"polygon 0: points have the shape \(n, 3\)"),
-        ([LAMP, np.where(np.arange(12).reshape(4, 3) == 7, np.nan, LAMP)], "polygon 1: loop 0, vertex 2: a coordinate is NaN"),
-        ([LAMP + [[0, 0, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]]], "polygon 0: loop 0, vertex . off the plane|split the polygon into triangles"),
+        (
+            [LAMP, np.where(np.arange(12).reshape(4, 3) == 7, np.nan, LAMP)],
+            "polygon 1: loop 0, vertex 2: a coordinate is NaN",
+        ),
+        (
+            [LAMP + [[0, 0, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]]],
+            "polygon 0: loop 0, vertex . off the plane|split the polygon into triangles",
+        ),
         ([LAMP * 0], "encloses no area"),
         ([LAMP.astype(complex)], "numbers that fit in doubles"),
         ([np.ma.masked_equal(LAMP, 2)], "masked"),

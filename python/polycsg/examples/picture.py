@@ -1,6 +1,7 @@
 """Draws the picture of the README: python examples/picture.py > docs/picture.svg"""
 
 import numpy as np
+
 import polycsg
 
 

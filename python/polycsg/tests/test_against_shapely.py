@@ -4,10 +4,11 @@ import math
 
 import hypothesis.strategies as st
 import numpy as np
-import polycsg
 import pytest
 import shapely
 from hypothesis import given, settings
+
+import polycsg
 
 OPERATIONS = {
     polycsg.union: shapely.union,
@@ -60,7 +61,9 @@ def made(rings, polygons):
     return shapely.MultiPolygon([(shell[0], shell[1:]) for shell in shells])
 
 
-@given(rings=st.lists(lattice_ring, min_size=1, max_size=4), polygons=st.lists(st.integers(1, 3), min_size=1, max_size=3))
+@given(
+    rings=st.lists(lattice_ring, min_size=1, max_size=4), polygons=st.lists(st.integers(1, 3), min_size=1, max_size=3)
+)
 @settings(max_examples=1000, deadline=None)
 def test_valid_is_what_shapely_says(rings, polygons):
     shape = made(rings, polygons)
@@ -74,11 +77,17 @@ def test_valid_is_what_shapely_says(rings, polygons):
         ("POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (2 0, 3 1, 1 1, 2 0))", "valid"),
         ("POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (2 0, 3 2, 2 4, 1 2, 2 0))", "cut the interior in parts"),
         ("POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (5 5, 6 5, 6 6, 5 5))", "ring 1: a hole lies outside"),
-        ("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1), (2 2, 3 2, 3 3, 2 2))", "ring 2: a hole lies outside"),
+        (
+            "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1), (2 2, 3 2, 3 3, 2 2))",
+            "ring 2: a hole lies outside",
+        ),
         ("MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0)), ((1 1, 2 1, 2 2, 1 1)))", "ring 1: a polygon lies inside another"),
         ("MULTIPOLYGON (((0 0, 2 0, 2 2, 0 2, 0 0)), ((2 2, 4 2, 4 4, 2 4, 2 2)))", "valid"),
         ("MULTIPOLYGON (((0 0, 2 0, 2 2, 0 2, 0 0)), ((2 0, 4 0, 4 2, 2 2, 2 0)))", "ring 0, vertex 1: "),
-        ("MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0), (2 2, 7 2, 7 7, 2 7, 2 2)), ((2 2, 7 2, 5 5, 2 2)))", "covers another edge"),
+        (
+            "MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0), (2 2, 7 2, 7 7, 2 7, 2 2)), ((2 2, 7 2, 5 5, 2 2)))",
+            "covers another edge",
+        ),
         ("MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0), (2 2, 7 2, 7 7, 2 7, 2 2)), ((2 2, 6 4, 7 7, 2 2)))", "valid"),
         ("POLYGON ((0 0, 4 0, 2 2, 4 4, 0 4, 2 2, 0 0))", "ring 0: it touches itself in (2, 2)"),
         ("POLYGON ((0 0, 4 0, 4 4, 2 4, 2 5, 2 4, 0 4, 0 0))", "ring 0, vertex 3: "),

@@ -1,9 +1,10 @@
 """What cannot be read raises, and says where."""
 
 import numpy as np
-import polycsg
 import pytest
 import shapely
+
+import polycsg
 
 SQUARE = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
 FUNCTIONS = [

@@ -3,9 +3,9 @@
 import json
 from pathlib import Path
 
-import numpy as np
-import polycsg
 import pytest
+
+import polycsg
 
 CASES = sorted((Path(__file__).parents[3] / "tests/corpus").glob("*.json"))
 FILLS = {"even-odd": "evenodd", "non-zero": "nonzero", "positive": "positive"}

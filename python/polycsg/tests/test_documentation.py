@@ -4,8 +4,9 @@ import doctest
 import importlib
 import pkgutil
 
-import polycsg
 import pytest
+
+import polycsg
 
 MODULES = ["polycsg", *(f"polycsg.{found.name}" for found in pkgutil.iter_modules(polycsg.__path__))]
 
@@ -21,4 +22,6 @@ def test_everything_public_is_documented():
         assert name == "__version__" or thing.__doc__, name
         for attribute in vars(thing) if isinstance(thing, type) else ():
             member = vars(thing)[attribute]
-            assert attribute.startswith("_") or not (callable(member) or isinstance(member, property)) or member.__doc__, attribute
+            assert (
+                attribute.startswith("_") or not (callable(member) or isinstance(member, property)) or member.__doc__
+            ), attribute

@@ -5,10 +5,11 @@ import pickle
 import geopandas
 import numpy as np
 import pandas
-import polycsg
 import pyarrow
 import pytest
 import shapely
+
+import polycsg
 
 SQUARE = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
 HOLED = shapely.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(1, 1), (2, 1), (2, 2), (1, 2)]])
@@ -171,9 +172,7 @@ class TestBytes:
         if flavor == "iso" and srid:
             pytest.skip("not in that dialect")
         for shape in (MULTI, HOLED, shapely.force_3d(MULTI)):
-            given = shapely.to_wkb(
-                shapely.set_srid(shape, 4326), byte_order=order, flavor=flavor, include_srid=srid
-            )
+            given = shapely.to_wkb(shapely.set_srid(shape, 4326), byte_order=order, flavor=flavor, include_srid=srid)
             assert polycsg.area(given) == shape.area
 
     def test_and_back(self):

@@ -11,8 +11,9 @@ import time
 import tracemalloc
 
 import numpy as np
-import polycsg
 import pytest
+
+import polycsg
 
 SQUARE = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
 

@@ -1,6 +1,7 @@
-"""Form factors (also view factors, configuration factors): the share of the power leaving a diffuse surface that reaches another one
-directly, past whatever stands in between. From points they are exact and come with a bound on their error that always holds; between
-polygons they come with an estimate of it, or with a bound where one is asked for. No shadow is sampled.
+"""Form factors (also view factors, configuration factors): the share of the power leaving a diffuse surface that
+reaches another one directly, past whatever stands in between. From points they are exact and come with a bound on
+their error that always holds; between polygons they come with an estimate of it, or with a bound where one is asked
+for. No shadow is sampled.
 
 A *point* is a position with a normal. A *polygon* is flat, with its front to the side from which its first loop runs
 counter-clockwise; it receives on its front and hides with both sides. Units are yours.

@@ -48,7 +48,8 @@ class PointRows(NamedTuple):
     error_bounds: Any
 
     def sky(self) -> npt.NDArray[np.float64]:
-        """What each row lacks of 1: what reaches no front of a polygon, as the sky does above a town of closed buildings."""
+        """What each row lacks of 1: what reaches no front of a polygon, as the sky does above a town of closed
+        buildings."""
         return np.clip(1.0 - np.asarray(self.values.sum(axis=1)), 0.0, 1.0)
 
 
@@ -63,8 +64,8 @@ class AreaRow(NamedTuple):
 
 
 class Tolerance(NamedTuple):
-    """What form factors between polygons may err by: each within ``absolute`` or within ``relative`` of itself, and the root of the sum of
-    the squares of a row's within ``row``."""
+    """What form factors between polygons may err by: each within ``absolute`` or within ``relative`` of itself, and
+    the root of the sum of the squares of a row's within ``row``."""
 
     absolute: float
     relative: float = 0.0
@@ -95,8 +96,8 @@ def unoccluded_complement(position: npt.ArrayLike, normal: npt.ArrayLike, to: ob
 def visible_part(
     position: npt.ArrayLike, normal: npt.ArrayLike, to: object, occluders: object = ()
 ) -> list[npt.NDArray[np.float64]]:
-    """The rings (n, 3) of the part of a polygon that a point sees past others: outer ones counter-clockwise seen from the front, holes
-    clockwise.
+    """The rings (n, 3) of the part of a polygon that a point sees past others: outer ones counter-clockwise seen from
+    the front, holes clockwise.
 
     >>> lamp = [(-1, 1, 2), (1, 1, 2), (1, -1, 2), (-1, -1, 2)]
     >>> board = [(-0.25, -0.25, 1), (0.25, -0.25, 1), (0.25, 0.25, 1), (-0.25, 0.25, 1)]
@@ -117,9 +118,10 @@ def _place(
 class Enclosure:
     """Polygons that see and hide each other: those of some meshes, one mesh after the other.
 
-    A mesh is anything with ``vertices`` and ``faces`` (trimesh), with ``points`` and ``faces`` (pyvista) or ``cells`` (meshio), a pair
-    of arrays (vertices, faces), an array (k, n, 3), or a sequence of polygons. A polygon is a loop (n, 3), or a tuple of loops of which
-    the first is the outer one. Polygons are numbered from 0. Four corners and more must lie in a plane.
+    A mesh is anything with ``vertices`` and ``faces`` (trimesh), with ``points`` and ``faces`` (pyvista) or ``cells``
+    (meshio), a pair of arrays (vertices, faces), an array (k, n, 3), or a sequence of polygons. A polygon is a loop
+    (n, 3), or a tuple of loops of which the first is the outer one. Polygons are numbered from 0. Four corners and
+    more must lie in a plane.
 
     >>> import numpy as np
     >>> corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
@@ -178,8 +180,9 @@ class Enclosure:
     ) -> PointRows:
         """Form factors from points (n, 3) with normals (n, 3), or one for all, to polygons, all if none are named.
 
-        Name the polygons that points lie on (-1 for none) as ``owners``: those never hide anything, though rounding may have moved a point
-        through its polygon. If ``sparse``, the results are scipy's sparse arrays. ``progress`` is called with the number of points done and of all.
+        Name the polygons that points lie on (-1 for none) as ``owners``: those never hide anything, though rounding
+        may have moved a point through its polygon. If ``sparse``, the results are scipy's sparse arrays. ``progress``
+        is called with the number of points done and of all.
         """
         places = _points(positions, normals, owners)
         ids = _ids(to)
@@ -205,9 +208,10 @@ class Enclosure:
         to: npt.ArrayLike | None = None,
         **parameters: object,
     ) -> npt.NDArray[np.float64]:
-        """:meth:`rows` by a method to compare with: ``"disk"``, ``"wallace"``, ``"pietrek"``, ``"visibility_index"``, ``"hemicube"``
-        (``resolution=128``), ``"baum"``, ``"single_plane"``, ``"monte_carlo"`` (``rays=4096, stratified=True, seed=0``) or
-        ``"paraboloid"`` (``resolution=128``). A parameter that is not one is answered with those that are."""
+        """:meth:`rows` by a method to compare with: ``"disk"``, ``"wallace"``, ``"pietrek"``, ``"visibility_index"``,
+        ``"hemicube"`` (``resolution=128``), ``"baum"``, ``"single_plane"``, ``"monte_carlo"`` (``rays=4096,
+        stratified=True, seed=0``) or ``"paraboloid"`` (``resolution=128``). A parameter that is not one is answered
+        with those that are."""
         return self._enclosure.approximate_rows(method, parameters, _points(positions, normals, owners), _ids(to))
 
     def area_form_factor(
@@ -219,13 +223,12 @@ class Enclosure:
         evaluations: int | None = None,
         bounded: bool = False,
     ) -> AreaFormFactor:
-        """The form factor from one polygon to another, past all others. If ``bounded``, its error is a bound that holds, which takes some
-        50 times as long. ``evaluations`` is the most that it may take; the error says how far that went."""
+        """The form factor from one polygon to another, past all others. If ``bounded``, its error is a bound that
+        holds, which takes some 50 times as long. ``evaluations`` is the most that it may take; the error says how far
+        that went."""
         return AreaFormFactor(*self._enclosure.area_form_factor(first, to, _tolerance(tolerance), evaluations, bounded))
 
-    def area_row(
-        self, first: int, tolerance: float | Tolerance = 1e-4, *, evaluations: int | None = None
-    ) -> AreaRow:
+    def area_row(self, first: int, tolerance: float | Tolerance = 1e-4, *, evaluations: int | None = None) -> AreaRow:
         """The form factors from one polygon to all that it sees: a row of :meth:`matrix`."""
         _, columns, values, errors = self._enclosure.area_row(first, _tolerance(tolerance), evaluations)
         return AreaRow(columns, values, errors)
@@ -239,9 +242,9 @@ class Enclosure:
         evaluations: int | None = None,
         progress: Progress | None = None,
     ) -> ExchangeRows:
-        """What each polygon from ``first`` to before ``last`` exchanges with those of higher numbers: part of a matrix, for
-        :meth:`FactorMatrix.from_rows`. Its bits depend on the enclosure and the tolerance alone. ``progress`` is called with the number of
-        pairs done and of all."""
+        """What each polygon from ``first`` to before ``last`` exchanges with those of higher numbers: part of a
+        matrix, for :meth:`FactorMatrix.from_rows`. Its bits depend on the enclosure and the tolerance alone.
+        ``progress`` is called with the number of pairs done and of all."""
         span = (first, len(self) if last is None else last)
         return ExchangeRows(first, *self._enclosure.exchange_rows(span, _tolerance(tolerance), evaluations, progress))
 
@@ -253,8 +256,9 @@ class Enclosure:
         evaluations: int | None = None,
         progress: Progress | None = None,
     ) -> FactorMatrix:
-        """The form factors between all polygons. With a folder as ``checkpoint``, rows are written there as they are found, and a run that
-        was ended goes on. ``progress`` is called with the number of pairs done and of all; Ctrl-C ends the call."""
+        """The form factors between all polygons. With a folder as ``checkpoint``, rows are written there as they are
+        found, and a run that was ended goes on. ``progress`` is called with the number of pairs done and of all;
+        Ctrl-C ends the call."""
         if checkpoint is None:
             rows = [self.exchange_rows(0, None, tolerance, evaluations=evaluations, progress=progress)]
         else:
@@ -279,7 +283,9 @@ class Enclosure:
                     progress(before + done, pairs(count))
 
             if not path.exists():
-                save(path, self.exchange_rows(first, last, tolerance, evaluations=evaluations, progress=report)._asdict())
+                save(
+                    path, self.exchange_rows(first, last, tolerance, evaluations=evaluations, progress=report)._asdict()
+                )
             rows.append(ExchangeRows.load(path))
         return rows
 

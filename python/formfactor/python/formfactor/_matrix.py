@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 
 class FactorMatrix:
-    """Form factors between polygons, as compressed sparse rows: row i has the factors from polygon i; what is not seen has no entry.
+    """Form factors between polygons, as compressed sparse rows: row i has the factors from polygon i; what is not
+    seen has no entry.
 
     :meth:`Enclosure.matrix` finds one. Of the methods that change something each gives a new matrix.
     """
@@ -34,7 +35,8 @@ class FactorMatrix:
 
     @classmethod
     def from_rows(cls, areas: npt.NDArray[np.float64], rows: Sequence[ExchangeRows]) -> FactorMatrix:
-        """The matrix of polygons with these areas from rows in any order. Of rows that are missing nothing is known but what others say."""
+        """The matrix of polygons with these areas from rows in any order. Of rows that are missing nothing is known
+        but what others say."""
         shards = [(some.first, some.starts, some.to, some.area, some.error) for some in rows]
         return cls(_formfactor.Matrix(np.ascontiguousarray(areas, dtype=np.float64), shards))
 
@@ -89,7 +91,8 @@ class FactorMatrix:
         return csr_array((numbers, self.columns.astype(np.int64), self.starts), shape=shape)
 
     def with_space(self) -> FactorMatrix:
-        """With one more receiver, the last: space, or the sky, to which all that escapes goes. So the rows of open scenes add to 1."""
+        """With one more receiver, the last: space, or the sky, to which all that escapes goes. So the rows of open
+        scenes add to 1."""
         if self._has_space:
             return self
         return FactorMatrix(self._matrix.with_space(), has_space=True)
@@ -99,21 +102,24 @@ class FactorMatrix:
         return FactorMatrix(self._matrix.without_below(threshold), self._has_space)
 
     def closed(self) -> Closure:
-        """Of a closed room: the matrix with rows that add to 1 and A_i F_ij = A_j F_ji that differs least, by least squares."""
+        """Of a closed room: the matrix with rows that add to 1 and A_i F_ij = A_j F_ji that differs least, by least
+        squares."""
         matrix, defect, change = self._matrix.closed()
         return Closure(FactorMatrix(matrix), defect, change)
 
     def grouped(self, groups: npt.ArrayLike) -> FactorMatrix:
-        """Of groups of polygons, named by a number for each polygon, from 0 without a gap: the sides of a plate, the parts of a wall."""
+        """Of groups of polygons, named by a number for each polygon, from 0 without a gap: the sides of a plate, the
+        parts of a wall."""
         return FactorMatrix(self._matrix.grouped(integers(groups, "groups")), self._has_space)
 
     def with_emittances(self, emittances: npt.ArrayLike) -> FactorMatrix:
-        """Hottel's total exchange factors of gray surfaces: what i emits and j absorbs, directly or by reflections, as a share of what
-        i would emit if it were black. The matrix is full."""
+        """Hottel's total exchange factors of gray surfaces: what i emits and j absorbs, directly or by reflections,
+        as a share of what i would emit if it were black. The matrix is full."""
         return FactorMatrix(self._matrix.with_emittances(np.ascontiguousarray(emittances, dtype=np.float64)))
 
     def sha256(self) -> str:
-        """A fingerprint of all rows, bit for bit, whatever blocks they were found in: :func:`formfactor.dask.sha256` gives the same."""
+        """A fingerprint of all rows, bit for bit, whatever blocks they were found in: :func:`formfactor.dask.sha256`
+        gives the same."""
         found = RowHash()
         found.add(self.starts, self.columns, self.values, self.errors)
         return found.hexdigest()
@@ -147,7 +153,9 @@ class RowHash:
     ) -> None:
         """Adds the rows that come next."""
         counts = np.diff(starts)
-        for part, array, kind in zip(self._parts, (counts, columns, values, errors), ("<i8", "<u4", "<f8", "<f8"), strict=True):
+        for part, array, kind in zip(
+            self._parts, (counts, columns, values, errors), ("<i8", "<u4", "<f8", "<f8"), strict=True
+        ):
             part.update(np.ascontiguousarray(array, dtype=kind).tobytes())
 
     def hexdigest(self) -> str:

@@ -106,7 +106,9 @@ def _of_alike(polygons: npt.NDArray[Any]) -> Polygons:
     if polygons.ndim != 3:
         raise GeometryError(f"polygons have the shape (k, n, 3), not {polygons.shape}")
     count, corners = polygons.shape[:2]
-    return Polygons(doubles(polygons.reshape(-1, polygons.shape[2])), np.arange(count + 1) * corners, np.arange(count + 1))
+    return Polygons(
+        doubles(polygons.reshape(-1, polygons.shape[2])), np.arange(count + 1) * corners, np.arange(count + 1)
+    )
 
 
 def _of_mesh(mesh: Any, points: Any) -> Polygons:

@@ -85,4 +85,6 @@ def claim(folder: Path, fingerprint: str) -> None:
             file.write(fingerprint)
     except FileExistsError:
         if label.read_text(encoding="ascii") != fingerprint:
-            raise ValueError(f"{folder} holds rows of another scene, tolerance or version; name another folder") from None
+            raise ValueError(
+                f"{folder} holds rows of another scene, tolerance or version; name another folder"
+            ) from None

@@ -1,8 +1,9 @@
 """Matrices by a cluster: rows found by Dask's workers, in files, never a matrix in one place.
 
-A block of rows of the upper triangle goes to a file as soon as it is found (:class:`formfactor.ExchangeRows`); once all are there, the full
-rows of each block are put together from them, in files again. Files are whole or not there: what a worker that died leaves behind counts for
-nothing, and a run that is started again goes on with what there is. All workers see the same folder.
+A block of rows of the upper triangle goes to a file as soon as it is found (:class:`formfactor.ExchangeRows`); once
+all are there, the full rows of each block are put together from them, in files again. Files are whole or not there:
+what a worker that died leaves behind counts for nothing, and a run that is started again goes on with what there is.
+All workers see the same folder.
 """
 
 from __future__ import annotations
@@ -28,11 +29,11 @@ def matrix(
     tolerance: float | Tolerance = 1e-4,
     blocks: int = 64,
 ) -> list[Path]:
-    """Finds the form factors between all polygons on the workers of a ``distributed.Client``; gives the files of their rows, in order, for
-    :func:`rows` and :func:`sha256`.
+    """Finds the form factors between all polygons on the workers of a ``distributed.Client``; gives the files of
+    their rows, in order, for :func:`rows` and :func:`sha256`.
 
-    ``folder`` is one that all workers see. Blocks are cut so that each has as many pairs; some times the number of workers keeps all of
-    them busy to the end. The numbers do not depend on blocks, workers and restarts, bit for bit.
+    ``folder`` is one that all workers see. Blocks are cut so that each has as many pairs; some times the number of
+    workers keeps all of them busy to the end. The numbers do not depend on blocks, workers and restarts, bit for bit.
     """
     root = Path(folder).absolute()
     claim(root, enclosure.fingerprint(tolerance))
@@ -41,7 +42,9 @@ def matrix(
     (root / f"{len(ends) - 1}-blocks").mkdir(exist_ok=True)
     numbers = range(len(ends) - 1)
     client.gather([client.submit(_find, root, ends, block, tolerance, pure=False) for block in numbers])
-    files: list[Path] = client.gather([client.submit(_put_together, root, ends, block, pure=False) for block in numbers])
+    files: list[Path] = client.gather(
+        [client.submit(_put_together, root, ends, block, pure=False) for block in numbers]
+    )
     return files
 
 
@@ -103,7 +106,8 @@ def _ends(count: int, blocks: int) -> list[int]:
 
 
 def rows(files: Sequence[Path]) -> Iterator[Rows]:
-    """The full rows, block after block: ``csr_array((block.values, block.columns, block.starts))`` of each is part of the matrix."""
+    """The full rows, block after block: ``csr_array((block.values, block.columns, block.starts))`` of each is part of
+    the matrix."""
     for file in files:
         yield Rows.load(file)
 

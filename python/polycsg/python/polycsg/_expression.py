@@ -8,7 +8,8 @@ import numpy as np
 
 
 class Csg:
-    """An expression: a geometry, or others combined by ``|``, ``&``, ``-`` and ``^``. Nothing is found before :func:`evaluate`.
+    """An expression: a geometry, or others combined by ``|``, ``&``, ``-`` and ``^``. Nothing is found before
+    :func:`evaluate`.
 
     >>> import numpy as np
     >>> from polycsg import evaluate
@@ -52,7 +53,8 @@ class Csg:
         return cls(np.empty((0, 2))) if found is None else found
 
     def postfix(self) -> tuple[list[object], list[str]]:
-        """The operands in their order, and what is done: an empty word takes the next one, an operator the last two results."""
+        """The operands in their order, and what is done: an empty word takes the next one, an operator the last two
+        results."""
         return self._operands, self._program
 
     def __or__(self, other: object) -> Csg:

@@ -15,7 +15,8 @@ from ._prepared import PreparedRegion
 from ._read import Features, Layer, read
 from ._regions import Arrays, Frame, Region, Regions
 
-#: Which points rings enclose: those that an odd number of them goes around; those around which the windings do not add to 0; or add
+#: Which points rings enclose: those that an odd number of them goes around; those around which the windings do not
+#: add to 0; or add
 #: to more than 0.
 Fill: TypeAlias = Literal["evenodd", "nonzero", "positive"]
 
@@ -65,7 +66,8 @@ def symmetric_difference(a: object, b: object, *, fill: Fill = "evenodd") -> Reg
 
 
 def evaluate(expression: Csg, *, fill: Fill = "evenodd") -> Region | Regions:
-    """The region of an expression, found in one arrangement: nothing is rounded in between. With arrays in it, one for each feature.
+    """The region of an expression, found in one arrangement: nothing is rounded in between. With arrays in it, one
+    for each feature.
 
     >>> import numpy as np
     >>> from polycsg import Csg
@@ -123,8 +125,8 @@ def _given(arrays: Arrays, layer: Layer) -> Region | Regions:
 
 
 def is_valid(geometry: object) -> bool | npt.NDArray[np.bool_]:
-    """Whether geometries are valid as they are, in the sense of OGC's simple features (:func:`shapely.is_valid` asks the same),
-    decided exactly. A ring may be closed or not, and run either way. A missing geometry is not valid.
+    """Whether geometries are valid as they are, in the sense of OGC's simple features (:func:`shapely.is_valid` asks
+    the same), decided exactly. A ring may be closed or not, and run either way. A missing geometry is not valid.
 
     >>> import numpy as np
     >>> is_valid(np.array([[0, 0], [2, 2], [2, 0], [0, 2]]))
@@ -166,7 +168,8 @@ def area(geometry: object, *, fill: Fill = "evenodd") -> float | npt.NDArray[np.
 
 
 def locate(geometry: object, points: npt.ArrayLike, *, fill: Fill = "evenodd") -> npt.NDArray[np.int8]:
-    """Where points (n, 2) lie in one geometry, exactly: 1 inside, 0 on the boundary, -1 outside (also those that are not finite).
+    """Where points (n, 2) lie in one geometry, exactly: 1 inside, 0 on the boundary, -1 outside (also those that are
+    not finite).
 
     >>> import numpy as np
     >>> locate(np.array([[0, 0], [2, 0], [2, 2], [0, 2]]), [[1, 1], [2, 1], [3, 1]])
@@ -187,9 +190,7 @@ def prepare(geometry: object, *, fill: Fill = "evenodd") -> PreparedRegion:
     return PreparedRegion(_polycsg.Prepared(_single(geometry), fill))
 
 
-def triangulate(
-    geometry: object, *, fill: Fill = "evenodd"
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+def triangulate(geometry: object, *, fill: Fill = "evenodd") -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
     """Constrained Delaunay triangles (n, 3, 2), counter-clockwise, and the number of the geometry that each is of.
 
     >>> import numpy as np

@@ -12,9 +12,10 @@ import numpy.typing as npt
 
 from . import _polycsg
 from ._polycsg import GeometryError, HeldFeatures
-from ._regions import Arrays, Frame, Offsets, Region, Regions
+from ._regions import Frame, Offsets, Region, Regions
 
-#: Vertices, and offsets of rings, polygons and features; none where each is of one. Or what is held beyond the border.
+#: Vertices, and offsets of rings, polygons and features; none where each is of one. Or what is held beyond the
+#: border.
 Features: TypeAlias = tuple[npt.NDArray[np.float64], Offsets, Offsets | None, Offsets | None] | HeldFeatures
 
 #: Doubles hold all integers up to this.
@@ -77,9 +78,9 @@ def doubles(coordinates: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
         raise GeometryError(f"coordinates have the shape (n, 2), not {coordinates.shape}")
     if coordinates.dtype.kind not in "fiu" or coordinates.dtype.itemsize > 8:
         raise GeometryError(f"coordinates are numbers that fit in doubles, not {coordinates.dtype}")
-    if coordinates.dtype.kind != "f" and coordinates.dtype.itemsize == 8 and coordinates.size:
-        if coordinates.max() > _EXACT or coordinates.min() < -_EXACT:
-            raise GeometryError("an integer coordinate lies beyond 2**53, where doubles leave numbers out")
+    is_long = coordinates.dtype.kind != "f" and coordinates.dtype.itemsize == 8
+    if is_long and coordinates.size and (coordinates.max() > _EXACT or coordinates.min() < -_EXACT):
+        raise GeometryError("an integer coordinate lies beyond 2**53, where doubles leave numbers out")
     return np.ascontiguousarray(coordinates, dtype=np.float64)
 
 
@@ -243,7 +244,10 @@ def _joined(parts: Sequence[tuple[Any, ...]]) -> Layer:
     """One feature of each part."""
     coordinates = np.concatenate([np.empty((0, 2)), *(part[0] for part in parts)])
     rings = [np.diff(part[1]) for part in parts]
-    polygons = [np.ones(len(ring), int) if part[2] is None else np.diff(part[2]) for ring, part in zip(rings, parts, strict=True)]
+    polygons = [
+        np.ones(len(ring), int) if part[2] is None else np.diff(part[2])
+        for ring, part in zip(rings, parts, strict=True)
+    ]
     return Layer((coordinates, _ends(rings), _ends(polygons), _ends([[len(part)] for part in polygons])))
 
 

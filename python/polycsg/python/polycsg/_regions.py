@@ -31,9 +31,9 @@ class Frame(NamedTuple):
 class Regions:
     """An array of regions: sets of points bounded by polygons with holes, some of them perhaps missing.
 
-    The vertices are one array (n, 2). ``offsets`` says where rings begin in the vertices, polygons in the rings, and regions in the
-    polygons: the layout of GeoArrow's multipolygons and of :func:`shapely.to_ragged_array`. Outer rings run counter-clockwise, holes
-    clockwise, and each ends with its first vertex.
+    The vertices are one array (n, 2). ``offsets`` says where rings begin in the vertices, polygons in the rings, and
+    regions in the polygons: the layout of GeoArrow's multipolygons and of :func:`shapely.to_ragged_array`. Outer
+    rings run counter-clockwise, holes clockwise, and each ends with its first vertex.
     """
 
     __slots__ = ("_arrays", "_frame", "_missing")
@@ -107,7 +107,8 @@ class Regions:
         return (self[place] for place in range(len(self)))
 
     def to_ragged(self) -> tuple[Coordinates, tuple[Offsets, Offsets, Offsets]]:
-        """Vertices and offsets, as :func:`shapely.from_ragged_array` takes those of multipolygons. Nothing is copied."""
+        """Vertices and offsets, as :func:`shapely.from_ragged_array` takes those of multipolygons. Nothing is
+        copied."""
         return self.coordinates, self.offsets
 
     def to_shapely(self) -> npt.NDArray[np.object_]:
@@ -132,7 +133,8 @@ class Regions:
         return geopandas.GeoSeries(self.to_shapely(), index=frame.index, crs=frame.crs)
 
     def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]:
-        """GeoArrow's multipolygons, for whatever reads Arrow; of a wish for another schema nothing is heard, as the interface allows."""
+        """GeoArrow's multipolygons, for whatever reads Arrow; of a wish for another schema nothing is heard, as the
+        interface allows."""
         crs: Any = self._frame.crs if self._frame else None
         if hasattr(crs, "to_json_dict"):
             crs = crs.to_json_dict()
