@@ -27,7 +27,7 @@ type Rows<'py> = (
 impl Enclosure {
     #[new]
     fn new(py: Python<'_>, arrays: Arrays<'_>) -> PyResult<Self> {
-        let polygons = polygons("polygon", &arrays)?;
+        let polygons = polygons(py, "polygon", &arrays)?;
         Ok(Self(py.detach(|| formfactor::Enclosure::new(polygons))))
     }
 

@@ -37,8 +37,8 @@ fn single(position: [f64; 3], normal: [f64; 3]) -> PyResult<DifferentialArea> {
     DifferentialArea::new(position.into(), normal.into()).map_err(|error| refused("", error))
 }
 
-fn target(arrays: &Arrays<'_>) -> PyResult<PlanarPolygon> {
-    polygons("target", arrays)?.into_iter().next().ok_or_else(|| refused("", "there is no target"))
+fn target(py: Python<'_>, arrays: &Arrays<'_>) -> PyResult<PlanarPolygon> {
+    polygons(py, "target", arrays)?.into_iter().next().ok_or_else(|| refused("", "there is no target"))
 }
 
 /// From a point to a polygon past others: the value and a bound on its error.
@@ -50,7 +50,8 @@ pub(crate) fn form_factor(
     to: Arrays<'_>,
     occluders: Arrays<'_>,
 ) -> PyResult<(f64, f64)> {
-    let (from, to, occluders) = (single(position, normal)?, target(&to)?, polygons("occluder", &occluders)?);
+    let (from, to, occluders) =
+        (single(position, normal)?, target(py, &to)?, polygons(py, "occluder", &occluders)?);
     let FormFactor { value, error_bound } = py.detach(|| formfactor::form_factor(&from, &to, &occluders));
     Ok((value, error_bound))
 }
@@ -63,7 +64,7 @@ pub(crate) fn unoccluded_complement(
     normal: [f64; 3],
     to: Arrays<'_>,
 ) -> PyResult<(f64, f64)> {
-    let (from, to) = (single(position, normal)?, target(&to)?);
+    let (from, to) = (single(position, normal)?, target(py, &to)?);
     let FormFactor { value, error_bound } = py.detach(|| formfactor::unoccluded_complement(&from, &to));
     Ok((value, error_bound))
 }
@@ -77,7 +78,8 @@ pub(crate) fn visible_part<'py>(
     to: Arrays<'py>,
     occluders: Arrays<'py>,
 ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-    let (from, to, occluders) = (single(position, normal)?, target(&to)?, polygons("occluder", &occluders)?);
+    let (from, to, occluders) =
+        (single(position, normal)?, target(py, &to)?, polygons(py, "occluder", &occluders)?);
     let part = py.detach(|| formfactor::visible_part(&from, &to, &occluders));
     let ring = |ring: Vec<DVec3>| {
         let numbers: Vec<f64> = ring.iter().flat_map(|p| p.to_array()).collect();

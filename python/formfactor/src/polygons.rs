@@ -9,20 +9,22 @@ pub(crate) type Arrays<'py> =
     (PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, i64>, PyReadonlyArray1<'py, i64>);
 
 /// The polygons of arrays; `name` says in errors what they are.
-pub(crate) fn polygons(name: &str, arrays: &Arrays<'_>) -> PyResult<Vec<PlanarPolygon>> {
+pub(crate) fn polygons(py: Python<'_>, name: &str, arrays: &Arrays<'_>) -> PyResult<Vec<PlanarPolygon>> {
     let (vertices, loops, polygons) = arrays;
     let (vertices, []) = vertices.as_slice()?.as_chunks::<3>() else {
         return Err(refused("", "vertices have three columns"));
     };
     let (loops, polygons) = (loops.as_slice()?, polygons.as_slice()?);
-    check("loops", loops, vertices.len())?;
-    check("polygons", polygons, loops.len() - 1)?;
-    let loop_at = |i: usize| &vertices[place(loops[i])..place(loops[i + 1])];
-    let polygon = |(i, ends): (usize, &[i64])| {
-        let loops = (place(ends[0])..place(ends[1])).map(|i| open(loop_at(i)));
-        PlanarPolygon::new(loops).map_err(|error| refused(format!("{name} {i}: "), error))
-    };
-    polygons.windows(2).enumerate().map(polygon).collect()
+    py.detach(|| {
+        check("loops", loops, vertices.len())?;
+        check("polygons", polygons, loops.len() - 1)?;
+        let loop_at = |i: usize| &vertices[place(loops[i])..place(loops[i + 1])];
+        let polygon = |(i, ends): (usize, &[i64])| {
+            let loops = (place(ends[0])..place(ends[1])).map(|i| open(loop_at(i)));
+            PlanarPolygon::new(loops).map_err(|error| refused(format!("{name} {i}: "), error))
+        };
+        polygons.windows(2).enumerate().map(polygon).collect()
+    })
 }
 
 /// A loop without the vertex that closes it.

@@ -24,9 +24,13 @@ const METADATA: &str = "ARROW:extension:metadata";
 
 /// Features of an object with Arrow's interface. Those in one piece, with their coordinates interleaved, are not copied.
 #[pyfunction]
-pub(crate) fn of_arrow(object: AnyArray) -> PyResult<HeldFeatures> {
+pub(crate) fn of_arrow(py: Python<'_>, object: AnyArray) -> PyResult<HeldFeatures> {
     let (chunks, field) = object.into_chunked_array().map_err(PyErr::from)?.into_inner();
-    let array = match &chunks[..] {
+    py.detach(|| held(&chunks, field))
+}
+
+fn held(chunks: &[ArrayRef], field: FieldRef) -> PyResult<HeldFeatures> {
+    let array = match chunks {
         [one] => one.clone(),
         [] => arrow_array::new_empty_array(field.data_type()),
         many => {
@@ -132,7 +136,8 @@ pub(crate) fn to_arrow<'py>(
     metadata: Option<String>,
 ) -> PyResult<[Bound<'py, PyCapsule>; 2]> {
     let present = present.map(|present| Ok::<_, PyErr>(NullBuffer::from(present.as_slice()?))).transpose()?;
-    let array = multipolygons(features.read()?, present)?;
+    let features = features.read()?;
+    let array = py.detach(|| multipolygons(features, present))?;
     let name = [(NAME.to_string(), "geoarrow.multipolygon".to_string())];
     let metadata = metadata.map(|metadata| (METADATA.to_string(), metadata));
     let field = Field::new("geometry", array.data_type().clone(), true);

@@ -3,6 +3,7 @@ use crate::built::Built;
 use crate::error::unreadable;
 use crate::held::HeldFeatures;
 use crate::input::Features;
+use crate::ragged::Ragged;
 use arrow_buffer::NullBuffer;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -120,28 +121,30 @@ pub(crate) fn parsed<'b>(
 
 /// Features of a list of bytes, None where they are missing.
 #[pyfunction]
-pub(crate) fn of_wkb(features: Vec<Option<PyBackedBytes>>) -> PyResult<HeldFeatures> {
-    parsed(features.iter().map(|bytes| bytes.as_deref()), None)
+pub(crate) fn of_wkb(py: Python<'_>, features: Vec<Option<PyBackedBytes>>) -> PyResult<HeldFeatures> {
+    py.detach(|| parsed(features.iter().map(|bytes| bytes.as_deref()), None))
 }
 
 /// Each feature as a multipolygon in bytes.
 #[pyfunction]
 pub(crate) fn to_wkb<'py>(py: Python<'py>, features: Features<'py>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
     let features = features.read()?;
-    let written = |feature| {
-        let polygons: Vec<_> = features.polygons(feature).collect();
-        let mut bytes = header(MULTIPOLYGON, polygons.len());
-        for rings in polygons {
-            bytes.extend(header(POLYGON, rings.len()));
-            for ring in rings.map(|ring| features.ring(ring)) {
-                let closed = ring.iter().chain(ring.first());
-                bytes.extend(counted(closed.clone().count()));
-                bytes.extend(closed.flatten().flat_map(|x| x.to_le_bytes()));
-            }
+    let all: Vec<Vec<u8>> = py.detach(|| (0..features.len()).map(|i| written(features, i)).collect());
+    Ok(all.iter().map(|bytes| PyBytes::new(py, bytes)).collect())
+}
+
+fn written(features: Ragged<'_>, feature: usize) -> Vec<u8> {
+    let polygons: Vec<_> = features.polygons(feature).collect();
+    let mut bytes = header(MULTIPOLYGON, polygons.len());
+    for rings in polygons {
+        bytes.extend(header(POLYGON, rings.len()));
+        for ring in rings.map(|ring| features.ring(ring)) {
+            let closed = ring.iter().chain(ring.first());
+            bytes.extend(counted(closed.clone().count()));
+            bytes.extend(closed.flatten().flat_map(|x| x.to_le_bytes()));
         }
-        PyBytes::new(py, &bytes)
-    };
-    Ok((0..features.len()).map(written).collect())
+    }
+    bytes
 }
 
 fn header(kind: u32, count: usize) -> Vec<u8> {
