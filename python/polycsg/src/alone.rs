@@ -43,7 +43,7 @@ pub(crate) fn areas<'py>(
             let boundary = operand.try_boundary(scratch, Limits::default().stop(&is_stopped));
             boundary.map(|boundary| boundary.area()).map_err(|error| of_feature(None, i, error))
         };
-        each(features.len(), area)
+        each(features.len(), stop, area)
     })?;
     Ok(PyArray1::from_vec(py, areas))
 }
@@ -61,7 +61,7 @@ pub(crate) fn triangles<'py>(
     let (features, rule) = (features.read()?, rule(fill)?);
     let (corners, owners) = run(py, features.vertices(), |stop| {
         let regions = regions(features, rule, stop)?;
-        let found = each(regions.len(), |_, i| Ok(regions[i].triangulate()))?;
+        let found = each(regions.len(), stop, |_, i| Ok(regions[i].triangulate()))?;
         let owners = (0..).zip(&found).flat_map(|(i, part)| part.iter().map(move |_| i));
         let corners = found.iter().flatten().flatten().flat_map(|p| p.to_array());
         Ok((corners.collect::<Vec<f64>>(), owners.collect::<Vec<i64>>()))
@@ -73,7 +73,7 @@ pub(crate) fn triangles<'py>(
 /// Each feature as a region.
 pub(crate) fn regions(features: Ragged<'_>, rule: FillRule, stop: &AtomicBool) -> PyResult<Vec<Region>> {
     let region = |scratch: &mut Scratch, i: usize| evaluate(&features.operand(i, rule)?, i, scratch, stop);
-    each(features.len(), region)
+    each(features.len(), stop, region)
 }
 
 pub(crate) fn evaluate(

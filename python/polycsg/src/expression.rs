@@ -7,6 +7,7 @@ use crate::run::{each, run};
 use polycsg::{Csg, FillRule, PreparedRegion, Scratch};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::sync::atomic::AtomicBool;
 
 /// A word of an expression in postfix form.
 #[derive(Clone, Copy)]
@@ -66,11 +67,12 @@ pub(crate) fn evaluated<'py>(
     let count = count(&operands)?;
     let vertices = operands.iter().map(|operand| operand.vertices()).sum();
     let built = run(py, vertices, |stop| {
-        let sides: PyResult<Vec<Side>> = operands.iter().map(|side| Side::of(*side, count, rule)).collect();
+        let sides: PyResult<Vec<Side>> =
+            operands.iter().map(|side| Side::of(*side, count, rule, stop)).collect();
         let sides = sides?;
         let combine =
             |scratch: &mut Scratch, i: usize| evaluate(&expression(&sides, &program, i)?, i, scratch, stop);
-        Ok(Built::of(&each(count, combine)?))
+        Ok(Built::of(&each(count, stop, combine)?))
     })?;
     built.into_python(py)
 }
@@ -105,11 +107,12 @@ enum Side<'a> {
 }
 
 impl<'a> Side<'a> {
-    fn of(features: Ragged<'a>, count: usize, rule: FillRule) -> PyResult<Self> {
+    fn of(features: Ragged<'a>, count: usize, rule: FillRule, stop: &AtomicBool) -> PyResult<Self> {
         if features.len() == count {
             return Ok(Self::Each(features, rule));
         }
-        Ok(Self::Prepared(Box::new(features.operand(0, rule)?.evaluate().into())))
+        let region = evaluate(&features.operand(0, rule)?, 0, &mut Scratch::default(), stop)?;
+        Ok(Self::Prepared(Box::new(region.into())))
     }
 
     fn operand(&self, feature: usize) -> PyResult<Csg<'_>> {

@@ -30,7 +30,7 @@ impl Prepared {
             let clip = |scratch: &mut Scratch, i: usize| {
                 evaluate(&(features.operand(i, rule)? & Csg::from(&self.0)), i, scratch, stop)
             };
-            Ok(Built::of(&each(features.len(), clip)?))
+            Ok(Built::of(&each(features.len(), stop, clip)?))
         })?;
         built.into_python(py)
     }
@@ -47,7 +47,7 @@ impl Prepared {
             Location::Boundary => 0,
             Location::Outside => -1,
         };
-        let found = run(py, points.len(), |_| each(points.len(), |_, i| Ok(place(&points[i]))))?;
+        let found = run(py, points.len(), |stop| each(points.len(), stop, |_, i| Ok(place(&points[i]))))?;
         Ok(PyArray1::from_vec(py, found))
     }
 }

@@ -1,7 +1,8 @@
 //! Work without the interpreter, which Ctrl-C stops.
 use polycsg::Scratch;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Inputs of fewer vertices take less time than a person waits, whatever they are, and than starting threads is worth.
 const FEW: usize = 500;
@@ -18,10 +19,16 @@ pub(crate) fn run<T: Send>(
     python_run::watched(py, |_| Ok(()), work)
 }
 
-/// Something for each number below a count.
+/// Something for each number below a count, until it is to stop.
 pub(crate) fn each<T: Send>(
     count: usize,
+    stop: &AtomicBool,
     find: impl Fn(&mut Scratch, usize) -> PyResult<T> + Send + Sync,
 ) -> PyResult<Vec<T>> {
-    python_run::each(count, Scratch::default, find)
+    python_run::each(count, Scratch::default, |scratch, i| {
+        if stop.load(Ordering::Relaxed) {
+            return Err(PyKeyboardInterrupt::new_err(()));
+        }
+        find(scratch, i)
+    })
 }

@@ -14,8 +14,8 @@ use std::collections::{HashMap, HashSet};
 #[pyfunction]
 pub(crate) fn flaws(py: Python<'_>, features: Features<'_>) -> PyResult<Vec<Option<String>>> {
     let features = features.read()?;
-    run(py, features.vertices(), |_| {
-        each(features.len(), |scratch, i| Ok(Rings::of(features, i).flaw(scratch)))
+    run(py, features.vertices(), |stop| {
+        each(features.len(), stop, |scratch, i| Ok(Rings::of(features, i).flaw(scratch)))
     })
 }
 

@@ -41,7 +41,7 @@ def test_threads_at_once():
 
 
 def test_the_interpreter_is_free_meanwhile():
-    upright, level = combs(700)
+    upright, level = combs(400)
     done = threading.Event()
 
     def work():
@@ -71,15 +71,30 @@ def test_after_a_fork():
         assert pool.map_async(area_in_child, [shapes] * 4).get(60) == [wanted] * 4
 
 
+def one(shapes):
+    return shapes.reshape(-1, 2)
+
+
+LONG = {
+    "two at once": lambda: polycsg.symmetric_difference(*map(one, combs(1500))),
+    "many as one": lambda: polycsg.unary_union(np.concatenate(combs(1500))),
+    "one with an array": lambda: polycsg.union(
+        np.stack([SQUARE, SQUARE]), np.concatenate(combs(1500)).reshape(1, -1, 2)
+    ),
+    "each": lambda: polycsg.is_valid(octagons(1_000_000)),
+    "points": lambda: polycsg.locate(SQUARE, np.random.default_rng(0).random((30_000_000, 2))),
+}
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
-def test_ctrl_c():
-    upright, level = combs(3000)
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+@pytest.mark.parametrize("long", LONG)
+def test_ctrl_c(long):
+    threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     start = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
-        polycsg.symmetric_difference(upright.reshape(-1, 2), level.reshape(-1, 2))
-        polycsg.unary_union([*upright, *level])
-    assert time.monotonic() - start < 5
+        while True:
+            LONG[long]()
+    assert time.monotonic() - start < 20
 
 
 def test_the_same_for_any_number_of_threads():
