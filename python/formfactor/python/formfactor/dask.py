@@ -32,8 +32,9 @@ def matrix(
     """Finds the form factors between all polygons on the workers of a ``distributed.Client``; gives the files of
     their rows, in order, for :func:`rows` and :func:`sha256`.
 
-    ``folder`` is one that all workers see. Blocks are cut so that each has as many pairs; some times the number of
-    workers keeps all of them busy to the end. The numbers do not depend on blocks, workers and restarts, bit for bit.
+    ``folder`` is one that all workers see. A block of k rows of n takes a worker up to some 110 k n bytes; some times
+    as many blocks as workers keep all of them busy to the end. The numbers do not depend on blocks, workers and
+    restarts, bit for bit.
     """
     root = Path(folder).absolute()
     claim(root, enclosure.fingerprint(tolerance))
@@ -99,10 +100,9 @@ def _scene(root: Path) -> Enclosure:
 
 
 def _ends(count: int, blocks: int) -> list[int]:
-    """Where blocks of as many pairs begin and end: the k-th of n rows has n - 1 - k."""
-    shares = np.linspace(0, 1, max(1, min(blocks, count)) + 1)
-    ends = {round(count * (1 - (1 - share) ** 0.5)) for share in shares}
-    return sorted(ends | {0, count})
+    """Where blocks of as many rows begin and end. The first have the most pairs: the longest work comes first."""
+    blocks = max(1, min(blocks, count))
+    return sorted({count * block // blocks for block in range(blocks + 1)})
 
 
 def rows(files: Sequence[Path]) -> Iterator[Rows]:
