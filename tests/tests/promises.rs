@@ -31,7 +31,8 @@ fn named(tests: &str) -> Vec<(&str, &str)> {
 fn tests_of(file: &str) -> BTreeSet<String> {
     let text = fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
     if file.ends_with(".py") {
-        let functions = text.lines().filter_map(|line| line.trim_start().strip_prefix("def ")?.split_once('('));
+        let functions =
+            text.lines().filter_map(|line| line.trim_start().strip_prefix("def ")?.split_once('('));
         return functions.map(|(name, _)| name.to_owned()).filter(|name| name.starts_with("test_")).collect();
     }
     let parts = text.split("#[test]").skip(1);
