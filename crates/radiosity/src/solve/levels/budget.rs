@@ -4,6 +4,7 @@ use super::flow::{Linear, square};
 use super::link::Link;
 use super::tile::SQUARE;
 use super::tiling::Tiling;
+use rayon::prelude::*;
 
 /// How much of the curvature of what a tile sees of another, times the deviation of the other's light, counts.
 const SENT: f64 = 0.5;
@@ -15,6 +16,10 @@ const OTHERS: f64 = 0.3;
 const PLACE: f64 = 0.3;
 /// How much of the light that is reflected by what five points miss may be other than its surroundings.
 const BLIND: f64 = 0.3;
+/// Patches whose errors add up to so much more than their share are not refined for the rest.
+const ENOUGH: f64 = 1.25;
+/// How much less than that of a whole the light of a half deviates from linear.
+const HALVED: f64 = 0.5;
 /// Patches that are darker than this share of the mean count as if they were as bright.
 pub(super) const DARK: f64 = 0.01;
 
@@ -27,25 +32,22 @@ pub(super) struct BandLight {
     pub(super) deviation: Vec<f64>,
     /// How much of what each tile sends is reflected.
     pub(super) reflected: Vec<f64>,
+    /// For each tile, the mean of what the whole that it is a part of sends.
+    level: Vec<f64>,
     /// See [`importances`].
     pub(super) importance: Vec<f64>,
     /// For each patch: the power that counts as 1.
     pub(super) unit: Vec<f64>,
 }
 
-/// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, and the sender's part.
+/// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, the sender's part, and
+/// that of the total which the links of the pair add up to, which no cut betters.
 #[derive(Clone, Copy, Debug)]
 struct Flaw {
     of_mean: f64,
     within: f64,
     of_sender: f64,
-}
-
-/// A link to be refined, and which of its ends is to be cut.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cut {
-    pub(super) link: usize,
-    pub(super) end: usize,
+    of_total: f64,
 }
 
 /// For each tile how much its parts, where others look at them in more detail, matter to one patch: the largest sum of what they send it, in its unit,
@@ -89,10 +91,32 @@ impl BandLight {
         let for_others =
             self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[tile.patch];
         let elsewhere = PLACE * transfer.locality() * link.exchange[0];
+        let shared = if link.of_total.is_some() { link.error() } else { 0.0 };
         Flaw {
-            of_mean: link.error() * bright,
-            within: (WITHIN + OTHERS * for_others) * here * bright,
+            // Where the total is known only how it is shared can be wrong: no matter where the sender is even.
+            of_mean: link.error() * if link.of_total.is_some() { self.stray(sender) } else { bright },
+            of_total: link.of_total.map_or(0.0, |share| share * link.exchange[0] * bright),
+            within: (WITHIN + OTHERS * for_others) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
+        }
+    }
+
+    /// How far what a tile sends is from the mean of its whole.
+    fn stray(&self, tile: usize) -> f64 {
+        let [mean, first, second] = self.sent[tile];
+        square([mean - self.level[tile], first, second]).sqrt()
+    }
+
+    /// Takes in tiles that were cut since: they send what their parents do.
+    pub(super) fn grow(&mut self, tiling: &Tiling<'_>) {
+        for (index, tile) in tiling.tiles.iter().enumerate().skip(self.sent.len()) {
+            let Some(parent) = tile.parent else { continue };
+            let light = tile.restrict(self.sent[parent]);
+            self.sent.push(light);
+            self.deviation.push(HALVED * self.deviation[parent]);
+            self.reflected.push((light[0] - tiling.emittance(index, self.band)).abs());
+            self.importance.push(self.importance[parent]);
+            self.level.push(self.level[parent]);
         }
     }
 
@@ -125,7 +149,12 @@ impl BandLight {
             .enumerate()
             .map(|(tile, light)| (light[0] - tiling.emittance(tile, band)).abs())
             .collect();
-        BandLight { band, reflected, deviation, sent, importance: importances(tiling, links, &unit), unit }
+        let mut level: Vec<f64> = sent.iter().map(|light| light[0]).collect();
+        for (index, tile) in tiling.tiles.iter().enumerate() {
+            level[index] = tile.parent.map_or(level[index], |parent| level[parent]);
+        }
+        let importance = importances(tiling, links, &unit);
+        BandLight { band, reflected, deviation, sent, level, importance, unit }
     }
 }
 
@@ -160,37 +189,47 @@ pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], c
             for light in bands {
                 let flaw = light.flaw(tiling, link, end);
                 sums[patch * count + light.band] +=
-                    (flaw.of_mean + flaw.of_sender) / patches[patch].polygon.area();
+                    (flaw.of_mean + flaw.of_sender + flaw.of_total) / patches[patch].polygon.area();
             }
         }
     }
     sums
 }
 
-/// The links to refine so that no patch's links err by more than `share` of its light in sum: the largest errors first.
-pub(super) fn cuts(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], share: f64) -> Vec<Cut> {
-    let mut of_patch: Vec<Vec<(f64, Cut)>> = vec![Vec::new(); tiling.scene.patches.len()];
-    for (index, link) in links.iter().enumerate() {
+/// The largest errors that the links of every patch may have, so that they add up to no more than `share` of its light: infinite where all do.
+pub(super) fn limits(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], share: f64) -> Vec<f64> {
+    let mut of_patch: Vec<Vec<f64>> = vec![Vec::new(); tiling.scene.patches.len()];
+    for link in links {
         for end in [0, 1] {
-            let patch = tiling.tiles[link.ends[end]].patch;
-            let (error, at_end) = worst(tiling, link, end, bands);
-            if error > 0.0 {
-                of_patch[patch].push((error, Cut { link: index, end: if at_end { end } else { 1 - end } }));
-            }
+            of_patch[tiling.tiles[link.ends[end]].patch].push(worst(tiling, link, end, bands).0);
         }
     }
-    let mut chosen: Vec<Option<(f64, Cut)>> = vec![None; links.len()];
-    for mut errors in of_patch {
-        errors.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.link.cmp(&a.1.link)));
-        let mut sum = 0.0;
-        for (error, cut) in errors {
-            sum += error;
-            if sum > share && chosen[cut.link].is_none_or(|(other, _)| error > other) {
-                chosen[cut.link] = Some((error, cut));
-            }
-        }
+    of_patch.into_par_iter().map(|errors| limit(errors, share)).collect()
+}
+
+fn limit(mut errors: Vec<f64>, share: f64) -> f64 {
+    if errors.iter().sum::<f64>() <= ENOUGH * share {
+        return f64::INFINITY;
     }
-    chosen.into_iter().flatten().map(|(_, cut)| cut).collect()
+    errors.sort_by(f64::total_cmp);
+    let mut sum = 0.0;
+    let kept = errors.iter().take_while(|error| {
+        sum += **error;
+        sum <= share
+    });
+    // Where even the least is too much, they are to be as small as so many may be.
+    kept.last().copied().unwrap_or(0.0).max(share / errors.len() as f64)
+}
+
+/// Which end of a link is to be cut, if an error of it is beyond the limit of its patch: that of the error which is furthest beyond.
+pub(super) fn cut(tiling: &Tiling<'_>, link: &Link, bands: &[BandLight], limits: &[f64]) -> Option<usize> {
+    let beyond = |end: usize| {
+        let (error, at_end) = worst(tiling, link, end, bands);
+        let limit = limits[tiling.tiles[link.ends[end]].patch];
+        (error > limit).then_some((error, if at_end { end } else { 1 - end }))
+    };
+    let [one, other] = [0, 1].map(beyond);
+    one.into_iter().chain(other).reduce(|a, b| if b.0 > a.0 { b } else { a }).map(|(_, end)| end)
 }
 
 /// The error of what one end of a link receives in the worst band, and whether that end is to be cut for it.
@@ -198,7 +237,7 @@ fn worst(tiling: &Tiling<'_>, link: &Link, end: usize, bands: &[BandLight]) -> (
     let patch = tiling.tiles[link.ends[end]].patch;
     let at_end = usize::from(link.transfer.from_second) == end;
     let of = |light: &BandLight| {
-        let Flaw { of_mean, within, of_sender } = light.flaw(tiling, link, end);
+        let Flaw { of_mean, within, of_sender, .. } = light.flaw(tiling, link, end);
         let (here, there) =
             if at_end { (of_mean + within, of_sender) } else { (within, of_mean + of_sender) };
         let unit = light.unit[patch];

@@ -5,12 +5,11 @@
 //! is still missing is taken to be as bright as the receiver: so no room loses or gains light, however bright its finish.
 use super::flow::{Linear, gather, pull, push, square};
 use super::link::Link;
+use super::roots::Roots;
 use super::tile::SQUARE;
 use super::tiling::Tiling;
 use crate::union_find::UnionFind;
 
-/// A leaf of a closed room of which less is seen lies in part under something.
-const OPEN: f64 = 0.8;
 /// After so many rounds of scaling, or when only this much is missing anywhere, the rest is no matter: a few while links change.
 const ROUNDS: usize = 30;
 const FEW_ROUNDS: usize = 4;
@@ -56,13 +55,15 @@ impl<'e> Equilibrium<'e> {
     /// Scales what the leaves exchange until ΣF is what it is known to be; in closed rooms what remains goes to their own light.
     fn close(&mut self, known: &[Option<f64>], rounds: usize) {
         let even = vec![[1.0, 0.0, 0.0]; self.leaves.len()];
+        let roots = Roots::new(self.tiling, self.links, &self.leaves, known);
         for round in 0..rounds {
+            let sums: Vec<f64> = self.receive(&even).iter().map(|sums| sums[0]).collect();
+            let rights = roots.rights(&sums);
             let mut largest = 0.0f64;
-            for (leaf, sums) in self.receive(&even).iter().enumerate() {
-                let right = known[self.leaves[leaf]].filter(|right| sums[0] > OPEN * right);
-                if let Some(right) = right.or((sums[0] > 1.0).then_some(1.0)).filter(|right| *right > 0.0) {
-                    self.scales[leaf] *= (right / sums[0]).sqrt();
-                    largest = largest.max((sums[0] - right).abs());
+            for (leaf, (sum, right)) in sums.iter().zip(rights).enumerate() {
+                if *sum > 0.0 && right > 0.0 {
+                    self.scales[leaf] *= (right / sum).sqrt();
+                    largest = largest.max((sum - right).abs());
                 }
             }
             self.scaling = if round == 0 { largest } else { self.scaling };
@@ -72,7 +73,7 @@ impl<'e> Equilibrium<'e> {
         }
         let whole = self.receive(&even);
         for (leaf, [mean, first, second]) in whole.into_iter().enumerate() {
-            let (missing, sums) = match (known[self.leaves[leaf]] == Some(1.0) && mean > OPEN, mean > 1.0) {
+            let (missing, sums) = match (known[self.leaves[leaf]] == Some(1.0), mean > 1.0) {
                 (true, _) => ([1.0 - mean, -first, -second], [1.0, 0.0, 0.0]),
                 (false, true) => ([1.0 - mean, 0.0, 0.0], [1.0, first, second]),
                 (false, false) => ([0.0; 3], [mean, first, second]),
@@ -94,6 +95,12 @@ impl<'e> Equilibrium<'e> {
     /// The largest change that closing rooms makes to ΣF.
     pub(super) fn scaling(&self) -> f64 {
         self.scaling
+    }
+
+    /// What each tile sends and receives is multiplied by, on average.
+    pub(super) fn scales(&self) -> Vec<f64> {
+        let scales: Vec<Linear> = self.scales.iter().map(|scale| [*scale, 0.0, 0.0]).collect();
+        self.spread(&scales).into_iter().map(|mean| mean[0]).collect()
     }
 
     /// What the leaves reflect.

@@ -30,6 +30,8 @@ pub(super) struct Link {
     pub(super) transfer: Arc<Transfer>,
     /// What passes: as measured, or by what all links of the pair are known to exchange.
     pub(super) exchange: [f64; 9],
+    /// What all links of the pair may be off by together, as a share of what they carry, where that is known.
+    pub(super) of_total: Option<f64>,
 }
 
 impl Link {
@@ -37,7 +39,7 @@ impl Link {
     pub(super) fn new(candidate: &Candidate, among: Arc<[u32]>, transfer: Arc<Transfer>) -> Option<Link> {
         let Candidate { ends, unseen, pair, .. } = *candidate;
         let exchange = transfer.exchange;
-        let link = Link { ends, among, unseen, pair, transfer, exchange };
+        let link = Link { ends, among, unseen, pair, transfer, exchange, of_total: None };
         (link.transfer.exchange[0] > 0.0 || link.error() > 0.0).then_some(link)
     }
 

@@ -14,7 +14,8 @@ use std::sync::Arc;
 /// A point is in a closed room when ΣF is 1 within this.
 const CLOSED: f64 = 1e-9;
 
-/// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not.
+/// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not, which parts of a tile that
+/// is crossed may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Enclosed {
     Wholly,
@@ -23,7 +24,7 @@ enum Enclosed {
 }
 
 impl Enclosed {
-    fn by(sums: &[f64; 5]) -> Enclosed {
+    fn by(sums: &[f64]) -> Enclosed {
         match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
             5 => Enclosed::Wholly,
             0 => Enclosed::Nowhere,
@@ -75,31 +76,46 @@ impl Links {
                 sums.zip(link.transfer.seen[end]).for_each(|(sum, factor)| *sum += factor);
             }
         }
-        self.enclosed = seen.iter().map(Enclosed::by).collect();
+        self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.totals = Totals::of(tiling, &links, error);
         self.totals.share(&mut links);
         self.all = links;
     }
 
-    /// Replaces those of the links that are `gone` by others.
-    pub(super) fn replace(&mut self, gone: &[bool], by: Vec<Link>) {
-        let mut gone = gone.iter();
-        self.all.retain(|_| !gone.next().is_some_and(|is_gone| *is_gone));
-        self.all.extend(by);
+    /// Takes other links in place of these.
+    pub(super) fn replace(&mut self, by: Vec<Link>) {
+        self.all = by;
         self.totals.share(&mut self.all);
+    }
+
+    /// Makes what passes between whole tiles right again after rooms were made to close.
+    pub(super) fn restore(&mut self, tiling: &Tiling<'_>) {
+        let scales = self.equilibrium(tiling, false).scales();
+        self.totals.restore(&mut self.all, &scales);
+    }
+
+    /// ΣF of the tiles of which it is known: 1 in closed rooms.
+    fn known(&self, tiling: &Tiling<'_>) -> Vec<Option<f64>> {
+        let is_closed = |tile: &Tile, enclosed| enclosed == Enclosed::Wholly && !tile.is_crossed;
+        let known =
+            tiling.tiles.iter().zip(&self.enclosed).map(|(tile, e)| is_closed(tile, *e).then_some(1.0));
+        known.chain(std::iter::repeat(None)).take(tiling.tiles.len()).collect()
     }
 
     /// Finds which of the tiles since the last time are in closed rooms: those of which a part is are looked at again when they are cut.
     pub(super) fn enclose(&mut self, tiling: &Tiling<'_>) {
-        let known = self.enclosed.len();
-        let find = |tile: &Tile| match tile.parent.and_then(|parent| self.enclosed.get(parent)) {
-            Some(Enclosed::Partly) => Enclosed::by(&tile.points.each_ref().map(|point| sum(tiling, point))),
-            Some(&enclosed) => enclosed,
-            None => Enclosed::Nowhere,
-        };
-        let found: Vec<Enclosed> = tiling.tiles[known..].par_iter().map(find).collect();
-        self.enclosed.extend(found);
+        for tile in &tiling.tiles[self.enclosed.len()..] {
+            let parent = tile.parent.map(|parent| (self.enclosed[parent], tiling.tiles[parent].is_crossed));
+            self.enclosed.push(match parent {
+                None | Some((Enclosed::Nowhere, _)) => Enclosed::Nowhere,
+                Some((Enclosed::Wholly, false)) => Enclosed::Wholly,
+                Some(_) => {
+                    let sums: Vec<f64> = tile.points.par_iter().map(|point| sum(tiling, point)).collect();
+                    Enclosed::by(&sums)
+                }
+            });
+        }
     }
 
     /// The links of some candidates, in their order; what was measured is kept in the state.
@@ -146,10 +162,7 @@ impl Links {
 
     /// The light of all leaves at once; rooms are made to close better at last.
     pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>, is_last: bool) -> Equilibrium<'e> {
-        let is_closed = |tile| self.enclosed.get(tile) == Some(&Enclosed::Wholly);
-        let known: Vec<Option<f64>> =
-            (0..tiling.tiles.len()).map(|tile| is_closed(tile).then_some(1.0)).collect();
-        Equilibrium::new(tiling, &self.all, &known, is_last)
+        Equilibrium::new(tiling, &self.all, &self.known(tiling), is_last)
     }
 
     /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.

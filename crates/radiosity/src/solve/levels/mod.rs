@@ -9,6 +9,7 @@
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
 //! equilibrium   what all leaves exchange, made to close
+//! roots         what ΣF of every leaf is to be
 //! flow          light up the tree, across the links, and down
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
@@ -32,6 +33,7 @@ mod links;
 mod measure;
 mod nearby;
 mod output;
+mod roots;
 pub(super) mod rounds;
 mod shaft;
 mod tile;

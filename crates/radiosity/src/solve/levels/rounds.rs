@@ -1,5 +1,5 @@
 //! Rounds of linking, solving and refining.
-use super::budget::{BandLight, cuts};
+use super::budget::{BandLight, cut, limits};
 use super::equilibrium::largest;
 use super::estimate::estimate;
 use super::flow::Linear;
@@ -12,12 +12,15 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::solve::progress::{LinkedTiles, Moment, Progress};
 use crate::solve::{options::Options, solution::Solution, state::State};
+use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
 /// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
 const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
 /// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
-const SUM: f64 = 3.0;
+const SUM: f64 = 2.0;
+/// How often totals are restored and rooms closed in turn at the end.
+const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
 const FEW: usize = 8;
 const ALL: usize = 400;
@@ -75,8 +78,8 @@ impl Levels<'_> {
         self.links.refuse_endless(&self.tiling)?;
         for times in COARSE {
             loop {
-                let lights = self.settle(FEW, false);
-                match self.refine(&lights, times * SUM * self.options.error, state)? {
+                let mut lights = self.settle(FEW, false);
+                match self.refine(&mut lights, times * SUM * self.options.error, state)? {
                     None => return Ok(false),
                     Some(false) => break,
                     Some(true) => {}
@@ -135,8 +138,11 @@ impl Levels<'_> {
     /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
     fn settle(&mut self, most: usize, is_last: bool) -> Vec<BandLight> {
         self.links.enclose(&self.tiling);
+        if is_last {
+            (0..RESTORED).for_each(|_| self.links.restore(&self.tiling));
+        }
         let equilibrium = self.links.equilibrium(&self.tiling, is_last);
-        for (band, sent) in self.sent.iter_mut().enumerate() {
+        let better = |(band, sent): (usize, &mut Vec<Linear>)| {
             let emitted: Vec<Linear> = equilibrium
                 .leaves()
                 .iter()
@@ -145,10 +151,12 @@ impl Levels<'_> {
             let reflectance = equilibrium.reflectance(band);
             let mut light = equilibrium.of_leaves(sent);
             let enough = equilibrium.enough(&reflectance, &light, &emitted, self.options.tolerance);
-            self.products +=
+            let products =
                 Gradients::new(&equilibrium, &emitted, &reflectance).better(&mut light, enough, most);
             *sent = equilibrium.spread(&light);
-        }
+            products
+        };
+        self.products += self.sent.par_iter_mut().enumerate().map(better).sum::<usize>();
         self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent);
         self.rounds += 1;
         let lit = (0..self.sent.len()).filter(|&band| largest(&self.sent[band]) > 0.0);
@@ -156,28 +164,56 @@ impl Levels<'_> {
             let received = equilibrium.spread(&self.light.received[band]);
             BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band)
         };
-        lit.map(light).collect()
+        lit.collect::<Vec<usize>>().into_par_iter().map(light).collect()
     }
 
     /// Refines the links whose errors exceed the budgets; false when there is nothing to refine, nothing when the run is to end.
-    fn refine(&mut self, lights: &[BandLight], share: f64, state: &mut State) -> Result<Option<bool>, Error> {
-        let chosen = cuts(&self.tiling, &self.links.all, lights, share);
-        let mut candidates = Vec::new();
-        let mut gone = vec![false; self.links.all.len()];
-        for cut in chosen {
-            if let Some(parts) = self.halve(cut.link, cut.end)? {
-                gone[cut.link] = true;
-                candidates.extend(parts);
+    ///
+    /// What takes the place of a link is refined as well, in the light as it is now, as long as it is beyond what its patches allow.
+    fn refine(
+        &mut self,
+        lights: &mut [BandLight],
+        share: f64,
+        state: &mut State,
+    ) -> Result<Option<bool>, Error> {
+        let limits = limits(&self.tiling, &self.links.all, lights, share);
+        let kept = self.links.all.clone();
+        let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
+        let is_cut = !candidates.is_empty();
+        while !candidates.is_empty() {
+            let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
+            let (fine, coarse) = self.part(links, lights, &limits)?;
+            kept.extend(fine);
+            candidates = coarse;
+        }
+        self.links.replace(kept);
+        Ok(Some(is_cut))
+    }
+
+    /// The links that are within the limits of their patches, and what takes the place of the others.
+    fn part(
+        &mut self,
+        links: Vec<Link>,
+        lights: &mut [BandLight],
+        limits: &[f64],
+    ) -> Result<(Vec<Link>, Vec<Candidate>), Error> {
+        let (mut kept, mut candidates) = (Vec::with_capacity(links.len()), Vec::new());
+        for link in links {
+            let parts = match cut(&self.tiling, &link, lights, limits) {
+                Some(end) => self.halve(&link, end)?,
+                None => None,
+            };
+            match parts {
+                Some(parts) => candidates.extend(parts),
+                None => kept.push(link),
             }
         }
-        let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
-        self.links.replace(&gone, links);
-        Ok(Some(!candidates.is_empty()))
+        lights.iter_mut().for_each(|light| light.grow(&self.tiling));
+        Ok((kept, candidates))
     }
 
     /// The pairs that take the place of a link: one of its ends is cut, or the other where that cannot be.
-    fn halve(&mut self, link: usize, first: usize) -> Result<Option<[Candidate; 2]>, Error> {
-        let link = &self.links.all[link];
+    fn halve(&mut self, link: &Link, first: usize) -> Result<Option<[Candidate; 2]>, Error> {
         for end in [first, 1 - first] {
             let (tile, bend) = (link.ends[end], link.transfer.bend[end]);
             let before = self.tiling.tiles.len();

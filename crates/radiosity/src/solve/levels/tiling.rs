@@ -37,6 +37,8 @@ pub(super) struct Tile {
     pub(super) parent: Option<usize>,
     /// The functions of the parent in those of this one: see [`Tiling::restriction`].
     pub(super) restriction: [f64; 6],
+    /// Whether something else stands on it, so that a part of it may be covered.
+    pub(super) is_crossed: bool,
     /// Names the tile by how it was cut.
     pub(super) key: u64,
     pub(super) reflectance: Vec<f64>,
@@ -137,6 +139,7 @@ impl<'s> Tiling<'s> {
                 e.map_err(refused)?,
             ],
             normal,
+            is_crossed: self.contact_in(patch, &outline).is_some(),
             halves: None,
             parent,
             restriction: parent.map_or([0.0; 6], |parent| restriction(&outline, &self.tiles[parent].outline)),
@@ -165,7 +168,8 @@ impl<'s> Tiling<'s> {
         let (patch, key) = (parent.patch, parent.key);
         let frame = self.bases[patch].frame;
         let cut = |line| parent.outline.cut(line, |flat| frame.lift(flat));
-        let contact = self.contact_in(tile).and_then(|[start, end]| cut([start, end - start]));
+        let contact =
+            self.contact_in(patch, &parent.outline).and_then(|[start, end]| cut([start, end - start]));
         let Some(parts) = contact.or_else(|| cut(across(&parent.outline, axis))) else { return Ok(None) };
         let way = parts[0].centroid - parts[1].centroid;
         let mut halves = [0; 2];
@@ -179,10 +183,9 @@ impl<'s> Tiling<'s> {
         Ok(Some(halves))
     }
 
-    /// The contact of which most is inside a tile.
-    fn contact_in(&self, tile: usize) -> Option<[DVec2; 2]> {
-        let Tile { patch, outline, .. } = &self.tiles[tile];
-        let inside = self.bases[*patch].contacts.iter().map(|line| (outline.within(*line), line));
+    /// The contact of which most is inside an outline.
+    fn contact_in(&self, patch: usize, outline: &Outline) -> Option<[DVec2; 2]> {
+        let inside = self.bases[patch].contacts.iter().map(|line| (outline.within(*line), line));
         let longest = inside.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
         (longest.0 > 1e-4 * outline.axes[0].length()).then_some(*longest.1)
     }

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 /// How exact totals are, as a share of the error asked for, and never better than so much of a form factor.
 const EXACT: f64 = 0.1;
 const LEAST: f64 = 1e-8;
-/// Totals that are less exact than so many times that are of no use.
-const USELESS: f64 = 10.0;
+/// Totals that are as good as this share of themselves are believed, whatever the links' errors are said to be.
+const GOOD: f64 = 0.05;
 /// Point form factors for one total.
 const MOST: u64 = 1 << 12;
 /// Pairs of which totals are found: with more patches each pair matters less.
@@ -18,7 +18,14 @@ const EVEN: f64 = 1e-3;
 
 /// For each pair of whole tiles that are linked, what they exchange, where that is known.
 #[derive(Debug, Default)]
-pub(super) struct Totals(Vec<Option<f64>>);
+pub(super) struct Totals(Vec<Option<Total>>);
+
+/// What a pair exchanges, and how wrong that may be.
+#[derive(Clone, Copy, Debug)]
+struct Total {
+    power: f64,
+    error: f64,
+}
 
 impl Totals {
     /// Of the links of whole tiles, past all that stands between them, for light that is to be right within such an error.
@@ -29,30 +36,49 @@ impl Totals {
         Totals(links.par_iter().map(|link| total(tiling, link, EXACT * error)).collect())
     }
 
-    /// Shares what is missing of each total, or too much, among its links by their errors.
+    /// Makes the links add up to the totals though what each tile sends and receives is scaled.
+    pub(super) fn restore(&self, links: &mut [Link], scales: &[f64]) {
+        let mut found = vec![0.0; self.0.len()];
+        let scaled = |link: &Link| link.exchange[0] * scales[link.ends[0]] * scales[link.ends[1]];
+        for link in links.iter() {
+            found.get_mut(link.pair).into_iter().for_each(|sum| *sum += scaled(link));
+        }
+        for link in links.iter_mut().filter(|link| link.of_total.is_some()) {
+            let Some(total) = self.0.get(link.pair).copied().flatten() else { continue };
+            if found[link.pair] > 0.0 {
+                link.carry(link.exchange[0] * total.power / found[link.pair]);
+            }
+        }
+    }
+
+    /// Shares what is missing of each total, or too much, among its links by their errors, where the total is better known than they are.
     pub(super) fn share(&self, links: &mut [Link]) {
-        let mut found = vec![[0.0; 2]; self.0.len()];
+        let mut found = vec![[0.0; 3]; self.0.len()];
         let weight = |link: &Link| link.error() + EVEN * link.transfer.exchange[0];
         for link in links.iter() {
-            let Some([sum, weights]) = found.get_mut(link.pair) else { continue };
+            let Some([sum, weights, errors]) = found.get_mut(link.pair) else { continue };
             *sum += link.transfer.exchange[0];
             *weights += weight(link);
+            *errors += link.error();
         }
         for link in links.iter_mut() {
             let Some(total) = self.0.get(link.pair).copied().flatten() else { continue };
-            let [sum, weights] = found[link.pair];
-            link.carry(link.transfer.exchange[0] + (total - sum) * weight(link) / weights);
+            let [sum, weights, errors] = found[link.pair];
+            let is_better = total.error < errors.max(GOOD * total.power);
+            let change = if is_better { (total.power - sum) * weight(link) / weights } else { 0.0 };
+            link.carry(link.transfer.exchange[0] + change);
+            link.of_total = is_better.then_some(total.error / total.power);
         }
     }
 }
 
 /// What the ends of a link exchange, if that can be found.
-fn total(tiling: &Tiling<'_>, link: &Link, relative: f64) -> Option<f64> {
+fn total(tiling: &Tiling<'_>, link: &Link, relative: f64) -> Option<Total> {
     let [one, other] = link.ends.map(|end| &tiling.tiles[end]);
     let tolerance = Tolerance { absolute: LEAST, relative, row: f64::INFINITY };
     let limits = Limits { per_pair: MOST, ..Limits::default() };
     let parts = [one, other].map(|tile| (tile.surface, &tile.polygon));
     let AreaFormFactor { value, error_estimate, .. } =
         tiling.enclosure.area_form_factor(parts[0], parts[1], tolerance, &limits).ok()??;
-    (error_estimate <= USELESS * (relative * value).max(LEAST)).then_some(one.area * value)
+    (value > 0.0).then_some(Total { power: one.area * value, error: one.area * error_estimate })
 }
