@@ -50,7 +50,8 @@ fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2]
         let [value, error] = parallel([a, b], [c, d], size);
         return [value * cosine.signum(), error];
     }
-    let inner = |s: f64| along(a + way * s, [c, d], size);
+    let reach = [a, b, c, d].into_iter().fold(0.0, |reach: f64, end| reach.max(end.abs().max_element()));
+    let inner = |s: f64| along(a + way * s, [c, d], size, 4.0 * f64::EPSILON * reach / size);
     let away = |s: f64| to_segment(a + way * s, [c, d]) / length;
     let [value, error] = adaptive(&inner, &away, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
     [value * length * cosine, error * length * cosine.abs()]
@@ -93,8 +94,8 @@ fn second_integral(z: f64, h: f64) -> [f64; 2] {
     [value, rounding(square, square)]
 }
 
-/// The integral of ln(r / size) from a point over an edge, and its rounding.
-fn along(point: DVec3, [c, d]: Segment, size: f64) -> [f64; 2] {
+/// The integral of ln(r / size) from a point over an edge, and its rounding; places are known to within `blur` sizes.
+fn along(point: DVec3, [c, d]: Segment, size: f64, blur: f64) -> [f64; 2] {
     let direction = (d - c).normalize();
     let from = direction.dot(c - point);
     let (low, high) = (from / size, direction.dot(d - point) / size);
@@ -104,7 +105,9 @@ fn along(point: DVec3, [c, d]: Segment, size: f64) -> [f64; 2] {
         if square == 0.0 {
             return [0.0; 2];
         }
-        [s * square.ln() / 2.0 - s + height * s.atan2(height), rounding(square.sqrt(), square)]
+        // It changes by ln r where an end moves along the edge, and by no more than pi / 2 where the point moves aside.
+        let moved = blur * (square.ln().abs() / 2.0 + 2.0);
+        [s * square.ln() / 2.0 - s + height * s.atan2(height), rounding(square.sqrt(), square) + moved]
     };
     let ([upper, rounded], [lower, rounded_too]) = (primitive(high), primitive(low));
     [size * (upper - lower), size * (rounded + rounded_too)]

@@ -61,7 +61,7 @@ impl<'e> Equilibrium<'e> {
             let rights = roots.rights(&sums);
             let mut largest = 0.0f64;
             for (leaf, (sum, right)) in sums.iter().zip(rights).enumerate() {
-                if *sum > 0.0 && right > 0.0 {
+                if *sum > 0.0 && right >= 0.0 {
                     self.scales[leaf] *= (right / sum).sqrt();
                     largest = largest.max((sum - right).abs());
                 }

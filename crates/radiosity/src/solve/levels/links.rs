@@ -15,18 +15,21 @@ use std::sync::Arc;
 const CLOSED: f64 = 1e-9;
 
 /// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not, which parts of a tile that
-/// is crossed may be.
+/// is crossed may be; of those some see nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Enclosed {
     Wholly,
     Partly,
+    Covered,
     Nowhere,
 }
 
 impl Enclosed {
     fn by(sums: &[f64]) -> Enclosed {
+        let is_covered = sums.iter().all(|sum| *sum <= CLOSED);
         match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
             5 => Enclosed::Wholly,
+            0 if is_covered => Enclosed::Covered,
             0 => Enclosed::Nowhere,
             _ => Enclosed::Partly,
         }
@@ -95,11 +98,14 @@ impl Links {
         self.totals.restore(&mut self.all, &scales);
     }
 
-    /// ΣF of the tiles of which it is known: 1 in closed rooms.
+    /// ΣF of the tiles of which it is known: 1 in closed rooms, 0 under what stands on them.
     fn known(&self, tiling: &Tiling<'_>) -> Vec<Option<f64>> {
-        let is_closed = |tile: &Tile, enclosed| enclosed == Enclosed::Wholly && !tile.is_crossed;
-        let known =
-            tiling.tiles.iter().zip(&self.enclosed).map(|(tile, e)| is_closed(tile, *e).then_some(1.0));
+        let of = |(tile, enclosed): (&Tile, &Enclosed)| match enclosed {
+            Enclosed::Wholly if !tile.is_crossed => Some(1.0),
+            Enclosed::Covered if !tile.is_crossed => Some(0.0),
+            _ => None,
+        };
+        let known = tiling.tiles.iter().zip(&self.enclosed).map(of);
         known.chain(std::iter::repeat(None)).take(tiling.tiles.len()).collect()
     }
 
@@ -109,7 +115,7 @@ impl Links {
             let parent = tile.parent.map(|parent| (self.enclosed[parent], tiling.tiles[parent].is_crossed));
             self.enclosed.push(match parent {
                 None | Some((Enclosed::Nowhere, _)) => Enclosed::Nowhere,
-                Some((Enclosed::Wholly, false)) => Enclosed::Wholly,
+                Some((enclosed @ (Enclosed::Wholly | Enclosed::Covered), false)) => enclosed,
                 Some(_) => {
                     let sums: Vec<f64> = tile.points.par_iter().map(|point| sum(tiling, point)).collect();
                     Enclosed::by(&sums)

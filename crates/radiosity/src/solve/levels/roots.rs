@@ -47,7 +47,7 @@ impl Roots {
             match self.known[leaf] {
                 Some(right) => {
                     rest[root] -= area * right;
-                    is_closed[root] = true;
+                    is_closed[root] |= right > 0.0;
                 }
                 None => free[root] += area * sums[leaf],
             }
