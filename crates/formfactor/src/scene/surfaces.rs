@@ -248,5 +248,6 @@ fn of_solid(polygons: &[PlanarPolygon], planes: &[usize], solid: Solid) -> Occlu
     });
     let mut faces: Vec<Face> = vec![[DVec3::ZERO; 2]; numbers.len()];
     sides.iter().for_each(|(plane, side)| faces[number(*plane)] = [side.points()[0], side.normal()]);
-    Occluder::of(ridges.collect(), faces, false)
+    let deviation = sides.iter().map(|(_, side)| side.deviation()).fold(0.0, f64::max);
+    Occluder::body(ridges.collect(), faces, deviation)
 }
