@@ -19,7 +19,7 @@ const ORDER: [&str; 122] = [
     "area/proven/curtain", "area/proven/chart", "area/cubature", "area/queue", "area/integrand", "area/uncut", "area/plan", "area/events", "area/hollow", "area/swept", "area/contact", "area/contour", "area/kernel", "area/patch", "area/estimate", "area/point",
     "area/silhouettes", "area/clip", "area/lambert", "area/integral", "area/tolerance",
     "scene", "scene/enclosure", "scene/surfaces", "scene/plates", "scene/coplanar", "scene/occluder", "scene/inside", "scene/apart", "scene/pool", "scene/shaft",
-    "scene/body", "scene/cap", "scene/tree",
+    "scene/body", "scene/cap", "scene/shell", "scene/slab", "scene/tree",
     "complement", "hierarchy", "centroid", "visible_part", "pipeline", "buffers",
     "quick", "quick/trace", "quick/boundary", "quick/neighbours", "quick/sides", "quick/inside", "quick/contour", "quick/classify", "quick/target",
     "quick/clip", "quick/corners", "quick/slopes", "quick/cone", "quick/lanes", "quick/interval",

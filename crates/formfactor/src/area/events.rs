@@ -54,10 +54,11 @@ impl Event {
             low = if *height < low { *height } else { low };
             high = if *height > high { *height } else { high };
         }
+        // A plane that nearly is the polygon's own, or is but for roundings, makes no line.
+        let [at, opposite] = [polygon.at[0], polygon.at[polygon.count / 2]];
         let is_flat = || {
-            high - low <= CLOSE * self.normal.length() * polygon.at[0].distance(polygon.at[polygon.count / 2])
+            high - low <= self.normal.length() * (CLOSE * at.distance(opposite) + rounding_of([at]))
         };
-        // A plane that nearly is the polygon's own makes no line.
         if low >= 0.0 || high <= 0.0 || is_flat() {
             return None;
         }

@@ -9,6 +9,8 @@
 //!    | :....|_|
 //!    |/  lid|/
 //! ```
+use super::shell::Neighbours;
+use super::slab::Slab;
 use crate::numeric::predicates::{Plane, turn_in_plane};
 use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
@@ -17,11 +19,11 @@ use std::{
     collections::{BTreeMap, BTreeSet},
 };
 
-/// The polygons of a cap, and the faces that it lacks, their fronts outward.
+/// The polygons of a cap, and the faces that it lacks, their fronts outward: none of a closed body.
 #[derive(Clone, Debug)]
-pub(crate) struct Cap {
-    pub(crate) faces: Vec<usize>,
-    pub(crate) lids: Vec<PlanarPolygon>,
+pub(super) struct Cap {
+    pub(super) faces: Vec<usize>,
+    pub(super) lids: Vec<PlanarPolygon>,
 }
 
 /// Solids of more corners are not looked for: wrapping takes their square.
@@ -42,7 +44,7 @@ fn bits(p: DVec3) -> Bits {
 pub(super) fn lids(
     polygons: &[PlanarPolygon],
     faces: &[usize],
-    neighbours: &[Vec<Option<usize>>],
+    neighbours: &Neighbours,
 ) -> Option<Vec<PlanarPolygon>> {
     let mut corners: Vec<DVec3> = faces.iter().flat_map(|face| polygons[*face].points()).copied().collect();
     corners.sort_by_key(|p| bits(*p));
@@ -50,7 +52,7 @@ pub(super) fn lids(
     if corners.len() > MOST_CORNERS {
         return None;
     }
-    let edges = faces.iter().flat_map(|face| polygons[*face].edges().zip(&neighbours[*face]));
+    let edges = faces.iter().flat_map(|face| polygons[*face].edges().zip(&neighbours.0[*face]));
     let open = edges.filter(|(_, across)| across.is_none_or(|other| !faces.contains(&other)));
     // A lid's edges run the other way.
     let mut open: BTreeMap<[Bits; 2], [DVec3; 2]> =
@@ -90,9 +92,15 @@ fn wrap([from, to]: [DVec3; 2], corners: &[DVec3]) -> Option<PlanarPolygon> {
                 if best.side_of(plane.corners[2]) == Ordering::Greater { plane } else { best }
             },
         );
+    let slab = |corner: DVec3| PlanarPolygon::new([[from, to, corner]]).ok().map(|face| Slab::of(&face));
+    let rough = slab(outer.corners[2])?;
+    // Of corners that are on it but for roundings the farthest from the edge says best how the plane lies.
+    let breadth = |p: &DVec3| (*p - from).cross(to - from).length_squared();
+    let level = corners.iter().filter(|p| rough.side_of(**p).is_eq());
+    let slab = slab(*level.max_by(|a, b| breadth(a).total_cmp(&breadth(b)))?)?;
     let mut on = Vec::new();
     for corner in corners {
-        match outer.side_of(*corner) {
+        match slab.side_of(*corner) {
             Ordering::Greater => return None,
             Ordering::Equal => on.push(*corner),
             Ordering::Less => (),
@@ -100,7 +108,7 @@ fn wrap([from, to]: [DVec3; 2], corners: &[DVec3]) -> Option<PlanarPolygon> {
     }
     let is_solid = on.len() < corners.len();
     let face = PlanarPolygon::new([hull(&on, &outer)?]).ok()?;
-    (is_solid && face.is_convex() && face.deviation() == 0.0).then_some(face)
+    (is_solid && face.is_convex()).then_some(face)
 }
 
 /// The convex hull of points of a plane, without those within its sides, counter-clockwise seen from where its normal points to.

@@ -1,5 +1,5 @@
 //! What is inside of a convex solid: whether it may be one occluder, and for whom it is not.
-use super::{apart::are_apart, tree::Tree};
+use super::{apart::are_apart, slab::Slab, tree::Tree};
 use crate::shapes::{extent::Extent, loops::leaf, polygon::PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
@@ -52,6 +52,8 @@ impl<'s> Solid<'s> {
     /// The polygons near it, those of them that no plane shows to be outside, and those that look into it from a side's plane.
     fn near(self, polygons: &[PlanarPolygon], tree: &Tree) -> (Vec<usize>, Vec<usize>, Vec<(usize, usize)>) {
         let corners: Vec<DVec3> = self.sides(polygons).flat_map(PlanarPolygon::points).copied().collect();
+        let sides: Vec<(&PlanarPolygon, Slab)> =
+            self.sides(polygons).map(|side| (side, Slab::of(side))).collect();
         let around = Extent::around(&corners);
         let is_near =
             |id: &usize| !self.faces.contains(id) && !Extent::around(polygons[*id].points()).misses(&around);
@@ -60,14 +62,14 @@ impl<'s> Solid<'s> {
         let (mut insiders, mut inward) = (Vec::new(), Vec::new());
         for id in &others {
             let other = &polygons[*id];
-            let stances = || self.sides(polygons).map(|side| stance(other, side));
-            match stances().max() {
+            match sides.iter().map(|side| stance(other, side)).max() {
                 Some(Stance::Outside) => (),
                 Some(Stance::Inward) => {
-                    let sides = self.sides(polygons).enumerate();
-                    let mut met =
-                        sides.filter(|(_, side)| stance(other, side) == Stance::Inward && meet(other, side));
-                    inward.extend(met.next().map(|(side, _)| (*id, side)));
+                    let is_met = |side: &&(&PlanarPolygon, Slab)| {
+                        stance(other, side) == Stance::Inward && meet(other, side)
+                    };
+                    let met = sides.iter().position(|side| is_met(&side));
+                    inward.extend(met.map(|side| (*id, side)));
                 }
                 _ if is_beside(other, &corners) => (),
                 _ => insiders.push(*id),
@@ -88,18 +90,21 @@ enum Stance {
     Outside,
 }
 
-fn stance(other: &PlanarPolygon, side: &PlanarPolygon) -> Stance {
-    let heights = other.points().iter().map(|p| side.plane().side_of(*p));
-    match [heights.clone().min(), heights.max()] {
-        [Some(Ordering::Less), _] => Stance::Behind,
-        [_, Some(Ordering::Equal)] if other.normal().dot(side.normal()) < 0.0 => Stance::Inward,
-        _ => Stance::Outside,
+fn stance(other: &PlanarPolygon, (side, slab): &(&PlanarPolygon, Slab)) -> Stance {
+    let is_level = slab.has(other) || Slab::of(other).has(side);
+    if is_level && other.normal().dot(side.normal()) < 0.0 {
+        Stance::Inward
+    } else if is_level || other.points().iter().all(|p| slab.side_of(*p).is_ge()) {
+        Stance::Outside
+    } else {
+        Stance::Behind
     }
 }
 
 /// Whether a polygon that lies in no side's plane is outside of a convex solid, as its own plane or some other one shows.
 fn is_beside(polygon: &PlanarPolygon, corners: &[DVec3]) -> bool {
-    let sides = || corners.iter().map(|p| polygon.plane().side_of(*p));
+    let slab = Slab::of(polygon);
+    let sides = || corners.iter().map(|p| slab.side_of(*p));
     let is_to_one_side = !sides().any(Ordering::is_gt) || !sides().any(Ordering::is_lt);
     is_to_one_side || are_apart(corners, polygon.points(), polygon.points()[0] - corners[0])
 }
@@ -109,19 +114,26 @@ fn flat(polygon: &PlanarPolygon, plane: &PlanarPolygon) -> Vec<Vec<DVec2>> {
     polygon.loops().map(|l| l.iter().map(|p| plane.flat(*p)).collect()).collect()
 }
 
-/// Whether two polygons of one plane have an area in common.
-fn meet(one: &PlanarPolygon, other: &PlanarPolygon) -> bool {
-    let [one, other] = [flat(one, other), flat(other, other)];
-    !(leaf(&one) & leaf(&other)).evaluate().is_empty()
+/// Whether a polygon has an area in common with a side in whose plane it is.
+fn meet(other: &PlanarPolygon, (side, slab): &(&PlanarPolygon, Slab)) -> bool {
+    let [one, other] = [flat(other, side), flat(side, side)];
+    (leaf(&one) & leaf(&other)).evaluate().area() > strip(side, slab)
+}
+
+/// The area within roundings of a side's edges, in its kept coordinates at most.
+fn strip(side: &PlanarPolygon, slab: &Slab) -> f64 {
+    4.0 * slab.thickness * side.edges().map(|(a, b)| a.distance(b)).sum::<f64>()
 }
 
 /// Whether no line that crosses a lid goes on: others in its plane cover it, or nothing is before it.
 fn is_closed_off(lid: &PlanarPolygon, polygons: &[PlanarPolygon], others: &[usize]) -> bool {
-    let coplanar = others.iter().map(|id| &polygons[*id]).filter(|other| other.lies_in_plane_of(lid));
+    let slab = Slab::of(lid);
+    let is_level = |other: &&PlanarPolygon| slab.has(other) || Slab::of(other).has(lid);
+    let coplanar = others.iter().map(|id| &polygons[*id]).filter(is_level);
     let covers: Vec<_> = coplanar.map(|cover| flat(cover, lid)).collect();
     let own = flat(lid, lid);
     let left = covers.iter().fold(leaf(&own), |left, cover| left - leaf(cover));
-    let is_covered = || left.evaluate().is_empty();
-    let is_last = || polygons.iter().flat_map(PlanarPolygon::points).all(|p| lid.plane().side_of(*p).is_le());
+    let is_covered = || left.evaluate().area() <= strip(lid, &slab);
+    let is_last = || polygons.iter().flat_map(PlanarPolygon::points).all(|p| slab.side_of(*p).is_le());
     (!covers.is_empty() && is_covered()) || is_last()
 }

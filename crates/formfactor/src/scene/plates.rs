@@ -30,7 +30,9 @@ pub(super) fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
 
 /// Polygons of one plane as convex plates: their union where that takes fewer, else their own pieces.
 pub(super) fn plates(polygons: &[PlanarPolygon], ids: &[usize]) -> Vec<Occluder> {
-    let plane = &polygons[ids[0]];
+    let areas = ids.iter().map(|id| polygons[*id].area());
+    let largest = ids.iter().zip(areas).max_by(|a, b| a.1.total_cmp(&b.1));
+    let plane = &polygons[largest.map_or(ids[0], |(id, _)| *id)];
     let own: Vec<Vec<DVec3>> = ids.iter().flat_map(|id| pieces(&polygons[*id])).collect();
     let united = if own.len() > 1 { united(plane, polygons, ids) } else { None };
     let corners = united.filter(|united| united.len() < own.len()).unwrap_or(own);
