@@ -56,9 +56,8 @@ impl Event {
         }
         // A plane that nearly is the polygon's own, or is but for roundings, makes no line.
         let [at, opposite] = [polygon.at[0], polygon.at[polygon.count / 2]];
-        let is_flat = || {
-            high - low <= self.normal.length() * (CLOSE * at.distance(opposite) + rounding_of([at]))
-        };
+        let is_flat =
+            || high - low <= self.normal.length() * (CLOSE * at.distance(opposite) + rounding_of([at]));
         if low >= 0.0 || high <= 0.0 || is_flat() {
             return None;
         }

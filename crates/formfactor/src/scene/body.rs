@@ -3,7 +3,7 @@
 //! With dA outside of a body, every ray that leaves it through its far side has entered it through its near side: the far side
 //! hides nothing more. The common edge of two faces of the near side is no part of the visible boundary, so that the body's
 //! silhouette remains.
-use super::shell::{Neighbours, shells};
+use super::shell::{Adjacency, shells};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use std::cmp::Ordering;
 
@@ -17,11 +17,11 @@ pub(crate) struct Bodies {
 
 impl Bodies {
     /// Takes O(n log n) for n edges, and the square of the faces of each body.
-    pub(crate) fn among(polygons: &[PlanarPolygon], neighbours: &Neighbours) -> Self {
+    pub(crate) fn among(polygons: &[PlanarPolygon], adjacency: &Adjacency) -> Self {
         let mut bodies = Self { of: vec![None; polygons.len()], faces: Vec::new() };
-        for faces in shells(polygons, neighbours, |id, point| polygons[id].plane().side_of(point)) {
+        for faces in shells(polygons, adjacency, |id, point| polygons[id].plane().side_of(point)) {
             let is_exact = faces.iter().all(|face| polygons[*face].deviation() == 0.0);
-            if is_exact && neighbours.are_closed(&faces) {
+            if is_exact && adjacency.are_closed(&faces) {
                 faces.iter().for_each(|face| bodies.of[*face] = Some(bodies.faces.len()));
                 bodies.faces.push(faces);
             }

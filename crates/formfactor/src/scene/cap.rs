@@ -9,7 +9,7 @@
 //!    | :....|_|
 //!    |/  lid|/
 //! ```
-use super::shell::Neighbours;
+use super::shell::Adjacency;
 use super::slab::Slab;
 use crate::numeric::predicates::{Plane, turn_in_plane};
 use crate::shapes::polygon::PlanarPolygon;
@@ -39,12 +39,12 @@ fn bits(p: DVec3) -> Bits {
     p.to_array().map(f64::to_bits)
 }
 
-/// The faces that convex faces lack to close around the convex hull of their corners, if they are faces of it. `neighbours` has what is
+/// The faces that convex faces lack to close around the convex hull of their corners, if they are faces of it. `adjacency` has what is
 /// across each edge.
 pub(super) fn lids(
     polygons: &[PlanarPolygon],
     faces: &[usize],
-    neighbours: &Neighbours,
+    adjacency: &Adjacency,
 ) -> Option<Vec<PlanarPolygon>> {
     let mut corners: Vec<DVec3> = faces.iter().flat_map(|face| polygons[*face].points()).copied().collect();
     corners.sort_by_key(|p| bits(*p));
@@ -52,7 +52,7 @@ pub(super) fn lids(
     if corners.len() > MOST_CORNERS {
         return None;
     }
-    let edges = faces.iter().flat_map(|face| polygons[*face].edges().zip(&neighbours.0[*face]));
+    let edges = faces.iter().flat_map(|face| polygons[*face].edges().zip(&adjacency.0[*face]));
     let open = edges.filter(|(_, across)| across.is_none_or(|other| !faces.contains(&other)));
     // A lid's edges run the other way.
     let mut open: BTreeMap<[Bits; 2], [DVec3; 2]> =

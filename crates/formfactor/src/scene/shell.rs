@@ -8,9 +8,9 @@ const MOST: usize = 256;
 
 /// The polygons across each polygon's edges, `None` where an edge has not exactly one partner that runs the other way.
 #[derive(Debug)]
-pub(crate) struct Neighbours(pub(super) Vec<Vec<Option<usize>>>);
+pub(crate) struct Adjacency(pub(super) Vec<Vec<Option<usize>>>);
 
-impl Neighbours {
+impl Adjacency {
     pub(crate) fn of(polygons: &[PlanarPolygon]) -> Self {
         let bits = |p: DVec3| p.to_array().map(f64::to_bits);
         let mut owners: BTreeMap<_, Vec<usize>> = BTreeMap::new();
@@ -38,25 +38,24 @@ impl Neighbours {
 /// Takes O(n log n) for n edges, and the square of the faces of each shell.
 pub(super) fn shells(
     polygons: &[PlanarPolygon],
-    neighbours: &Neighbours,
+    adjacency: &Adjacency,
     side: impl Fn(usize, DVec3) -> Ordering,
 ) -> Vec<Vec<usize>> {
-    let is_behind =
-        |id: usize, other: usize| polygons[other].points().iter().all(|p| side(id, *p).is_le());
+    let is_behind = |id: usize, other: usize| polygons[other].points().iter().all(|p| side(id, *p).is_le());
     let is_convex = |faces: &[usize]| {
-        faces.iter().all(|face| {
-            polygons[*face].is_convex() && faces.iter().all(|other| is_behind(*face, *other))
-        })
+        faces
+            .iter()
+            .all(|face| polygons[*face].is_convex() && faces.iter().all(|other| is_behind(*face, *other)))
     };
     let mut is_known = vec![false; polygons.len()];
-    let all = (0..polygons.len()).map(|first| connected(first, neighbours, &mut is_known, &is_behind));
+    let all = (0..polygons.len()).map(|first| connected(first, adjacency, &mut is_known, &is_behind));
     all.filter(|faces| (2..=MOST).contains(&faces.len()) && is_convex(faces)).collect()
 }
 
 /// The polygons that are connected with one by edges that do not turn inward, if they are not known yet.
 fn connected(
     first: usize,
-    neighbours: &Neighbours,
+    adjacency: &Adjacency,
     is_known: &mut [bool],
     is_behind: impl Fn(usize, usize) -> bool,
 ) -> Vec<usize> {
@@ -64,7 +63,7 @@ fn connected(
     while let Some(id) = open.pop() {
         if !std::mem::replace(&mut is_known[id], true) {
             found.push(id);
-            let across = neighbours.0[id].iter().flatten().copied();
+            let across = adjacency.0[id].iter().flatten().copied();
             open.extend(across.filter(|other| is_behind(id, *other) && is_behind(*other, id)));
         }
     }

@@ -5,7 +5,7 @@ use super::coplanar::planes;
 use super::inside::{Solid, Within};
 use super::occluder::{Face, Occluder, Ridge, ball};
 use super::plates::{plates, supports};
-use super::shell::{Neighbours, shells};
+use super::shell::{Adjacency, shells};
 use super::slab::Slab;
 use super::tree::Tree;
 use crate::shapes::cell::{Cell, Nodes, fan};
@@ -108,10 +108,10 @@ pub(crate) struct Surfaces {
 
 impl Surfaces {
     /// Takes O(n log n) for n vertices where few planes have all polygons on one side, plus the unions of coplanar polygons.
-    pub(crate) fn of(polygons: &[PlanarPolygon], neighbours: &Neighbours, tree: &Tree) -> Self {
+    pub(crate) fn of(polygons: &[PlanarPolygon], adjacency: &Adjacency, tree: &Tree) -> Self {
         let slabs: Vec<Slab> = polygons.iter().map(Slab::of).collect();
         let planes = planes(polygons, &slabs);
-        let caps = caps(polygons, neighbours, &slabs);
+        let caps = caps(polygons, adjacency, &slabs);
         let solids = solids(polygons, &caps, tree);
         let mut solid_of = vec![None; polygons.len()];
         for (number, (solid, _)) in solids.iter().enumerate() {
@@ -228,9 +228,9 @@ pub(crate) fn area(corners: &[DVec3]) -> f64 {
 }
 
 /// Closed bodies, then other caps.
-fn caps(polygons: &[PlanarPolygon], neighbours: &Neighbours, slabs: &[Slab]) -> Vec<Cap> {
-    let shells = shells(polygons, neighbours, |id, point| slabs[id].side_of(point)).into_iter();
-    let cap = |faces: Vec<usize>| lids(polygons, &faces, neighbours).map(|lids| Cap { faces, lids });
+fn caps(polygons: &[PlanarPolygon], adjacency: &Adjacency, slabs: &[Slab]) -> Vec<Cap> {
+    let shells = shells(polygons, adjacency, |id, point| slabs[id].side_of(point)).into_iter();
+    let cap = |faces: Vec<usize>| lids(polygons, &faces, adjacency).map(|lids| Cap { faces, lids });
     let mut caps: Vec<Cap> = shells.filter_map(cap).collect();
     caps.sort_by_key(|cap| !cap.lids.is_empty());
     caps
