@@ -20,8 +20,8 @@ impl Bodies {
     pub(crate) fn among(polygons: &[PlanarPolygon], adjacency: &Adjacency) -> Self {
         let mut bodies = Self { of: vec![None; polygons.len()], faces: Vec::new() };
         for faces in shells(polygons, adjacency, |id, point| polygons[id].plane().side_of(point)) {
-            let is_exact = faces.iter().all(|face| polygons[*face].deviation() == 0.0);
-            if is_exact && adjacency.are_closed(&faces) {
+            let is_exact = |face: &PlanarPolygon| face.is_convex() && face.deviation() == 0.0;
+            if faces.iter().all(|face| is_exact(&polygons[*face])) && adjacency.are_closed(&faces) {
                 faces.iter().for_each(|face| bodies.of[*face] = Some(bodies.faces.len()));
                 bodies.faces.push(faces);
             }

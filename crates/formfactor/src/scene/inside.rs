@@ -9,6 +9,8 @@ use std::cmp::Ordering;
 pub(crate) struct Solid<'s> {
     pub(crate) faces: &'s [usize],
     pub(crate) lids: &'s [PlanarPolygon],
+    /// Holes in the faces: lids as well.
+    pub(crate) holes: &'s [PlanarPolygon],
 }
 
 /// What has to do with the inside of a solid.
@@ -22,27 +24,33 @@ pub(crate) struct Within {
 }
 
 impl<'s> Solid<'s> {
-    /// All sides.
+    /// All sides: the faces, the lids, then the holes.
     pub(crate) fn sides(self, polygons: &'s [PlanarPolygon]) -> impl Iterator<Item = &'s PlanarPolygon> {
-        self.faces.iter().map(|face| &polygons[*face]).chain(self.lids)
+        self.faces.iter().map(|face| &polygons[*face]).chain(self.lids).chain(self.holes)
     }
 
     /// What is in it or looks into it, if others see of each other what they would if it were full.
     ///
     /// What crosses it without meeting a face passes two lids. One is not passed where all polygons are on one side of it or where
-    /// others cover it: there a line ends, on what looks inward or else on a back. So one other lid does no harm.
+    /// others cover it: there a line ends, on what looks inward or else on a back. So other lids in one plane do no harm: no line passes
+    /// two of them.
     pub(crate) fn inside(self, polygons: &[PlanarPolygon], tree: &Tree) -> Option<Within> {
         let (others, mut insiders, inward) = self.near(polygons, tree);
-        let is_only = |lid: usize| inward.iter().all(|(_, side)| *side == self.faces.len() + lid);
-        if insiders.is_empty() && self.lids.len() < 2 && (0..self.lids.len()).all(is_only) {
+        let sides: Vec<&PlanarPolygon> = self.sides(polygons).collect();
+        let lids = &sides[self.faces.len()..];
+        let is_only = |lids: &[&PlanarPolygon]| {
+            let looked_into = inward.iter().map(|(_, side)| sides[*side]);
+            lids.is_empty() || are_level(lids.iter().copied().chain(looked_into))
+        };
+        if insiders.is_empty() && is_only(lids) {
             return Some(Within { insiders, inward });
         }
-        let is_open = |lid: &usize| !is_closed_off(&self.lids[*lid], polygons, &others);
-        let open: Vec<usize> = (0..self.lids.len()).filter(is_open).take(2).collect();
-        if open.len() > 1 {
+        let is_open = |lid: &&PlanarPolygon| !is_closed_off(lid, polygons, &others);
+        let open: Vec<&PlanarPolygon> = lids.iter().copied().filter(is_open).collect();
+        if !are_level(open.iter().copied()) {
             return None;
         }
-        if insiders.is_empty() && open.iter().all(|lid| is_only(*lid)) {
+        if insiders.is_empty() && is_only(&open) {
             return Some(Within { insiders, inward });
         }
         insiders.extend(inward.iter().map(|(id, _)| *id));
@@ -68,8 +76,11 @@ impl<'s> Solid<'s> {
                     let is_met = |side: &&(&PlanarPolygon, Slab)| {
                         stance(other, side) == Stance::Inward && meet(other, side)
                     };
-                    let met = sides.iter().position(|side| is_met(&side));
-                    inward.extend(met.map(|side| (*id, side)));
+                    match sides.iter().position(|side| is_met(&side)) {
+                        Some(side) if sides[side].0.is_convex() => inward.push((*id, side)),
+                        Some(_) => insiders.push(*id),
+                        None => (),
+                    }
                 }
                 _ if is_beside(other, &corners) => (),
                 _ => insiders.push(*id),
@@ -125,15 +136,32 @@ fn strip(side: &PlanarPolygon, slab: &Slab) -> f64 {
     4.0 * slab.thickness * side.edges().map(|(a, b)| a.distance(b)).sum::<f64>()
 }
 
+/// Whether polygons are in one plane.
+fn are_level<'p>(mut polygons: impl Iterator<Item = &'p PlanarPolygon>) -> bool {
+    let Some(first) = polygons.next() else { return true };
+    let slab = Slab::of(first);
+    polygons.all(|other| slab.has(other) || Slab::of(other).has(first))
+}
+
 /// Whether no line that crosses a lid goes on: others in its plane cover it, or nothing is before it.
 fn is_closed_off(lid: &PlanarPolygon, polygons: &[PlanarPolygon], others: &[usize]) -> bool {
     let slab = Slab::of(lid);
     let is_level = |other: &&PlanarPolygon| slab.has(other) || Slab::of(other).has(lid);
-    let coplanar = others.iter().map(|id| &polygons[*id]).filter(is_level);
-    let covers: Vec<_> = coplanar.map(|cover| flat(cover, lid)).collect();
+    let coplanar: Vec<&PlanarPolygon> = others.iter().map(|id| &polygons[*id]).filter(is_level).collect();
     let own = flat(lid, lid);
+    let covers: Vec<_> = coplanar.iter().map(|cover| flat(cover, lid)).collect();
     let left = covers.iter().fold(leaf(&own), |left, cover| left - leaf(cover));
     let is_covered = || left.evaluate().area() <= strip(lid, &slab);
-    let is_last = || polygons.iter().flat_map(PlanarPolygon::points).all(|p| slab.side_of(*p).is_le());
-    (!covers.is_empty() && is_covered()) || is_last()
+    // The largest knows the plane best.
+    let by_area = |a: &&&PlanarPolygon, b: &&&PlanarPolygon| a.area().total_cmp(&b.area());
+    let level = coplanar.iter().max_by(by_area).map_or(lid, |largest| largest);
+    (!covers.is_empty() && is_covered()) || is_last(lid, level, polygons)
+}
+
+/// Whether no polygon is before a lid, by one in its plane.
+fn is_last(lid: &PlanarPolygon, level: &PlanarPolygon, polygons: &[PlanarPolygon]) -> bool {
+    let slab = Slab::of(level);
+    let is_behind =
+        |side: Ordering| if level.normal().dot(lid.normal()) > 0.0 { side.is_le() } else { side.is_ge() };
+    polygons.iter().flat_map(PlanarPolygon::points).all(|p| is_behind(slab.side_of(*p)))
 }

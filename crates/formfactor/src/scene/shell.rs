@@ -1,5 +1,6 @@
-//! Convex shells: polygons that are connected by edges which do not turn inward, and behind which nothing of them is.
-use crate::shapes::polygon::PlanarPolygon;
+//! Convex shells: polygons, with convex holes or none, that are connected by edges which do not turn inward, and behind which nothing
+//! of them is.
+use crate::shapes::{holes::holes, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::{cmp::Ordering, collections::BTreeMap};
 
@@ -43,9 +44,9 @@ pub(super) fn shells(
 ) -> Vec<Vec<usize>> {
     let is_behind = |id: usize, other: usize| polygons[other].points().iter().all(|p| side(id, *p).is_le());
     let is_convex = |faces: &[usize]| {
-        faces
-            .iter()
-            .all(|face| polygons[*face].is_convex() && faces.iter().all(|other| is_behind(*face, *other)))
+        faces.iter().all(|face| {
+            holes(&polygons[*face]).is_some() && faces.iter().all(|other| is_behind(*face, *other))
+        })
     };
     let mut is_known = vec![false; polygons.len()];
     let all = (0..polygons.len()).map(|first| connected(first, adjacency, &mut is_known, &is_behind));

@@ -1,6 +1,6 @@
 //! What form factors from area to area need of the polygons, found once: their convex pieces, and the convex occluders among
 //! them.
-use super::cap::{Cap, lids};
+use super::cap::Cap;
 use super::coplanar::planes;
 use super::inside::{Solid, Within};
 use super::occluder::{Face, Occluder, Ridge, ball};
@@ -230,15 +230,14 @@ pub(crate) fn area(corners: &[DVec3]) -> f64 {
 /// Closed bodies, then other caps.
 fn caps(polygons: &[PlanarPolygon], adjacency: &Adjacency, slabs: &[Slab]) -> Vec<Cap> {
     let shells = shells(polygons, adjacency, |id, point| slabs[id].side_of(point)).into_iter();
-    let cap = |faces: Vec<usize>| lids(polygons, &faces, adjacency).map(|lids| Cap { faces, lids });
-    let mut caps: Vec<Cap> = shells.filter_map(cap).collect();
+    let mut caps: Vec<Cap> = shells.filter_map(|faces| Cap::of(polygons, faces, adjacency)).collect();
     caps.sort_by_key(|cap| !cap.lids.is_empty());
     caps
 }
 
 /// Those that hide from others what they would if they were full, and what is inside of each.
 fn solids<'c>(polygons: &[PlanarPolygon], caps: &'c [Cap], tree: &Tree) -> Vec<(Solid<'c>, Within)> {
-    let solids = caps.iter().map(|cap| Solid { faces: &cap.faces, lids: &cap.lids });
+    let solids = caps.iter().map(|cap| Solid { faces: &cap.faces, lids: &cap.lids, holes: &cap.holes });
     solids.filter_map(|solid| Some((solid, solid.inside(polygons, tree)?))).collect()
 }
 
@@ -246,7 +245,9 @@ fn solids<'c>(polygons: &[PlanarPolygon], caps: &'c [Cap], tree: &Tree) -> Vec<(
 fn of_solid(polygons: &[PlanarPolygon], planes: &[usize], solid: Solid) -> Occluder {
     let bits = |p: DVec3| p.to_array().map(f64::to_bits);
     let own = solid.faces.iter().map(|id| planes[*id]).chain(planes.len()..);
-    let sides: Vec<(usize, &PlanarPolygon)> = own.zip(solid.sides(polygons)).collect();
+    // Holes add no edges.
+    let closed = solid.faces.len() + solid.lids.len();
+    let sides: Vec<(usize, &PlanarPolygon)> = own.zip(solid.sides(polygons)).take(closed).collect();
     let mut numbers: Vec<usize> = sides.iter().map(|side| side.0).collect();
     numbers.sort_unstable();
     numbers.dedup();
