@@ -26,7 +26,7 @@ const ORDER: [&str; 125] = [
     "exact", "exact/whole", "exact/cubature", "exact/visible", "exact/shadows", "exact/project", "exact/cull",
     "exact/planarity", "exact/view", "exact/pyramid", "exact/projected_vertex", "exact/deviation", "exact/halves", "exact/horizon",
     "exact/lambert",
-    "shapes", "shapes/pieces", "shapes/cell", "shapes/differential_area", "shapes/polygon", "shapes/holes", "shapes/loops", "shapes/extent",
+    "shapes", "shapes/pieces", "shapes/cell", "shapes/differential_area", "shapes/holes", "shapes/polygon", "shapes/loops", "shapes/extent",
     "numeric", "numeric/taylor", "numeric/predicates", "numeric/offset", "numeric/angle", "numeric/rounding", "numeric/gauss",
     "form_factor", "stats", "error",
 ];
