@@ -51,7 +51,8 @@ fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2]
         let [value, error] = parallel([a, b], [c, d], size);
         return [value * cosine.signum(), error];
     }
-    let blur = rounding_of([a, b, c, d]) / size;
+    // A point on an edge is off by two roundings of each coordinate: a quarter of what may put points off planes.
+    let blur = rounding_of([a, b, c, d]) / (4.0 * size);
     let inner = |s: f64| along(a + way * s, [c, d], size, blur);
     let away = |s: f64| to_segment(a + way * s, [c, d]) / length;
     let [value, error] = adaptive(&inner, &away, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
