@@ -93,3 +93,24 @@ fn rooms_that_are_turned_and_far_away_have_the_same_matrix() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+/// Found wrong: a leg of a chair that the floor was said not to see, as points of the leg's plane counted as inside of another leg.
+#[test]
+fn proven_intervals_far_away_hold_what_is_found_at_the_origin() {
+    let place = DAffine3::from_mat3_translation(DMat3::from_rotation_z(0.7), DVec3::new(5e6, 3.5e6, 1.5e6));
+    let limits = Limits { per_pair: 3000, ..Limits::default() };
+    let mut failures = Vec::new();
+    for kind in [2, 5] {
+        let room: Room = light::room(kind, 0).into_iter().map(|face| face.loops).collect();
+        let [here, there] = [&room, &placed(&room, place)].map(scene);
+        for to in 1..room.len() {
+            let known = here.area_form_factor(0, to, 1e-6, &limits).expect("a tolerance").expect("no stop");
+            let found = there.bounded_area_form_factor(0, to, 1e-3, &limits);
+            let found = found.expect("a tolerance").expect("no stop");
+            if (found.value - known.value).abs() > found.error_bound + known.error_estimate {
+                failures.push(format!("{kind}: 0 - {to}: {found:?}, {known:?}"));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}

@@ -49,7 +49,7 @@ pub(super) fn shells(
         })
     };
     let mut is_known = vec![false; polygons.len()];
-    let all = (0..polygons.len()).map(|first| connected(first, adjacency, &mut is_known, &is_behind));
+    let all = (0..polygons.len()).map(|first| connected(first, adjacency, &mut is_known, is_behind));
     all.filter(|faces| (2..=MOST).contains(&faces.len()) && is_convex(faces)).collect()
 }
 
