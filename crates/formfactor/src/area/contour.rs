@@ -9,6 +9,7 @@
 //! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's
 //! rules on stretches that are halved where rules differ.
 use crate::numeric::gauss::{RULE_3, RULE_5, RULE_8};
+use crate::numeric::rounding::rounding_of;
 use crate::scene::surfaces::Surface;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -50,7 +51,9 @@ fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2]
         let [value, error] = parallel([a, b], [c, d], size);
         return [value * cosine.signum(), error];
     }
-    let inner = |s: f64| along(a + way * s, [c, d], size);
+    // A point on an edge is off by two roundings of each coordinate: a quarter of what may put points off planes.
+    let blur = rounding_of([a, b, c, d]) / (4.0 * size);
+    let inner = |s: f64| along(a + way * s, [c, d], size, blur);
     let away = |s: f64| to_segment(a + way * s, [c, d]) / length;
     let [value, error] = adaptive(&inner, &away, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
     [value * length * cosine, error * length * cosine.abs()]
@@ -93,8 +96,8 @@ fn second_integral(z: f64, h: f64) -> [f64; 2] {
     [value, rounding(square, square)]
 }
 
-/// The integral of ln(r / size) from a point over an edge, and its rounding.
-fn along(point: DVec3, [c, d]: Segment, size: f64) -> [f64; 2] {
+/// The integral of ln(r / size) from a point over an edge, and its rounding; places are known to within `blur` sizes.
+fn along(point: DVec3, [c, d]: Segment, size: f64, blur: f64) -> [f64; 2] {
     let direction = (d - c).normalize();
     let from = direction.dot(c - point);
     let (low, high) = (from / size, direction.dot(d - point) / size);
@@ -104,7 +107,9 @@ fn along(point: DVec3, [c, d]: Segment, size: f64) -> [f64; 2] {
         if square == 0.0 {
             return [0.0; 2];
         }
-        [s * square.ln() / 2.0 - s + height * s.atan2(height), rounding(square.sqrt(), square)]
+        // It changes by ln r where an end moves along the edge, and by no more than pi / 2 where the point moves aside.
+        let moved = blur * (square.ln().abs() / 2.0 + 2.0);
+        [s * square.ln() / 2.0 - s + height * s.atan2(height), rounding(square.sqrt(), square) + moved]
     };
     let ([upper, rounded], [lower, rounded_too]) = (primitive(high), primitive(low));
     [size * (upper - lower), size * (rounded + rounded_too)]
