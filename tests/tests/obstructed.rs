@@ -1,5 +1,6 @@
 //! Form factors from area to area past obstructions, against references that use nothing of `formfactor`.
 use formfactor::{AreaFormFactor, Enclosure, Limits, PlanarPolygon};
+use glam::{DMat3, DVec3};
 use serde_json::Value;
 use std::path::Path;
 use tests::obstructed::{Pair, Plate, Plates, Prisms, Setting, pair};
@@ -43,8 +44,12 @@ fn named() -> Vec<(Pair, f64, f64)> {
 }
 
 fn found(pair: &Pair, tolerance: f64) -> AreaFormFactor {
+    found_among(pair.polygons(), tolerance)
+}
+
+fn found_among(polygons: Vec<Vec<DVec3>>, tolerance: f64) -> AreaFormFactor {
     let polygon = |points| PlanarPolygon::new([points]).expect("a planar polygon");
-    let enclosure = Enclosure::new(pair.polygons().into_iter().map(polygon).collect());
+    let enclosure = Enclosure::new(polygons.into_iter().map(polygon).collect());
     enclosure
         .area_form_factor(0, 1, tolerance, &Limits::default())
         .expect("a tolerance above 0")
@@ -72,6 +77,32 @@ fn frozen_pairs_are_within_their_tolerances() {
         let running = [0, 1].map(|start| scope.spawn(move || share(start)));
         running.into_iter().flat_map(|t| t.join().expect("the check itself does not panic")).collect()
     });
+    assert!(failures.is_empty(), "{} of them:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Every fourth frozen pair turned and far from the origin: what its corners are rounded to moves it by more than some tolerances.
+#[test]
+fn frozen_pairs_elsewhere_are_within_their_tolerances() {
+    let turn = DMat3::from_axis_angle(DVec3::new(0.48, 0.6, 0.64), 0.7);
+    let check = |(pair, exact): &(Pair, f64)| {
+        let mut failures = Vec::new();
+        for far in [5e5, 5e6] {
+            let place = |p: DVec3| turn * p + far * DVec3::new(1.0, 0.7, -0.3);
+            let polygons: Vec<Vec<DVec3>> =
+                pair.polygons().into_iter().map(|points| points.into_iter().map(place).collect()).collect();
+            let sizes = polygons.iter().map(|points| points[0].distance(points[2]));
+            let moved = 32.0 * f64::EPSILON * far / sizes.fold(f64::INFINITY, f64::min);
+            for tolerance in TOLERANCES {
+                let found = found_among(polygons.clone(), tolerance);
+                let error = (found.value - exact).abs() - pair.uncertainty() - moved;
+                if error > tolerance || error > found.error_estimate {
+                    failures.push(format!("{} at {far} to {tolerance:e}: {found:?}, {exact:e}", pair.name));
+                }
+            }
+        }
+        failures
+    };
+    let failures: Vec<String> = frozen().iter().step_by(4).flat_map(check).collect();
     assert!(failures.is_empty(), "{} of them:\n{}", failures.len(), failures.join("\n"));
 }
 

@@ -1,6 +1,6 @@
 //! Many expressions, and many regions clipped by one, on many threads.
 
-use crate::base::meter::Meter;
+use crate::base::meter::{Meter, Refusal};
 use crate::error::Error;
 use crate::expression::csg::Csg;
 use crate::limits::Limits;
@@ -73,10 +73,11 @@ impl PreparedRegion {
         regions: &[Region],
         limits: impl Into<Limits<'l>>,
     ) -> Result<Vec<Region>, Error> {
-        self.clip_each(regions, &Meter::new(limits.into()))
+        let meter = Meter::new(limits.into());
+        self.clip_each(regions, &meter).map_err(|refusal| meter.error(refusal))
     }
 
-    fn clip_each(&self, regions: &[Region], meter: &Meter<'_>) -> Result<Vec<Region>, Error> {
+    fn clip_each(&self, regions: &[Region], meter: &Meter<'_>) -> Result<Vec<Region>, Refusal> {
         #[cfg(feature = "rayon")]
         {
             let clip = |scratch: &mut Scratch, region| self.clip(region, scratch, meter);
@@ -89,7 +90,7 @@ impl PreparedRegion {
         }
     }
 
-    fn clip(&self, region: &Region, scratch: &mut Scratch, meter: &Meter<'_>) -> Result<Region, Error> {
+    fn clip(&self, region: &Region, scratch: &mut Scratch, meter: &Meter<'_>) -> Result<Region, Refusal> {
         meter.spend(1)?;
         match self.locate_window(&region.window()) {
             Location::Inside => Ok(region.clone()),

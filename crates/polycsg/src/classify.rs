@@ -49,7 +49,7 @@ pub fn classify(segment: [DVec2; 2], region: &Region) -> Result<Vec<Interval>, E
     let mut scratch = Scratch::default();
     let csg = Csg::edge_beside(segment, region);
     let LabelledArrangement { edges, contacts, arrangement, labels, .. } =
-        pipeline::memberships(&csg, &mut scratch)?;
+        pipeline::memberships(&csg, &mut scratch).expect("no limit was given");
     let point = |sub_edge: u32| match contacts.place(arrangement.node(sub_edge)) {
         Place::Vertex(vertex) => edges.point(vertex),
         Place::Crossing(e, f) => crossing_point(edges.segment(e), edges.segment(f)),

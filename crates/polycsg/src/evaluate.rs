@@ -47,7 +47,8 @@ impl Csg<'_> {
         scratch: &mut Scratch,
         limits: impl Into<Limits<'l>>,
     ) -> Result<Region, Error> {
-        pipeline::region(self, scratch, &Meter::new(limits.into()))
+        let meter = Meter::new(limits.into());
+        pipeline::region(self, scratch, &meter).map_err(|refusal| meter.error(refusal))
     }
 
     /// The directed edges that bound the set, interior to the left, each vertex rounded once.
@@ -92,7 +93,8 @@ impl Csg<'_> {
         scratch: &'s mut Scratch,
         limits: impl Into<Limits<'l>>,
     ) -> Result<Boundary<'s>, Error> {
-        pipeline::boundary(self, scratch, &Meter::new(limits.into()))
+        let meter = Meter::new(limits.into());
+        pipeline::boundary(self, scratch, &meter).map_err(|refusal| meter.error(refusal))
     }
 }
 

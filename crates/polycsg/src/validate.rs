@@ -1,6 +1,6 @@
 //! Checks the promises of a region, exactly.
 
-use crate::base::id::index;
+use crate::base::{id::index, meter::Meter};
 use crate::predicates::{Segment, Side, is_inside, side};
 use crate::region::{Invalid, Region, rings::ring_edges};
 use crate::spatial::slabs::SlabDecomposition;
@@ -12,11 +12,9 @@ impl Region {
     /// [`Invalid`] names the first broken promise.
     pub fn validate(&self) -> Result<(), Invalid> {
         let edges: Vec<Segment> = self.rings().flat_map(ring_edges).collect();
-        let mut slabs = SlabDecomposition::default();
-        slabs.build(
-            edges.iter().flatten().copied(),
-            (0..index(edges.len())).map(|edge| (edge, [2 * edge, 2 * edge + 1])),
-        );
+        let (mut slabs, meter) = (SlabDecomposition::default(), Meter::default());
+        let numbered = (0..index(edges.len())).map(|edge| (edge, [2 * edge, 2 * edge + 1]));
+        slabs.build(edges.iter().flatten().copied(), numbered, &meter).expect("no limit was given");
         let contact =
             |[i, j]: [u32; 2]| Invalid::Contact { edge: i.min(j) as usize, other: i.max(j) as usize };
         // An edge without length lies in the end of the one before it or behind it.
@@ -26,11 +24,12 @@ impl Region {
         let neighbours = (1..index(edges.len())).map(|j| [j - 1, j]);
         let mut found = neighbours.into_iter().find(meets_next).map(contact);
         found = found.or_else(|| slabs.duplicates().next().map(contact));
-        slabs.pairs(|i, j| {
+        let note = |i, j| {
             if found.is_none() && meet_wrongly(edges[i as usize], edges[j as usize]) {
                 found = Some(contact([i, j]));
             }
-        });
+        };
+        slabs.pairs(&meter, note).expect("no limit was given");
         if let Some(contact) = found {
             return Err(contact);
         }

@@ -3,6 +3,9 @@
 import doctest
 import importlib
 import pkgutil
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -25,3 +28,11 @@ def test_everything_public_is_documented():
             assert (
                 attribute.startswith("_") or not (callable(member) or isinstance(member, property)) or member.__doc__
             ), attribute
+
+
+@pytest.mark.parametrize(("example", "needs"), [("exposure", "matplotlib"), ("town", "pyvista")])
+def test_examples_draw(example, needs, tmp_path):
+    pytest.importorskip(needs, exc_type=ImportError)
+    script, picture = Path(__file__).parents[1] / "examples" / f"{example}.py", tmp_path / "picture.png"
+    subprocess.run([sys.executable, script, picture], check=True, cwd=tmp_path)
+    assert picture.stat().st_size > 50_000

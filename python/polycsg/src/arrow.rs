@@ -1,6 +1,6 @@
 //! GeoArrow: polygons and multipolygons as nested lists, or as well-known binary.
 use crate::built::Built;
-use crate::error::unreadable;
+use crate::error::{no_polygon, unreadable};
 use crate::held::{HeldFeatures, HeldOffsets};
 use crate::input::Features;
 use crate::ragged::Ragged;
@@ -42,7 +42,7 @@ fn held(chunks: &[ArrayRef], field: FieldRef) -> PyResult<HeldFeatures> {
     let metadata = field.metadata().get(METADATA).cloned();
     match field.metadata().get(NAME).map(String::as_str) {
         None | Some("geoarrow.polygon" | "geoarrow.multipolygon" | "geoarrow.wkb" | "ogc.wkb") => {}
-        Some(other) => return Err(unreadable(format!("a {other} has no area; give polygons"))),
+        Some(other) => return Err(unreadable(no_polygon(other))),
     }
     match array.data_type() {
         DataType::Binary => parsed(array.as_binary::<i32>().iter(), metadata),

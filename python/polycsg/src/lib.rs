@@ -24,7 +24,7 @@ mod _polycsg {
     #[pymodule_export]
     use crate::arrow::{of_arrow, to_arrow};
     #[pymodule_export]
-    use crate::error::GeometryError;
+    use crate::error::{GeometryError, no_polygon};
     #[pymodule_export]
     use crate::expression::evaluated;
     #[pymodule_export]

@@ -1,6 +1,6 @@
 //! Polygons as well-known binary: ISO's and PostGIS's dialects are read, ISO's is written.
 use crate::built::Built;
-use crate::error::unreadable;
+use crate::error::{no_polygon, unreadable};
 use crate::held::HeldFeatures;
 use crate::input::Features;
 use crate::ragged::Ragged;
@@ -8,10 +8,21 @@ use arrow_buffer::NullBuffer;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyBytes;
-use std::fmt::Display;
 
 const POLYGON: u32 = 3;
 const MULTIPOLYGON: u32 = 6;
+
+/// The kinds of geometries by their numbers.
+const KINDS: [&str; 8] = [
+    "Geometry",
+    "Point",
+    "LineString",
+    "Polygon",
+    "MultiPoint",
+    "MultiLineString",
+    "MultiPolygon",
+    "GeometryCollection",
+];
 
 /// What is left to read.
 struct Reader<'a> {
@@ -88,19 +99,22 @@ impl Reader<'_> {
                 for _ in 0..self.count(9)? {
                     let part = self.header()?;
                     if part.kind != POLYGON {
-                        return Err(no_area(part.kind));
+                        return Err(refused(part.kind));
                     }
                     self.polygon(part.dimension, built)?;
                 }
             }
-            other => return Err(no_area(other)),
+            other => return Err(refused(other)),
         }
         if self.bytes.is_empty() { Ok(()) } else { Err(format!("{} bytes too many", self.bytes.len())) }
     }
 }
 
-fn no_area(kind: impl Display) -> String {
-    format!("a geometry of kind {kind} has no area; give polygons (3) or multipolygons (6)")
+fn refused(kind: u32) -> String {
+    match KINDS.get(kind as usize) {
+        Some(kind) => no_polygon(kind),
+        None => format!("there is no kind {kind} of geometry"),
+    }
 }
 
 /// Features from bytes, none where they are missing.

@@ -69,6 +69,17 @@ def test_unreadable(bad):
             function(bad)
 
 
+def test_other_kinds_are_named():
+    line, both = shapely.LineString([(0, 0), (1, 1)]), shapely.GeometryCollection([shapely.box(0, 0, 1, 1)])
+    for shape, said in [
+        (line, "a LineString is no Polygon or MultiPolygon: it has no area"),
+        (both, "a GeometryCollection is no Polygon or MultiPolygon: give the polygons that it holds"),
+    ]:
+        for form in (shape, shape.wkb, shape.__geo_interface__):
+            with pytest.raises(polycsg.GeometryError, match=said):
+                polycsg.area(form)
+
+
 @pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf])
 def test_not_finite(number):
     hole = [(0.5, 0.5), (1, number), (1, 1)]

@@ -3,6 +3,9 @@
 import doctest
 import importlib
 import pkgutil
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -25,3 +28,9 @@ def test_everything_public_is_documented():
             assert (
                 attribute.startswith("_") or not (callable(member) or isinstance(member, property)) or member.__doc__
             ), attribute
+
+
+def test_the_picture_is_that_of_the_readme():
+    folder = Path(__file__).parents[1]
+    drawn = subprocess.run([sys.executable, folder / "examples/picture.py"], check=True, capture_output=True, text=True)
+    assert drawn.stdout == (folder / "docs/picture.svg").read_text()

@@ -9,6 +9,7 @@
 //! So boxes need no quadrature. For other pairs the inner integral has one, and the outer one is taken by Gauss's
 //! rules on stretches that are halved where rules differ.
 use crate::numeric::gauss::{RULE_3, RULE_5, RULE_8};
+use crate::numeric::rounding::rounding_of;
 use crate::scene::surfaces::Surface;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -50,8 +51,9 @@ fn pair([a, b]: Segment, [c, d]: Segment, size: f64, tolerance: f64) -> [f64; 2]
         let [value, error] = parallel([a, b], [c, d], size);
         return [value * cosine.signum(), error];
     }
-    let reach = [a, b, c, d].into_iter().fold(0.0, |reach: f64, end| reach.max(end.abs().max_element()));
-    let inner = |s: f64| along(a + way * s, [c, d], size, 4.0 * f64::EPSILON * reach / size);
+    // A point on an edge is off by two roundings of each coordinate: a quarter of what may put points off planes.
+    let blur = rounding_of([a, b, c, d]) / (4.0 * size);
+    let inner = |s: f64| along(a + way * s, [c, d], size, blur);
     let away = |s: f64| to_segment(a + way * s, [c, d]) / length;
     let [value, error] = adaptive(&inner, &away, tolerance / (length * cosine.abs()).max(f64::MIN_POSITIVE));
     [value * length * cosine, error * length * cosine.abs()]

@@ -6,6 +6,7 @@
 use super::contour::to_segment;
 use super::patch::{MOST_CORNERS, Patch};
 use super::point::Near;
+use crate::numeric::rounding::rounding_of;
 use crate::scene::occluder::{Face, Occluder, Ridge};
 use crate::scene::surfaces::Surface;
 use glam::DVec3;
@@ -53,10 +54,10 @@ impl Event {
             low = if *height < low { *height } else { low };
             high = if *height > high { *height } else { high };
         }
-        let is_flat = || {
-            high - low <= CLOSE * self.normal.length() * polygon.at[0].distance(polygon.at[polygon.count / 2])
-        };
-        // A plane that nearly is the polygon's own makes no line.
+        // A plane that nearly is the polygon's own, or is but for roundings, makes no line.
+        let [at, opposite] = [polygon.at[0], polygon.at[polygon.count / 2]];
+        let is_flat =
+            || high - low <= self.normal.length() * (CLOSE * at.distance(opposite) + rounding_of([at]));
         if low >= 0.0 || high <= 0.0 || is_flat() {
             return None;
         }
@@ -244,16 +245,18 @@ pub(super) fn cut(patch: Patch, events: &[Event], most: f64, least: f64) -> Opti
 /// What is seen begins as a point where a vertex meets an edge, or where edges of three shapes meet, or all along edges in one plane,
 /// where vertices meet edges too.
 pub(super) fn are_skew(to: &Surface, occluders: &[Near]) -> bool {
-    let mut known: Vec<DVec3> = Vec::new();
+    let mut known: Vec<(DVec3, f64)> = Vec::new();
     let of_occluders = occluders.iter().flat_map(|o| o.ridges.iter().map(|ridge| ridge.ends));
     for [a, b] in of_occluders.chain(to.edges.iter().copied()) {
-        let way = (b - a).normalize_or_zero();
-        if known.iter().all(|other| other.cross(way).length_squared() > PARALLEL * PARALLEL) {
-            known.push(way);
+        let (way, length) = ((b - a).normalize_or_zero(), a.distance(b));
+        // Roundings turn short edges far from the origin.
+        let turn = PARALLEL + rounding_of([a, b]) / length;
+        if known.iter().all(|(other, more)| other.cross(way).length() > turn + more) {
+            known.push((way, turn));
         }
     }
     occluders.len() > 1 && known.len() > 2
 }
 
 /// Edges count as parallel up to this sine of their angle.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL: f64 = 5e-10;

@@ -7,6 +7,7 @@ use super::plan::Errors;
 use super::point::{Eye, Focus, Near, Seen};
 use super::uncut::{away_from, away_from_surface, errors};
 use crate::numeric::gauss::RULE_2;
+use crate::numeric::rounding::rounding_of;
 use crate::scene::surfaces::Surface;
 use crate::shapes::cell::{Cell, area, fan, nodes};
 use glam::DVec3;
@@ -20,6 +21,8 @@ pub(super) struct Integrand<'p> {
     target: Vec<Vec<DVec3>>,
     to: &'p Surface,
     pub(super) occluders: &'p [Near<'p>],
+    /// What share of a factor counts as nothing.
+    dark: f64,
     /// Whether three edges in three directions may open a gap where no vertex is.
     is_skew: OnceCell<bool>,
     eye: &'p mut Eye,
@@ -37,7 +40,8 @@ pub(super) struct OnCell {
     pub(super) is_dark: bool,
 }
 
-/// What no node sees more of than this share counts as nothing: roundings of what is hidden.
+/// What no node sees more of than this share counts as nothing: roundings of what is hidden, with those of coordinates by the smaller of
+/// the two.
 const DARK: f64 = 1e-13;
 
 impl<'p> Integrand<'p> {
@@ -47,6 +51,7 @@ impl<'p> Integrand<'p> {
             target: before(&to.pieces, from.face),
             to,
             occluders,
+            dark: DARK + rounding_of([from.middle, to.middle]) / from.radius.min(to.radius),
             is_skew: OnceCell::new(),
             eye,
             is_rest_known: false,
@@ -139,7 +144,7 @@ impl<'p> Integrand<'p> {
             let seen = self.eye.look_past(point, self.normal, &self.target, self.occluders, is_whole_asked);
             sum.value += weight * self.part(seen, view.focus);
             sum.is_joint |= seen.is_joint;
-            sum.is_dark &= seen.whole - seen.hidden <= DARK * seen.whole;
+            sum.is_dark &= seen.whole - seen.hidden <= self.dark * seen.whole;
             self.evaluations += 1;
         }
         sum

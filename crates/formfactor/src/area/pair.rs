@@ -7,6 +7,7 @@ use super::proven::Proof;
 use super::swept::{rounded, swept};
 use super::{contour, hollow, kernel};
 use crate::numeric::gauss::{RULE_3, RULE_4, RULE_6};
+use crate::numeric::rounding::rounding_of;
 use crate::scene::apart::are_apart;
 use crate::scene::occluder::{Before, Face};
 use crate::scene::surfaces::{Hider, Origin, Surface, Surfaces};
@@ -209,7 +210,7 @@ fn are_before([one, other]: [&Surface; 2]) -> bool {
 /// Whether all of a surface is before a plane.
 fn is_wholly_before(surface: &Surface, [on, normal]: Face) -> bool {
     let middle = surface.middle - on;
-    let least = -1e-13 * (middle.length() + surface.radius);
+    let least = -1e-13 * (middle.length() + surface.radius) - rounding_of([on, surface.middle]);
     normal.dot(middle) > surface.radius
         || surface.pieces.iter().flatten().all(|p| normal.dot(*p - on) >= least)
 }

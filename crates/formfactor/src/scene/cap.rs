@@ -9,7 +9,10 @@
 //!    | :....|_|
 //!    |/  lid|/
 //! ```
+use super::shell::Adjacency;
+use super::slab::Slab;
 use crate::numeric::predicates::{Plane, turn_in_plane};
+use crate::shapes::holes::{holes, outline};
 use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 use std::{
@@ -17,11 +20,22 @@ use std::{
     collections::{BTreeMap, BTreeSet},
 };
 
-/// The polygons of a cap, and the faces that it lacks, their fronts outward.
+/// The polygons of a cap, and the faces that it lacks, their fronts outward: none of a closed body.
 #[derive(Clone, Debug)]
-pub(crate) struct Cap {
-    pub(crate) faces: Vec<usize>,
-    pub(crate) lids: Vec<PlanarPolygon>,
+pub(super) struct Cap {
+    pub(super) faces: Vec<usize>,
+    pub(super) lids: Vec<PlanarPolygon>,
+    /// The holes of its faces, which are lids too.
+    pub(super) holes: Vec<PlanarPolygon>,
+}
+
+impl Cap {
+    /// The cap that a convex shell is, if a few faces of the convex hull of its corners close it.
+    pub(super) fn of(polygons: &[PlanarPolygon], faces: Vec<usize>, adjacency: &Adjacency) -> Option<Self> {
+        let lids = lids(polygons, &faces, adjacency)?;
+        let holes = faces.iter().filter_map(|face| holes(&polygons[*face])).flatten().collect();
+        Some(Self { faces, lids, holes })
+    }
 }
 
 /// Solids of more corners are not looked for: wrapping takes their square.
@@ -37,20 +51,17 @@ fn bits(p: DVec3) -> Bits {
     p.to_array().map(f64::to_bits)
 }
 
-/// The faces that convex faces lack to close around the convex hull of their corners, if they are faces of it. `neighbours` has what is
+/// The faces that convex faces lack to close around the convex hull of their corners, if they are faces of it. `adjacency` has what is
 /// across each edge.
-pub(super) fn lids(
-    polygons: &[PlanarPolygon],
-    faces: &[usize],
-    neighbours: &[Vec<Option<usize>>],
-) -> Option<Vec<PlanarPolygon>> {
-    let mut corners: Vec<DVec3> = faces.iter().flat_map(|face| polygons[*face].points()).copied().collect();
+fn lids(polygons: &[PlanarPolygon], faces: &[usize], adjacency: &Adjacency) -> Option<Vec<PlanarPolygon>> {
+    let mut corners: Vec<DVec3> =
+        faces.iter().flat_map(|face| outline(&polygons[*face])).map(|(a, _)| a).collect();
     corners.sort_by_key(|p| bits(*p));
     corners.dedup();
     if corners.len() > MOST_CORNERS {
         return None;
     }
-    let edges = faces.iter().flat_map(|face| polygons[*face].edges().zip(&neighbours[*face]));
+    let edges = faces.iter().flat_map(|face| outline(&polygons[*face]).zip(&adjacency.0[*face]));
     let open = edges.filter(|(_, across)| across.is_none_or(|other| !faces.contains(&other)));
     // A lid's edges run the other way.
     let mut open: BTreeMap<[Bits; 2], [DVec3; 2]> =
@@ -58,7 +69,7 @@ pub(super) fn lids(
     let mut lids = Vec::new();
     while let Some((_, edge)) = open.pop_first() {
         let lid = wrap(edge, &corners)?;
-        for (a, b) in lid.edges().filter(|(a, b)| [*a, *b] != edge) {
+        for (a, b) in outline(&lid).filter(|(a, b)| [*a, *b] != edge) {
             if open.remove(&[bits(a), bits(b)]).is_none() {
                 open.insert([bits(b), bits(a)], [b, a]);
             }
@@ -73,8 +84,7 @@ pub(super) fn lids(
 
 /// Whether each edge runs once each way.
 fn is_closed<'p>(sides: impl Iterator<Item = &'p PlanarPolygon>) -> bool {
-    let edges: Vec<[Bits; 2]> =
-        sides.flat_map(PlanarPolygon::edges).map(|(a, b)| [bits(a), bits(b)]).collect();
+    let edges: Vec<[Bits; 2]> = sides.flat_map(outline).map(|(a, b)| [bits(a), bits(b)]).collect();
     let known: BTreeSet<&[Bits; 2]> = edges.iter().collect();
     known.len() == edges.len() && edges.iter().all(|[a, b]| known.contains(&[*b, *a]))
 }
@@ -90,9 +100,15 @@ fn wrap([from, to]: [DVec3; 2], corners: &[DVec3]) -> Option<PlanarPolygon> {
                 if best.side_of(plane.corners[2]) == Ordering::Greater { plane } else { best }
             },
         );
+    let slab = |corner: DVec3| PlanarPolygon::new([[from, to, corner]]).ok().map(|face| Slab::of(&face));
+    let rough = slab(outer.corners[2])?;
+    // Of corners that are on it but for roundings the farthest from the edge says best how the plane lies.
+    let breadth = |p: &DVec3| (*p - from).cross(to - from).length_squared();
+    let level = corners.iter().filter(|p| rough.side_of(**p).is_eq());
+    let slab = slab(*level.max_by(|a, b| breadth(a).total_cmp(&breadth(b)))?)?;
     let mut on = Vec::new();
     for corner in corners {
-        match outer.side_of(*corner) {
+        match slab.side_of(*corner) {
             Ordering::Greater => return None,
             Ordering::Equal => on.push(*corner),
             Ordering::Less => (),
@@ -100,7 +116,7 @@ fn wrap([from, to]: [DVec3; 2], corners: &[DVec3]) -> Option<PlanarPolygon> {
     }
     let is_solid = on.len() < corners.len();
     let face = PlanarPolygon::new([hull(&on, &outer)?]).ok()?;
-    (is_solid && face.is_convex() && face.deviation() == 0.0).then_some(face)
+    (is_solid && face.is_convex()).then_some(face)
 }
 
 /// The convex hull of points of a plane, without those within its sides, counter-clockwise seen from where its normal points to.

@@ -1,5 +1,5 @@
 //! Enclosures: many polygons that see and hide each other.
-use super::{body::Bodies, pool::Pool, shaft::Shaft, surfaces::Surfaces, tree::Tree};
+use super::{body::Bodies, pool::Pool, shaft::Shaft, shell::Adjacency, surfaces::Surfaces, tree::Tree};
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
@@ -44,13 +44,13 @@ impl Enclosure {
     /// Takes O(n log^2 n) for n vertices.
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
-        let bodies = Bodies::among(&polygons);
+        let adjacency = Adjacency::of(&polygons);
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
         let tree = Tree::over(&polygons);
         Self {
-            surfaces: Surfaces::of(&polygons, &bodies, &tree),
+            surfaces: Surfaces::of(&polygons, &adjacency, &tree),
             tree,
-            bodies,
+            bodies: Bodies::among(&polygons, &adjacency),
             polygons,
             deviation,
             pool: Pool::default(),

@@ -9,5 +9,7 @@ pub(crate) mod occluder;
 pub(crate) mod plates;
 pub(crate) mod pool;
 pub(crate) mod shaft;
+pub(crate) mod shell;
+pub(crate) mod slab;
 pub(crate) mod surfaces;
 pub(crate) mod tree;

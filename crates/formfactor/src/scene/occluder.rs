@@ -1,4 +1,5 @@
 //! Convex occluders: plates and convex bodies, as what is in front of them sees them.
+use crate::numeric::rounding::rounding_of;
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -36,36 +37,51 @@ pub(crate) struct Occluder {
     pub(crate) radius: f64,
     /// No shadow along parallel rays is larger: half of the area of all faces.
     pub(crate) breadth: f64,
+    /// How far corners may be off the planes of their faces: roundings, and deviation.
+    blur: f64,
 }
 
 impl Occluder {
-    /// A plate from its corners, counter-clockwise seen from where `normal` points to.
-    pub(crate) fn plate(corners: &[DVec3], normal: DVec3) -> Self {
+    /// A plate from its corners, counter-clockwise seen from where `normal` points to, each at most `deviation` off its plane.
+    pub(crate) fn plate(corners: &[DVec3], normal: DVec3, deviation: f64) -> Self {
         let next = corners.iter().cycle().skip(1);
         let ridges = corners.iter().zip(next).map(|(a, b)| Ridge { ends: [*a, *b], sides: [0, 1] });
         let faces = vec![[corners[0], normal], [corners[0], -normal]];
-        Self::of(ridges.collect(), faces, true)
+        Self::of(ridges.collect(), faces, true, deviation + rounding_of(corners.iter().copied()))
     }
 
-    pub(crate) fn of(ridges: Vec<Ridge>, faces: Vec<Face>, is_plate: bool) -> Self {
+    /// A convex body from its ridges, their ends at most `deviation` off the faces' planes.
+    pub(crate) fn body(ridges: Vec<Ridge>, faces: Vec<Face>, deviation: f64) -> Self {
+        let blur = deviation + rounding_of(ridges.iter().flat_map(|ridge| ridge.ends));
+        Self::of(ridges, faces, false, blur)
+    }
+
+    fn of(ridges: Vec<Ridge>, faces: Vec<Face>, is_plate: bool, blur: f64) -> Self {
         let mut corners: Vec<DVec3> = ridges.iter().flat_map(|ridge| ridge.ends).collect();
         corners.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
         corners.dedup();
         let (middle, radius) = ball(&corners);
         let breadth = breadth(&ridges, faces.len(), middle);
-        Self { ridges, faces, corners, is_plate, middle, radius, breadth }
+        Self { ridges, faces, corners, is_plate, middle, radius, breadth, blur }
     }
 
-    /// Whether a point sees each face, as far as doubles say.
+    /// Whether a point sees each face, as far as doubles say. A face of a body is seen by what touches it: from on its plane a
+    /// shadow is the same with the face and without it, but one that sees no face at all is inside.
     pub(crate) fn facing(&self, point: DVec3, facing: &mut Vec<bool>) {
+        let touch = self.touch();
         facing.clear();
-        facing.extend(self.faces.iter().map(|[on, normal]| normal.dot(point - *on) > 0.0));
+        facing.extend(self.faces.iter().map(|[on, normal]| normal.dot(point - *on) > -touch));
+    }
+
+    /// What is no farther than this behind a face of a body touches it.
+    fn touch(&self) -> f64 {
+        if self.is_plate { 0.0 } else { self.blur + LEAST * self.radius }
     }
 
     /// Whether all points of a cell see the same faces.
     pub(crate) fn turns_alike(&self, cell: &[DVec3]) -> bool {
         self.faces.iter().all(|face| {
-            let [low, high] = extent(cell, face);
+            let [low, high] = extent(cell, face, self.touch());
             -low <= SLIGHT * high || high <= -SLIGHT * low
         })
     }
@@ -75,7 +91,7 @@ impl Occluder {
     pub(crate) fn sides(&self, cell: &[DVec3], sides: &mut Vec<[bool; 2]>) {
         sides.clear();
         sides.extend(self.faces.iter().map(|face| {
-            let [low, high] = extent(cell, face);
+            let [low, high] = extent(cell, face, self.touch());
             [high > -SLIGHT * low, low < -SLIGHT * high || high == 0.0]
         }));
     }
@@ -84,7 +100,7 @@ impl Occluder {
     pub(crate) fn before(&self, [on, normal]: Face) -> Before {
         let height = |p: DVec3| normal.dot(p - on);
         let middle = height(self.middle);
-        let least = LEAST * (self.radius + self.middle.distance(on));
+        let least = self.blur + LEAST * (self.radius + self.middle.distance(on));
         if middle > self.radius {
             return Before::All;
         }
@@ -144,7 +160,7 @@ impl Occluder {
                     .push(Ridge { ends: [*out, *back], sides: [face, if self.is_plate { 1 } else { CAP }] });
             }
         }
-        Self::of(ridges, self.faces.clone(), self.is_plate)
+        Self::of(ridges, self.faces.clone(), self.is_plate, self.blur)
     }
 }
 
@@ -176,9 +192,9 @@ pub(crate) fn silhouette(ridges: &[Ridge], facing: &[bool], mut with: impl FnMut
     }
 }
 
-/// How far points are below a plane at most, and above it.
-fn extent(points: &[DVec3], [on, normal]: &Face) -> [f64; 2] {
-    let heights = points.iter().map(|p| normal.dot(*p - *on));
+/// How far points are below a plane at most, and above it, if it were `lower` by so much.
+fn extent(points: &[DVec3], [on, normal]: &Face, lower: f64) -> [f64; 2] {
+    let heights = points.iter().map(|p| normal.dot(*p - *on) + lower);
     heights.fold([0.0; 2], |[low, high], h| [low.min(h), high.max(h)])
 }
 

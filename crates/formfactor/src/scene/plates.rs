@@ -1,11 +1,12 @@
 //! Polygons of one plane as convex occluders.
 use super::occluder::Occluder;
+use crate::numeric::rounding::rounding_of;
 use crate::shapes::loops::{is_convex, leaf};
 use crate::shapes::pieces::{pieces, trapezoids};
 use crate::shapes::polygon::PlanarPolygon;
 use glam::{DVec2, DVec3};
 
-/// Points that lie behind a plane by no more than this of their distance count as on it.
+/// Points that lie behind a plane by no more than this of their distance, and roundings, count as on it.
 const SLIGHT: f64 = 1e-13;
 
 /// Whether no point is behind a polygon's plane, or none before it: then the polygon hides nothing from anything, as a
@@ -17,7 +18,7 @@ pub(super) fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
     let stride = (1..).map(|i| i * 2 + 1).find(|stride| stride * stride > points.len()).unwrap_or(1);
     for point in (0..stride).flat_map(|start| points.iter().skip(start).step_by(stride)) {
         let (way, height) = (*point - on, normal.dot(*point - on));
-        if height.abs() > SLIGHT * way.length() {
+        if height.abs() > SLIGHT * way.length() + rounding_of([on, *point]) {
             sides[usize::from(height > 0.0)] = true;
         }
         if sides == [true; 2] {
@@ -29,16 +30,19 @@ pub(super) fn supports(polygon: &PlanarPolygon, points: &[DVec3]) -> bool {
 
 /// Polygons of one plane as convex plates: their union where that takes fewer, else their own pieces.
 pub(super) fn plates(polygons: &[PlanarPolygon], ids: &[usize]) -> Vec<Occluder> {
-    let plane = &polygons[ids[0]];
+    let areas = ids.iter().map(|id| polygons[*id].area());
+    let largest = ids.iter().zip(areas).max_by(|a, b| a.1.total_cmp(&b.1));
+    let plane = &polygons[largest.map_or(ids[0], |(id, _)| *id)];
     let own: Vec<Vec<DVec3>> = ids.iter().flat_map(|id| pieces(&polygons[*id])).collect();
     let united = if own.len() > 1 { united(plane, polygons, ids) } else { None };
     let corners = united.filter(|united| united.len() < own.len()).unwrap_or(own);
+    let deviation = ids.iter().map(|id| polygons[*id].deviation()).fold(0.0, f64::max);
     // Those of polygons that face the other way run clockwise.
     let plate = |corners: &Vec<DVec3>| {
         let spokes = corners[1..].windows(2);
         let normal: DVec3 = spokes.map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0])).sum();
         let upward = if normal.dot(plane.normal()) < 0.0 { -plane.normal() } else { plane.normal() };
-        Occluder::plate(corners, upward)
+        Occluder::plate(corners, upward, deviation)
     };
     corners.iter().map(plate).collect()
 }

@@ -1,10 +1,12 @@
 //! What form factors from area to area need of the polygons, found once: their convex pieces, and the convex occluders among
 //! them.
-use super::body::Bodies;
+use super::cap::Cap;
 use super::coplanar::planes;
 use super::inside::{Solid, Within};
 use super::occluder::{Face, Occluder, Ridge, ball};
 use super::plates::{plates, supports};
+use super::shell::{Adjacency, shells};
+use super::slab::Slab;
 use super::tree::Tree;
 use crate::shapes::cell::{Cell, Nodes, fan};
 use crate::shapes::extent::Extent;
@@ -106,9 +108,11 @@ pub(crate) struct Surfaces {
 
 impl Surfaces {
     /// Takes O(n log n) for n vertices where few planes have all polygons on one side, plus the unions of coplanar polygons.
-    pub(crate) fn of(polygons: &[PlanarPolygon], bodies: &Bodies, tree: &Tree) -> Self {
-        let planes = planes(polygons);
-        let solids = solids(polygons, bodies, tree);
+    pub(crate) fn of(polygons: &[PlanarPolygon], adjacency: &Adjacency, tree: &Tree) -> Self {
+        let slabs: Vec<Slab> = polygons.iter().map(Slab::of).collect();
+        let planes = planes(polygons, &slabs);
+        let caps = caps(polygons, adjacency, &slabs);
+        let solids = solids(polygons, &caps, tree);
         let mut solid_of = vec![None; polygons.len()];
         for (number, (solid, _)) in solids.iter().enumerate() {
             solid.faces.iter().for_each(|face| solid_of[*face] = Some(number));
@@ -223,18 +227,27 @@ pub(crate) fn area(corners: &[DVec3]) -> f64 {
     spokes.sum::<DVec3>().length() / 2.0
 }
 
-/// Closed bodies and caps that hide from others what they would if they were full, and what is inside of each.
-fn solids<'b>(polygons: &[PlanarPolygon], bodies: &'b Bodies, tree: &Tree) -> Vec<(Solid<'b>, Within)> {
-    let closed = (0..bodies.count()).map(|body| Solid { faces: bodies.faces(body), lids: &[] });
-    let caps = bodies.caps().iter().map(|cap| Solid { faces: &cap.faces, lids: &cap.lids });
-    closed.chain(caps).filter_map(|solid| Some((solid, solid.inside(polygons, tree)?))).collect()
+/// Closed bodies, then other caps.
+fn caps(polygons: &[PlanarPolygon], adjacency: &Adjacency, slabs: &[Slab]) -> Vec<Cap> {
+    let shells = shells(polygons, adjacency, |id, point| slabs[id].side_of(point)).into_iter();
+    let mut caps: Vec<Cap> = shells.filter_map(|faces| Cap::of(polygons, faces, adjacency)).collect();
+    caps.sort_by_key(|cap| !cap.lids.is_empty());
+    caps
+}
+
+/// Those that hide from others what they would if they were full, and what is inside of each.
+fn solids<'c>(polygons: &[PlanarPolygon], caps: &'c [Cap], tree: &Tree) -> Vec<(Solid<'c>, Within)> {
+    let solids = caps.iter().map(|cap| Solid { faces: &cap.faces, lids: &cap.lids, holes: &cap.holes });
+    solids.filter_map(|solid| Some((solid, solid.inside(polygons, tree)?))).collect()
 }
 
 /// A convex solid: the edges between faces in different planes.
 fn of_solid(polygons: &[PlanarPolygon], planes: &[usize], solid: Solid) -> Occluder {
     let bits = |p: DVec3| p.to_array().map(f64::to_bits);
     let own = solid.faces.iter().map(|id| planes[*id]).chain(planes.len()..);
-    let sides: Vec<(usize, &PlanarPolygon)> = own.zip(solid.sides(polygons)).collect();
+    // Holes add no edges.
+    let closed = solid.faces.len() + solid.lids.len();
+    let sides: Vec<(usize, &PlanarPolygon)> = own.zip(solid.sides(polygons)).take(closed).collect();
     let mut numbers: Vec<usize> = sides.iter().map(|side| side.0).collect();
     numbers.sort_unstable();
     numbers.dedup();
@@ -248,5 +261,6 @@ fn of_solid(polygons: &[PlanarPolygon], planes: &[usize], solid: Solid) -> Occlu
     });
     let mut faces: Vec<Face> = vec![[DVec3::ZERO; 2]; numbers.len()];
     sides.iter().for_each(|(plane, side)| faces[number(*plane)] = [side.points()[0], side.normal()]);
-    Occluder::of(ridges.collect(), faces, false)
+    let deviation = sides.iter().map(|(_, side)| side.deviation()).fold(0.0, f64::max);
+    Occluder::body(ridges.collect(), faces, deviation)
 }

@@ -2,6 +2,7 @@
 pub(crate) mod cell;
 pub(crate) mod differential_area;
 pub(crate) mod extent;
+pub(crate) mod holes;
 pub(crate) mod loops;
 pub(crate) mod pieces;
 pub(crate) mod polygon;

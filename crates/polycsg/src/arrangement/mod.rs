@@ -15,8 +15,11 @@
 //! junctions. Overlapping sub-edges leave a junction in one direction. The one with the smallest id is their representative:
 //! only this one is walked and labelled.
 
+mod junctions;
 pub(crate) mod labels;
 
+use crate::base::meter::{Meter, Refusal};
+use crate::base::parts::Numbered;
 use crate::base::{id::index, threads::Threads};
 use crate::contacts::contact::{Contact, Partner, PartnerKind};
 use crate::contacts::{Contacts, Place};
@@ -71,14 +74,23 @@ impl SubEdge {
 
 impl Arrangement {
     /// Cuts all rings at their contacts.
-    pub(crate) fn split(&mut self, edges: &Edges, contacts: &Contacts) {
-        self.cut(edges, contacts);
-        self.find_starting(contacts);
-        self.gather(edges);
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn split(
+        &mut self,
+        edges: &Edges,
+        contacts: &Contacts,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        self.cut(edges, contacts, meter)?;
+        self.find_starting(contacts, meter)?;
+        self.gather(edges, meter)?;
         debug_assert!(self.check(edges));
+        Ok(())
     }
 
-    fn cut(&mut self, edges: &Edges, contacts: &Contacts) {
+    fn cut(&mut self, edges: &Edges, contacts: &Contacts, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.sub_edges.clear();
         let sub_edge = |&Contact { edge, node, partner, .. }: &Contact| SubEdge {
             edge,
@@ -87,128 +99,52 @@ impl Arrangement {
         };
         let threads = Threads::for_edges(edges.len());
         threads.list(contacts.sorted().len(), &mut self.sub_edges, |part, sub_edges| {
-            sub_edges.extend(contacts.sorted()[part].iter().map(sub_edge));
-        });
+            meter.extend(sub_edges, contacts.sorted()[part].iter().map(sub_edge))
+        })?;
         self.first.clear();
         let mut sub_edge = 0;
-        for ring in edges.rings() {
+        meter.for_each(edges.rings(), |ring| {
             self.first.push(index(sub_edge));
             let end = ring.end + u32::from(ring.is_open);
             sub_edge += self.sub_edges[sub_edge..].partition_point(|sub_edge| sub_edge.edge < end);
-        }
+        })?;
         self.first.push(index(sub_edge));
+        Ok(())
     }
 
     /// Finds the sub-edges that start in each node, and counts them where that is a junction.
-    fn find_starting(&mut self, contacts: &Contacts) {
-        let junctions = self.number_junctions(contacts);
+    fn find_starting(&mut self, contacts: &Contacts, meter: &Meter<'_>) -> Result<(), Refusal> {
+        let junctions = self.number_junctions(contacts, meter)?;
         self.starts.clear();
         self.starts.resize(junctions + 2, 0);
-        for (i, sub_edge) in (0..).zip(&self.sub_edges) {
+        meter.for_each(Numbered(&self.sub_edges), |(i, sub_edge)| {
             let starting = &mut self.starting[sub_edge.node as usize];
             match *starting {
                 [NONE, NONE] => starting[0] = i,
                 [NONE, junction] => self.starts[junction as usize + 2] += sub_edge.half_edges(),
                 [_, _] => starting[1] = i,
             }
-        }
+        })?;
         for junction in 2..self.starts.len() {
             self.starts[junction] += self.starts[junction - 1];
         }
+        Ok(())
     }
 
     /// Numbers the nodes that are vertices or several crossings in one point; returns how many there are.
-    fn number_junctions(&mut self, contacts: &Contacts) -> usize {
-        self.starting.clear();
-        self.starting.resize(contacts.node_count(), [NONE; 2]);
+    fn number_junctions(&mut self, contacts: &Contacts, meter: &Meter<'_>) -> Result<usize, Refusal> {
+        meter.fill(&mut self.starting, [NONE; 2], contacts.node_count())?;
         if !contacts.degenerate() {
-            return 0;
+            return Ok(0);
         }
-        for node in 0..index(contacts.node_count()) {
+        meter.for_each(0..index(contacts.node_count()), |node| {
             let representative = contacts.node(node);
             if representative != node || matches!(contacts.place(node), Place::Vertex(_)) {
                 self.starting[representative as usize][1] = 0;
             }
-        }
+        })?;
         let junctions = self.starting.iter_mut().filter(|starting| starting[1] != NONE);
-        (0..).zip(junctions).map(|(junction, starting)| starting[1] = junction).count()
-    }
-
-    /// Lists the half-edges of each junction by angle, and unites those that leave it in one direction.
-    fn gather(&mut self, edges: &Edges) {
-        self.list_half_edges(edges);
-        self.representatives.clear();
-        self.next.clear();
-        let (mut around, mut leaving) = (std::mem::take(&mut self.around), std::mem::take(&mut self.leaving));
-        for junction in 0..index(self.junction_count()) {
-            let span = self.span(junction);
-            let half_edges = &mut around[span.start as usize..span.end as usize];
-            let compass = |half_edge: u32| Compass::of(self.direction(edges, half_edge));
-            leaving.clear();
-            leaving.extend(half_edges.iter().map(|&h| (compass(h) as u64) << 32 | u64::from(h)));
-            sort_by_compass(&mut leaving, half_edges);
-            let mut rest = half_edges;
-            for alike in leaving.chunk_by(|g, h| g >> 32 == h >> 32) {
-                let (half_edges, others) = rest.split_at_mut(alike.len());
-                rest = others;
-                if alike.len() > 1 {
-                    self.sort_within(edges, half_edges);
-                }
-            }
-        }
-        (self.around, self.leaving) = (around, leaving);
-    }
-
-    /// Sorts half-edges that leave a junction alike by angle, and unites those that overlap.
-    fn sort_within(&mut self, edges: &Edges, half_edges: &mut [u32]) {
-        if Compass::of(self.direction(edges, half_edges[0])).is_axis() {
-            return self.unite(half_edges);
-        }
-        let order = |g: u32, h: u32| by_turn(self.direction(edges, g), self.direction(edges, h));
-        half_edges.sort_unstable_by(|&g, &h| order(g, h).then(g.cmp(&h)));
-        let mut rest = &*half_edges;
-        while let [first, others @ ..] = rest {
-            let order = |h: &u32| by_turn(self.direction(edges, *first), self.direction(edges, *h));
-            let count = 1 + others.iter().take_while(|h| order(h) == Ordering::Equal).count();
-            self.unite(&rest[..count]);
-            rest = &rest[count..];
-        }
-    }
-
-    /// Lists the half-edges junction by junction; afterwards `starts[j]..starts[j + 1]` are those of junction j.
-    fn list_half_edges(&mut self, edges: &Edges) {
-        let mut around = std::mem::take(&mut self.around);
-        around.clear();
-        around.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
-        for sub_edge in 0..index(self.sub_edges.len()) {
-            if let [NONE, junction] = self.starting[self.node(sub_edge) as usize] {
-                let previous = self.previous(edges, sub_edge);
-                let kind = self.sub_edges[sub_edge as usize].partner.kind();
-                let leaving = (kind != PartnerKind::End).then_some(2 * sub_edge);
-                let arriving = (kind != PartnerKind::First).then_some(2 * previous + 1);
-                for half_edge in leaving.into_iter().chain(arriving) {
-                    let at = &mut self.starts[junction as usize + 1];
-                    around[*at as usize] = half_edge;
-                    *at += 1;
-                }
-            }
-        }
-        self.starts.pop();
-        self.around = around;
-    }
-
-    /// Links overlapping sub-edges, given by their half-edges in order; at their other ends it was or will be done alike.
-    fn unite(&mut self, overlapping: &[u32]) {
-        if self.next.is_empty() && overlapping.len() > 1 {
-            self.representatives.extend(0..index(self.sub_edges.len()));
-            self.next.resize(self.sub_edges.len(), NONE);
-        }
-        let representative = overlapping[0] >> 1;
-        for pair in overlapping.windows(2) {
-            let [sub_edge, next] = [pair[0] >> 1, pair[1] >> 1];
-            self.next[sub_edge as usize] = next;
-            self.representatives[next as usize] = representative;
-        }
+        Ok((0..).zip(junctions).map(|(junction, starting)| starting[1] = junction).count())
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -376,22 +312,6 @@ impl Arrangement {
         });
         crossings && junctions
     }
-}
-
-/// Sorts half-edges behind their compasses, and lists them: a few by how many are before each, without branches.
-#[expect(clippy::cast_possible_truncation, reason = "the lower half is the half-edge")]
-fn sort_by_compass(leaving: &mut [u64], half_edges: &mut [u32]) {
-    const FEW: usize = 8;
-    if leaving.len() <= FEW {
-        let mut sorted = [0; FEW];
-        for &half_edge in &*leaving {
-            sorted[leaving.iter().filter(|&&other| other < half_edge).count()] = half_edge;
-        }
-        leaving.copy_from_slice(&sorted[..leaving.len()]);
-    } else {
-        leaving.sort_unstable();
-    }
-    half_edges.iter_mut().zip(leaving).for_each(|(half_edge, sorted)| *half_edge = *sorted as u32);
 }
 
 /// The order counter-clockwise of two directions within a quadrant.

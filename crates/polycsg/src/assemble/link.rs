@@ -12,7 +12,9 @@
 //! A boundary has as many chains that leave a node as arrive. Should an outline be none, what leads to no ring is left out,
 //! and `alternate` says so: then the rings are arranged anew.
 
-use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal, Tally};
+use crate::base::parts::Numbered;
+use crate::base::{id::index, sort::sort};
 use crate::boundary::outline::{BoundaryChain, Outline};
 use crate::predicates::{Side, lexicographic, side};
 use crate::region::rings::Rings;
@@ -117,21 +119,26 @@ impl Cycles {
     }
 
     /// Walks all chains and cuts the walks into rings.
-    pub(crate) fn link(&mut self, outline: &Outline) -> &Cycles {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn link(&mut self, outline: &Outline, meter: &Meter<'_>) -> Result<&Cycles, Refusal> {
         self.rings.clear();
         self.about.clear();
         self.ring_of_chain.clear();
         self.ring_of_chain.resize(outline.chains().len(), NONE);
-        self.find_successors(outline);
+        self.find_successors(outline, meter)?;
+        self.cut.path.clear();
         self.cut.depth.clear();
         self.cut.depth.resize(outline.node_count(), NONE);
-        let mut cycle = 0;
+        let (mut cycle, mut tally) = (0, meter.tally());
         for first in 0..outline.chains().len() {
             if self.next[first] == NONE {
                 continue;
             }
             let mut chain = index(first);
             while self.next[chain as usize] != NONE {
+                tally.add(1)?;
                 if let Some(depth) = self.cut.visit(outline, chain) {
                     self.close_ring(outline, depth, cycle);
                 }
@@ -143,36 +150,34 @@ impl Cycles {
             }
             cycle += 1;
         }
-        self
+        Ok(self)
     }
 
     /// Finds the chain that comes after each one by the turn rule.
-    fn find_successors(&mut self, outline: &Outline) {
+    fn find_successors(&mut self, outline: &Outline, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.leaving.clear();
         self.leaving.resize(outline.node_count(), NONE);
         self.crowded.clear();
-        for (chain, about) in (0..).zip(outline.chains()) {
+        meter.for_each(Numbered(outline.chains()), |(chain, about)| {
             if std::mem::replace(&mut self.leaving[about.start as usize], chain) != NONE {
                 self.crowded.push(about.start);
             }
-        }
+        })?;
         self.next.clear();
-        self.next.extend(outline.chains().iter().map(|about| self.leaving[about.end as usize]));
+        let next = outline.chains().iter().map(|about| self.leaving[about.end as usize]);
+        meter.extend(&mut self.next, next)?;
         self.crowd.clear();
         self.alternate = !self.next.contains(&NONE);
-        if !self.crowded.is_empty() {
-            self.gather_half_edges(outline);
-        }
+        if self.crowded.is_empty() { Ok(()) } else { self.gather_half_edges(outline, meter) }
     }
 
     /// Pairs the chains where several leave a node.
-    fn gather_half_edges(&mut self, outline: &Outline) {
-        self.number_crowds(outline);
+    fn gather_half_edges(&mut self, outline: &Outline, meter: &Meter<'_>) -> Result<(), Refusal> {
+        self.number_crowds(outline, meter)?;
         let ends = |about: &BoundaryChain| [(about.start, true), (about.end, false)];
         let empty = IncidentHalfEdge { end: DVec2::ZERO, chain: NONE, leaves: false };
-        self.half_edges.clear();
-        self.half_edges.resize(self.starts.last().copied().unwrap_or(0) as usize, empty);
-        for (chain, about) in (0..).zip(outline.chains()) {
+        meter.fill(&mut self.half_edges, empty, self.starts.last().copied().unwrap_or(0) as usize)?;
+        meter.for_each(Numbered(outline.chains()), |(chain, about)| {
             for (node, leaves) in ends(about) {
                 let crowd = self.crowd[node as usize];
                 if crowd != NONE {
@@ -182,18 +187,20 @@ impl Cycles {
                     *place += 1;
                 }
             }
-        }
+        })?;
+        let mut tally = meter.tally();
         let mut half_edges = std::mem::take(&mut self.half_edges);
         for crowd in 0..self.starts.len() - 2 {
             let pivot = outline.points(self.leaving[self.crowded[crowd] as usize])[0];
-            self.alternate &= self.pair_by_angle(pivot, &mut half_edges[self.span(crowd)]);
+            self.alternate &= self.pair_by_angle(pivot, &mut half_edges[self.span(crowd)], &mut tally)?;
         }
         self.half_edges = half_edges;
+        Ok(())
     }
 
     /// Numbers the nodes where several chains leave, and counts their half-edges: those of the one before end at
     /// `starts[crowd + 1]`, which moves on as they are listed.
-    fn number_crowds(&mut self, outline: &Outline) {
+    fn number_crowds(&mut self, outline: &Outline, meter: &Meter<'_>) -> Result<(), Refusal> {
         let (crowd, mut count) = (&mut self.crowd, 0);
         crowd.resize(outline.node_count(), NONE);
         self.crowded.retain(|&node| {
@@ -206,22 +213,32 @@ impl Cycles {
         });
         self.starts.clear();
         self.starts.resize(count as usize + 2, 0);
-        for node in outline.chains().iter().flat_map(|about| [about.start, about.end]) {
-            let crowd = self.crowd[node as usize];
-            if crowd != NONE {
-                self.starts[crowd as usize + 2] += 1;
+        meter.for_each(outline.chains(), |about| {
+            for node in [about.start, about.end] {
+                let crowd = self.crowd[node as usize];
+                if crowd != NONE {
+                    self.starts[crowd as usize + 2] += 1;
+                }
             }
-        }
+        })?;
         for crowd in 2..self.starts.len() {
             self.starts[crowd] += self.starts[crowd - 1];
         }
+        Ok(())
     }
 
     /// Follows each arriving chain by the first leaving one clockwise; false where two in a row arrive or leave.
-    fn pair_by_angle(&mut self, pivot: DVec2, around: &mut [IncidentHalfEdge]) -> bool {
-        around.sort_unstable_by(|a, b| {
+    fn pair_by_angle(
+        &mut self,
+        pivot: DVec2,
+        around: &mut [IncidentHalfEdge],
+        tally: &mut Tally<'_>,
+    ) -> Result<bool, Refusal> {
+        tally.add(around.len())?;
+        let order = |a: &IncidentHalfEdge, b: &IncidentHalfEdge| {
             by_angle(pivot, a.end, b.end).then((a.chain, a.leaves).cmp(&(b.chain, b.leaves)))
-        });
+        };
+        sort(around, order, tally.meter())?;
         let alternate = (0..around.len()).all(|i| {
             let (half_edge, before) = (around[i], around[if i == 0 { around.len() - 1 } else { i - 1 }]);
             if !half_edge.leaves {
@@ -238,7 +255,7 @@ impl Cycles {
                 .zip(leaving)
                 .for_each(|(half_edge, next)| self.next[half_edge.chain as usize] = next);
         }
-        alternate
+        Ok(alternate)
     }
 
     /// The point of a chain next to its start or to its end; any other where nothing leaves that.

@@ -12,9 +12,9 @@
 //! An edge below whose near side is on the wrong side of the boundary means that the rings are not nested.
 
 use super::link::{Cycles, IncidentHalfEdge, SimpleRing, by_angle, neighbours};
-use crate::base::{id::index, id::span, meter::Meter};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, id::span, sort::sort};
 use crate::boundary::outline::Outline;
-use crate::error::Error;
 use crate::predicates::lexicographic;
 use crate::region::{Region, RegionBuilder, rings::Rings};
 use crate::spatial::strips::Strips;
@@ -28,12 +28,12 @@ pub(crate) enum Unnested {
     /// The rings are no boundary: some lies on the wrong side of another, or edges around a point do not alternate.
     Misnested,
     /// By the limits of the call.
-    Refused(Error),
+    Refused(Refusal),
 }
 
-impl From<Error> for Unnested {
-    fn from(error: Error) -> Unnested {
-        Unnested::Refused(error)
+impl From<Refusal> for Unnested {
+    fn from(refusal: Refusal) -> Unnested {
+        Unnested::Refused(refusal)
     }
 }
 
@@ -117,17 +117,19 @@ pub(crate) fn nest(
         }
         _ => {}
     }
-    nesting.start(cycles)?;
+    nesting.start(cycles, meter)?;
     let mut nest = Nest { outline, cycles, nesting };
-    nest.ask();
-    chains.cut_to_runs(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
-    strips.build(chains.boxes());
+    nest.ask(meter)?;
+    chains.cut_to_runs(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))), meter)?;
+    strips.build(chains.boxes(), meter)?;
     let Nesting { below, asked, .. } = &mut *nest.nesting;
     below.shoot(chains, strips, slabs, rings.points(), asked, meter)?;
+    let mut tally = meter.tally();
     for i in 0..nest.nesting.corners.len() {
+        tally.add(1)?;
         nest.place(nest.nesting.corners[i].ring)?;
     }
-    Ok(nest.build())
+    Ok(nest.build(meter)?)
 }
 
 fn nest_single(rings: &Rings, single: &SimpleRing) -> Region {
@@ -137,15 +139,14 @@ fn nest_single(rings: &Rings, single: &SimpleRing) -> Region {
 }
 
 impl Nesting {
-    fn start(&mut self, cycles: &Cycles) -> Result<(), Unnested> {
+    fn start(&mut self, cycles: &Cycles, meter: &Meter<'_>) -> Result<(), Unnested> {
         self.places.clear();
         self.depth.clear();
         self.asked.clear();
         self.corners.clear();
-        self.corners.extend((0..index(cycles.about().len())).map(|ring| LeftmostCorner::of(cycles, ring)));
-        self.corners.sort_unstable_by(|a, b| {
-            lexicographic(a.point, b.point).then_with(|| by_angle(a.point, a.lower, b.lower))
-        });
+        let corners = (0..index(cycles.about().len())).map(|ring| LeftmostCorner::of(cycles, ring));
+        meter.extend(&mut self.corners, corners)?;
+        sort(&mut self.corners, LeftmostCorner::order, meter)?;
         self.find_outer(cycles.about())?;
         self.find_leftmost(cycles);
         Ok(())
@@ -181,6 +182,12 @@ impl LeftmostCorner {
         let lower = points[if counter_clockwise { after } else { before }];
         LeftmostCorner { point: points[leftmost as usize], lower, ring }
     }
+
+    /// The order by leftmost point; of those with one point the lower first.
+    fn order(&self, other: &LeftmostCorner) -> Ordering {
+        let by_place = lexicographic(self.point, other.point);
+        by_place.then_with(|| by_angle(self.point, self.lower, other.lower))
+    }
 }
 
 /// The points of a ring from its leftmost one on, in two parts.
@@ -195,14 +202,14 @@ impl Nest<'_> {
     }
 
     /// Finds what the place of each ring depends on.
-    fn ask(&mut self) {
-        for ring in 0..index(self.cycles.about().len()) {
+    fn ask(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
+        meter.for_each(0..index(self.cycles.about().len()), |ring| {
             let beside = self.beside(ring);
             if let Beside::Below(_) = beside {
                 self.nesting.asked.push(self.ring(ring).leftmost);
             }
             self.nesting.places.push(RingPlace { polygon: NONE, around: NONE, beside });
-        }
+        })
     }
 
     fn beside(&self, ring: u32) -> Beside {
@@ -299,23 +306,27 @@ impl Nest<'_> {
     }
 
     /// The polygons, outermost first, then by leftmost point.
-    fn build(&mut self) -> Region {
+    fn build(&mut self, meter: &Meter<'_>) -> Result<Region, Refusal> {
         let Nesting { corners, places, depth, .. } = &mut *self.nesting;
         let about = self.cycles.about();
         let is_hole = |ring: u32| !about[ring as usize].counter_clockwise;
-        // Polygons are numbered by leftmost point, and `corners` are sorted by it: what remains equal keeps its order.
-        corners.sort_by_key(|&LeftmostCorner { ring, .. }| {
+        // Polygons are numbered by leftmost point, and so are the holes of each.
+        let place = |&LeftmostCorner { ring, .. }: &LeftmostCorner| {
             let polygon = places[ring as usize].polygon;
             (depth[polygon as usize], polygon, is_hole(ring))
-        });
+        };
+        sort(corners, |a, b| place(a).cmp(&place(b)).then_with(|| a.order(b)), meter)?;
         let rings = self.cycles.rings();
         let mut builder = RegionBuilder::with_capacity(rings.point_count(), rings.len());
+        let mut tally = meter.tally();
         for &LeftmostCorner { ring, .. } in corners.iter() {
             if !is_hole(ring) {
                 builder.polygon(depth[places[ring as usize].polygon as usize]);
             }
-            builder.ring(from_leftmost(rings, ring as usize, &about[ring as usize]));
+            let parts = from_leftmost(rings, ring as usize, &about[ring as usize]);
+            tally.add(1 + parts[0].len() + parts[1].len())?;
+            builder.ring(parts);
         }
-        builder.build()
+        Ok(builder.build())
     }
 }

@@ -14,9 +14,9 @@
 //! The leftmost node of a component lies in the face right above the edge below it, which is part of another component, further left.
 
 use super::link::by_angle;
-use crate::base::{id::index, id::span, meter::Meter, union_find::UnionFind};
+use crate::base::meter::{Meter, Refusal, Tally};
+use crate::base::{id::index, id::span, sort::sort, union_find::UnionFind};
 use crate::boundary::outline::{BoundaryChain, Outline};
-use crate::error::Error;
 use crate::region::rings::{Rings, ring_edges};
 use crate::spatial::{
     chains::MonotoneChains, ray_shooting::VerticalRays, slabs::SlabDecomposition, strips::Strips,
@@ -61,36 +61,36 @@ impl PositiveEdges {
         rings: &Rings,
         (chains, strips, slabs): (&mut MonotoneChains, &mut Strips, &mut SlabDecomposition),
         meter: &Meter<'_>,
-    ) -> Result<(), Error> {
-        meter.spend(rings.point_count())?;
+    ) -> Result<(), Refusal> {
         // The i-th edge of the rings is the i-th chain, and nodes are numbered from left to right.
-        outline.build(rings.iter().flat_map(ring_edges), false);
-        self.gather(outline);
-        self.find_leftmost(outline, rings);
-        chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))));
-        strips.build(chains.boxes());
+        outline.build(rings.iter().flat_map(ring_edges), false, meter)?;
+        self.gather(outline, meter)?;
+        self.find_leftmost(outline, rings, meter)?;
+        chains.build(rings.points(), (0..rings.len()).map(|ring| span(rings.slots(ring))), meter)?;
+        strips.build(chains.boxes(), meter)?;
         let slots: Vec<u32> = self.leftmost.iter().map(|&[_, slot]| slot).collect();
         self.below.shoot(chains, strips, slabs, rings.points(), &slots, meter)?;
+        let mut tally = meter.tally();
         for component in 0..self.leftmost.len() {
             let outside = self
                 .below
                 .edge(component)
                 .map_or(0, |slot| self.above(outline, slot - index(rings.ring_at(slot as usize))));
-            self.label(outline, self.leftmost[component][0], outside);
+            self.label(outline, self.leftmost[component][0], outside, &mut tally)?;
         }
         outline.retain(|edge| self.right[edge as usize] == 0);
         Ok(())
     }
 
     /// Sorts the ends of edges around each node.
-    fn gather(&mut self, outline: &Outline) {
+    fn gather(&mut self, outline: &Outline, meter: &Meter<'_>) -> Result<(), Refusal> {
         let ends = |edge: u32| [true, false].map(|leaves| EdgeEnd { edge, leaves });
         let all = (0..index(outline.chains().len())).flat_map(ends);
         self.starts.clear();
         self.starts.resize(outline.node_count() + 2, 0);
-        for end in all.clone() {
+        meter.for_all(all.clone(), |end| {
             self.starts[outline.node(end.edge, end.leaves) as usize + 2] += 1;
-        }
+        })?;
         for node in 2..self.starts.len() {
             self.starts[node] += self.starts[node - 1];
         }
@@ -98,32 +98,36 @@ impl PositiveEdges {
         self.right.resize(outline.chains().len(), UNKNOWN);
         self.is_done.clear();
         self.is_done.resize(outline.node_count(), false);
-        self.ends.clear();
-        self.ends.resize(2 * outline.chains().len(), EdgeEnd { edge: 0, leaves: false });
-        for end in all {
+        meter.fill(&mut self.ends, EdgeEnd { edge: 0, leaves: false }, 2 * outline.chains().len())?;
+        meter.for_all(all, |end| {
             let place = &mut self.starts[outline.node(end.edge, end.leaves) as usize + 1];
             self.ends[*place as usize] = end;
             *place += 1;
-        }
-        for node in 0..index(outline.node_count()) {
+        })?;
+        let mut tally = meter.tally();
+        (0..index(outline.node_count())).try_for_each(|node| {
             let around = self.around(node);
-            self.ends[around].sort_unstable_by(|a, b| by_angle_and_side(outline, node, *a, *b));
-        }
+            tally.add(around.len())?;
+            sort(&mut self.ends[around], |a, b| by_angle_and_side(outline, node, *a, *b), meter)
+        })
     }
 
     fn around(&self, node: u32) -> Range<usize> {
         self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize
     }
 
-    fn find_leftmost(&mut self, outline: &Outline, rings: &Rings) {
+    fn find_leftmost(&mut self, outline: &Outline, rings: &Rings, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.components.reset(outline.node_count());
-        outline.chains().iter().for_each(|edge| self.components.join(edge.start, edge.end));
+        meter.for_each(outline.chains(), |edge| self.components.join(edge.start, edge.end))?;
         let slots = (0..rings.len()).flat_map(|ring| span(rings.slots(ring)).take(rings.ring(ring).len()));
         let starts = outline.chains().iter().zip(slots).map(|(edge, slot)| [edge.start, slot]);
         self.leftmost.clear();
-        self.leftmost.extend(starts.filter(|&[node, _]| self.components.find(node) == node));
-        self.leftmost.sort_unstable();
+        meter.for_all(starts, |start| {
+            self.leftmost.extend((self.components.find(start[0]) == start[0]).then_some(start));
+        })?;
+        sort(&mut self.leftmost, Ord::cmp, meter)?;
         self.leftmost.dedup_by_key(|pair| pair[0]);
+        Ok(())
     }
 
     /// The winding number right above an edge, of those that coincide with it the last.
@@ -136,9 +140,17 @@ impl PositiveEdges {
     }
 
     /// Finds the winding numbers of a component from that to the left of its leftmost node.
-    fn label(&mut self, outline: &Outline, leftmost: u32, outside: i32) {
+    fn label(
+        &mut self,
+        outline: &Outline,
+        leftmost: u32,
+        outside: i32,
+        tally: &mut Tally<'_>,
+    ) -> Result<(), Refusal> {
+        self.open.clear();
         self.go_around(leftmost, 0, outside);
         while let Some(end) = self.open.pop() {
+            tally.add(1)?;
             let node = outline.node(end.edge, end.leaves);
             if !self.is_done[node as usize] {
                 let place = self.ends[self.around(node)].iter().position(|&other| other == end);
@@ -146,6 +158,7 @@ impl PositiveEdges {
                 self.go_around(node, place.unwrap_or(0), before);
             }
         }
+        Ok(())
     }
 
     /// Numbers the edges around a node, from one of them on, before which a winding number is known.

@@ -1,5 +1,6 @@
 //! What is linked is closed, whatever the outline.
 use super::link::Cycles;
+use crate::base::meter::Meter;
 use crate::boundary::outline::Outline;
 use crate::predicates::Segment;
 use glam::DVec2;
@@ -13,9 +14,9 @@ proptest! {
     fn open_paths_are_left_out(ends in prop::collection::vec([(0..4_u8, 0..4_u8), (0..4_u8, 0..4_u8)], 0..14)) {
         let point = |(x, y): (u8, u8)| DVec2::new(f64::from(x), f64::from(y));
         let segments: Vec<Segment> = ends.into_iter().map(|ends| ends.map(point)).filter(|[a, b]| a != b).collect();
-        let (mut outline, mut cycles) = (Outline::default(), Cycles::default());
-        outline.build(segments.iter().copied(), false);
-        cycles.link(&outline);
+        let (mut outline, mut cycles, meter) = (Outline::default(), Cycles::default(), Meter::default());
+        outline.build(segments.iter().copied(), false, &meter).expect("no limit was given");
+        cycles.link(&outline, &meter).expect("no limit was given");
         let rings = cycles.rings().iter().map(|ring| ring.len()).sum::<usize>();
         let is_left = |p: DVec2| segments.iter().filter(|s| s[0] == p).count();
         let is_reached = |p: DVec2| segments.iter().filter(|s| s[1] == p).count();

@@ -43,11 +43,6 @@ impl Threads {
     }
 
     /// Does something with each part, in any order.
-    pub(crate) fn for_each<P: Send>(self, parts: impl Iterator<Item = P>, work: impl Fn(P) + Sync + Send) {
-        self.map(parts, work);
-    }
-
-    /// The same for work that may fail.
     ///
     /// # Errors
     /// That of the first part with one.
@@ -76,21 +71,23 @@ impl Threads {
     }
 
     /// Lists what each part of a range yields, in their order.
-    pub(crate) fn list<R: Send>(
+    ///
+    /// # Errors
+    /// That of the first part with one.
+    pub(crate) fn list<R: Send, E: Send>(
         self,
         count: usize,
         all: &mut Vec<R>,
-        work: impl Fn(Range<usize>, &mut Vec<R>) + Sync + Send,
-    ) {
+        work: impl Fn(Range<usize>, &mut Vec<R>) -> Result<(), E> + Sync + Send,
+    ) -> Result<(), E> {
         if !self.many {
             return work(0..count, all);
         }
         let part = |range: Range<usize>| {
             let mut part = Vec::new();
-            work(range, &mut part);
-            part
+            work(range, &mut part).map(|()| part)
         };
-        self.map(ranges(count), part).into_iter().for_each(|part| all.extend(part));
+        self.map(ranges(count), part).into_iter().try_for_each(|part| part.map(|part| all.extend(part)))
     }
 
     /// Sorts by an order in which only what is the same is equal.

@@ -1,7 +1,8 @@
 //! The rounded boundary: directed chains from node to node.
 
 use super::select::{Piece, Selection};
-use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort};
 use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::predicates::{Segment, lexicographic};
@@ -31,10 +32,20 @@ pub(crate) struct Outline {
 
 impl Outline {
     /// Takes the pieces as they are: their nodes are distinct points.
-    pub(crate) fn take(&mut self, edges: &Edges, contacts: &Contacts, selection: &Selection) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn take(
+        &mut self,
+        edges: &Edges,
+        contacts: &Contacts,
+        selection: &Selection,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.points.clear();
         self.chains.clear();
         self.node_count = contacts.node_count();
+        let mut tally = meter.tally();
         for piece in selection.pieces() {
             let first = index(self.points.len());
             let [start, end] = piece.nodes.unwrap_or_else(|| {
@@ -48,7 +59,9 @@ impl Outline {
                 None => edges.point(piece.edge_spans()[0].start),
             });
             self.add_inner(edges, piece);
+            tally.add(self.points.len() - first as usize)?;
         }
+        Ok(())
     }
 
     fn add_inner(&mut self, edges: &Edges, piece: &Piece) {
@@ -64,52 +77,77 @@ impl Outline {
 
     /// Numbers the points of closed walks, drops empty edges and, if any may coincide, cancels opposite ones: each
     /// edge that is left is a chain.
-    pub(crate) fn build(&mut self, segments: impl Iterator<Item = Segment> + Clone, may_coincide: bool) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn build(
+        &mut self,
+        segments: impl Iterator<Item = Segment> + Clone,
+        may_coincide: bool,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        self.number_starts(segments.clone(), meter)?;
+        self.number_ends(segments, meter)?;
+        self.unsorted.retain(|edge| edge[0] != edge[1]);
+        if may_coincide {
+            self.cancel_opposite(meter)?;
+        }
+        self.node_count = self.numbered.len() + 1;
+        self.points.clear();
+        let points = self.unsorted.iter().map(|edge| self.numbered[edge[0] as usize]);
+        meter.extend(&mut self.points, points)?;
+        self.chains.clear();
+        let chain = |(&[start, end], first): (&[u32; 2], u32)| BoundaryChain { start, end, first };
+        meter.extend(&mut self.chains, self.unsorted.iter().zip(0..).map(chain))
+    }
+
+    fn number_starts(
+        &mut self,
+        segments: impl Iterator<Item = Segment>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.starts.clear();
-        self.starts.extend(segments.clone().zip(0..).map(|([start, _], i)| (start, i)));
-        self.starts.sort_unstable_by(|a, b| lexicographic(a.0, b.0));
+        meter.extend(&mut self.starts, segments.zip(0..).map(|([start, _], i)| (start, i)))?;
+        sort(&mut self.starts, |a, b| lexicographic(a.0, b.0), meter)?;
         self.numbered.clear();
-        self.unsorted.clear();
-        self.unsorted.resize(self.starts.len(), [0; 2]);
-        for &(point, segment) in &self.starts {
+        meter.fill(&mut self.unsorted, [0; 2], self.starts.len())?;
+        meter.for_each(&self.starts[..], |&(point, segment)| {
             if self.numbered.last() != Some(&point) {
                 self.numbered.push(point);
             }
             self.unsorted[segment as usize][0] = index(self.numbered.len() - 1);
-        }
-        // Each point where a walk arrives is also left: the ends are found among the starts, most of them beside their own. Any
-        // that are not have one more number, so that nothing leaves them.
+        })
+    }
+
+    /// Each point where a walk arrives is also left: the ends are found among the starts, most of them beside their own. Any
+    /// that are not have one more number, so that nothing leaves them.
+    fn number_ends(
+        &mut self,
+        segments: impl Iterator<Item = Segment>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let nowhere = self.numbered.len();
-        for (i, [_, end]) in segments.enumerate() {
+        meter.for_all(segments.enumerate(), |(i, [_, end])| {
             let beside = [i + 1, i.wrapping_sub(1)].into_iter().filter_map(|j| self.unsorted.get(j));
             let beside = beside.map(|edge| edge[0]).find(|&number| self.numbered[number as usize] == end);
             let compare = |p: &DVec2| lexicographic(*p, end);
             let search = || index(self.numbered.binary_search_by(compare).unwrap_or(nowhere));
             self.unsorted[i][1] = beside.unwrap_or_else(search);
-        }
-        self.unsorted.retain(|edge| edge[0] != edge[1]);
-        if may_coincide {
-            self.cancel_opposite();
-        }
-        self.node_count = nowhere + 1;
-        self.points.clear();
-        self.points.extend(self.unsorted.iter().map(|edge| self.numbered[edge[0] as usize]));
-        self.chains.clear();
-        let chain = |(&[start, end], first): (&[u32; 2], u32)| BoundaryChain { start, end, first };
-        self.chains.extend(self.unsorted.iter().zip(0..).map(chain));
+        })
     }
 
     /// Removes pairs of opposite edges.
-    fn cancel_opposite(&mut self) {
+    fn cancel_opposite(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
         let ends = |e: &[u32; 2]| (e[0].min(e[1]), e[0].max(e[1]));
-        self.unsorted.sort_unstable_by_key(|e| (ends(e), e[0]));
+        sort(&mut self.unsorted, |e, f| (ends(e), e[0]).cmp(&(ends(f), f[0])), meter)?;
         let mut kept: Vec<[u32; 2]> = Vec::with_capacity(self.unsorted.len());
-        for group in self.unsorted.chunk_by(|a, b| ends(a) == ends(b)) {
+        meter.for_all(self.unsorted.chunk_by(|a, b| ends(a) == ends(b)), |group| {
             let forward = group.iter().filter(|e| e[0] < e[1]).count();
             let cancelled = forward.min(group.len() - forward);
             kept.extend(&group[cancelled..group.len() - cancelled]);
-        }
+        })?;
         self.unsorted = kept;
+        Ok(())
     }
 
     /// Keeps some of the chains of an outline that was built of edges.

@@ -1,6 +1,7 @@
 //! Stage 6: the sub-edges whose two sides differ, directed with the interior to the left, each vertex rounded once.
 
 use crate::arrangement::{Node, labels::LabelledArrangement};
+use crate::base::meter::{Meter, Refusal};
 use crate::base::{id::index, threads::Threads};
 use crate::contacts::{Contacts, Place};
 use crate::edges::{EdgeRing, Edges};
@@ -95,14 +96,25 @@ impl Selection {
     ///
     /// Where a piece runs straight on through a crossing, and nothing else of the boundary meets it there, the
     /// crossing is dropped; input vertices are kept.
-    pub(crate) fn select(&mut self, arranged: LabelledArrangement<'_>) -> &Selection {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn select(
+        &mut self,
+        arranged: LabelledArrangement<'_>,
+        meter: &Meter<'_>,
+    ) -> Result<&Selection, Refusal> {
         self.pieces.clear();
         let threads = Threads::for_edges(arranged.edges.len());
-        threads.list(arranged.edges.rings().len(), &mut self.pieces, |rings, pieces| {
-            rings.for_each(|ring| arranged.select_along(index(ring), pieces));
-        });
-        self.round(arranged.edges, arranged.contacts);
-        self
+        threads.list(arranged.edges.rings().len(), &mut self.pieces, |mut rings, pieces| {
+            let mut tally = meter.tally();
+            rings.try_for_each(|ring| {
+                arranged.select_along(index(ring), pieces);
+                tally.add(1 + arranged.arrangement.of_ring(index(ring)).len())
+            })
+        })?;
+        self.round(arranged.edges, arranged.contacts, meter)?;
+        Ok(self)
     }
 
     pub(crate) fn pieces(&self) -> &[Piece] {
@@ -146,24 +158,25 @@ impl Selection {
         })
     }
 
-    fn round(&mut self, edges: &Edges, contacts: &Contacts) {
-        self.rounded.clear();
-        self.rounded.resize(contacts.node_count(), UNUSED);
-        for nodes in self.pieces.iter().filter_map(|piece| piece.nodes) {
+    fn round(&mut self, edges: &Edges, contacts: &Contacts, meter: &Meter<'_>) -> Result<(), Refusal> {
+        meter.fill(&mut self.rounded, UNUSED, contacts.node_count())?;
+        meter.for_each(&self.pieces[..], |piece| {
+            let Some(nodes) = piece.nodes else { return };
             for node in nodes.map(|node| node as usize) {
                 if let Place::Crossing(..) = Place::of(contacts.nodes()[node]) {
                     self.rounded[node] = WANTED;
                 }
             }
-        }
+        })?;
         let parts = self.rounded.chunks_mut(NODES).zip(contacts.nodes().chunks(NODES));
-        Threads::for_edges(edges.len()).for_each(parts, |(points, nodes)| {
+        Threads::for_edges(edges.len()).try_for_each(parts, |(points, nodes)| {
             for (point, &node) in points.iter_mut().zip(nodes).filter(|(point, _)| **point == WANTED) {
                 if let Place::Crossing(e, f) = Place::of(node) {
                     *point = crossing_point(edges.segment(e), edges.segment(f));
                 }
             }
-        });
+            meter.spend(points.len())
+        })
     }
 }
 
@@ -221,7 +234,11 @@ impl LabelledArrangement<'_> {
             {
                 pieces.push(self.piece(ring, SubEdgeRun { start: b.start, ..a }));
             }
-            (a, b) => pieces.extend(a.into_iter().chain(b).map(|run| self.piece(ring, run))),
+            (a, b) => {
+                for run in [a, b].into_iter().flatten() {
+                    pieces.push(self.piece(ring, run));
+                }
+            }
         }
     }
 

@@ -12,31 +12,43 @@
 //! ```
 
 use super::contact::{Contact, PartnerKind};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 use crate::edges::Edges;
 use crate::predicates::{FineParameter, crossing_order, lexicographic, point_crossing_order};
 use std::cmp::Ordering;
+
+/// More contacts are counted as work here, and fewer by who has them sorted.
+const LONG: usize = 256;
 
 /// So many contacts are quicker compared exactly than by more bits.
 const FEW: usize = 2;
 
 /// Sorts contacts by edge and along it, and marks those that lie in the place of the one before.
-pub(super) fn sort(edges: &Edges, contacts: &mut [Contact]) {
+///
+/// # Errors
+/// Those of the meter's limits. What is sorted is not counted, unless it is much.
+pub(super) fn sort_along(edges: &Edges, contacts: &mut [Contact], meter: &Meter<'_>) -> Result<(), Refusal> {
+    if contacts.len() > LONG {
+        meter.spend(contacts.len())?;
+    }
     let low = |contact: &Contact| contact.at().low();
-    contacts.sort_unstable_by(|a, b| a.edge.cmp(&b.edge).then_with(|| low(a).total_cmp(&low(b))));
+    let by_place = |a: &Contact, b: &Contact| a.edge.cmp(&b.edge).then_with(|| low(a).total_cmp(&low(b)));
+    sort(contacts, by_place, meter)?;
     let bounds = |contact: &Contact| [contact.at().low(), contact.at().high()].map(|at| (contact.edge, at));
     overlapping(contacts, bounds, |run| match run.len() {
-        1 => {}
-        2..=FEW => sort_exactly(edges, run),
-        _ => sort_finely(edges, run),
-    });
+        1 => Ok(()),
+        2..=FEW => sort_exactly(edges, run, meter),
+        _ => sort_finely(edges, run, meter),
+    })
 }
 
-/// Calls `visit` for each maximal run of intervals that overlap; they are sorted by their lower bounds.
+/// Calls `visit` for each maximal run of intervals that overlap, until one fails; they are sorted by their lower bounds.
 fn overlapping<T, B: PartialOrd>(
     mut sorted: &mut [T],
     bounds: impl Fn(&T) -> [B; 2],
-    mut visit: impl FnMut(&mut [T]),
-) {
+    mut visit: impl FnMut(&mut [T]) -> Result<(), Refusal>,
+) -> Result<(), Refusal> {
     while let Some(first) = sorted.first() {
         let ([_, mut reach], mut count) = (bounds(first), 1);
         for [low, high] in sorted[1..].iter().map(&bounds) {
@@ -47,25 +59,29 @@ fn overlapping<T, B: PartialOrd>(
             count += 1;
         }
         let (run, rest) = sorted.split_at_mut(count);
-        visit(run);
+        visit(run)?;
         sorted = rest;
     }
+    Ok(())
 }
 
-fn sort_exactly(edges: &Edges, run: &mut [Contact]) {
-    run.sort_unstable_by(|a, b| order(edges, a, b));
+fn sort_exactly(edges: &Edges, run: &mut [Contact], meter: &Meter<'_>) -> Result<(), Refusal> {
+    sort(run, |a, b| order(edges, a, b), meter)?;
     for i in 1..run.len() {
         if order(edges, &run[i - 1], &run[i]) == Ordering::Equal {
             run[i].set_with_previous();
         }
     }
+    Ok(())
 }
 
 #[cold]
-fn sort_finely(edges: &Edges, run: &mut [Contact]) {
-    let mut fine: Vec<_> =
-        run.iter().enumerate().map(|(i, contact)| (parameter(edges, contact), i)).collect();
-    fine.sort_unstable_by_key(|(at, _)| at.low);
+fn sort_finely(edges: &Edges, run: &mut [Contact], meter: &Meter<'_>) -> Result<(), Refusal> {
+    meter.spend(run.len())?;
+    let mut fine = Vec::new();
+    let parameters = run.iter().enumerate().map(|(i, contact)| (parameter(edges, contact), i));
+    meter.extend(&mut fine, parameters)?;
+    sort(&mut fine, |(a, _), (b, _)| a.low.cmp(&b.low), meter)?;
     let before = run.to_vec();
     let mut rest = run;
     overlapping(
@@ -74,10 +90,10 @@ fn sort_finely(edges: &Edges, run: &mut [Contact]) {
         |places| {
             let (together, others) = std::mem::take(&mut rest).split_at_mut(places.len());
             together.iter_mut().zip(places).for_each(|(contact, place)| *contact = before[place.1]);
-            sort_exactly(edges, together);
             rest = others;
+            sort_exactly(edges, together, meter)
         },
-    );
+    )
 }
 
 fn parameter(edges: &Edges, contact: &Contact) -> FineParameter {

@@ -11,8 +11,8 @@
 
 use super::pair::{Meeting, meeting, overlap};
 use super::{Request, budget::WorkBudget};
+use crate::base::meter::{Meter, Refusal};
 use crate::edges::{Edges, coincident::CoincidentEdges};
-use crate::error::Error;
 use crate::predicates::Margins;
 use crate::spatial::{chains::MonotoneChains, strips::Strips};
 
@@ -63,17 +63,17 @@ impl<'a> Candidates<'a> {
         chains: &'a mut MonotoneChains,
         strips: &'a mut Strips,
         request: Request<'_>,
-    ) -> Result<Candidates<'a>, Error> {
-        let budget = request.budget;
-        let mut sample = Sample::of(edges, chains, strips);
+    ) -> Result<Candidates<'a>, Refusal> {
+        let Request { budget, meter, .. } = request;
+        let mut sample = Sample::of(edges, chains, strips, meter)?;
         if sample.overlaps > edges.len() {
-            coincident.cut(edges, request.meter)?;
-            sample = Sample::of(edges, chains, strips);
+            coincident.cut(edges, meter)?;
+            sample = Sample::of(edges, chains, strips, meter)?;
         }
         let phase = sample.choice(budget);
         if phase == BroadPhase::Edges {
-            chains.cut_to_edges(edges.points(), edges.spans());
-            strips.build(chains.boxes());
+            chains.cut_to_edges(edges.points(), edges.spans(), meter)?;
+            strips.build(chains.boxes(), meter)?;
         }
         Ok(Candidates { edges, chains, strips, phase, budget: budget.doubled() })
     }
@@ -96,12 +96,17 @@ struct Sample {
 
 impl Sample {
     /// Indexes the edges by their chains for it. The sample ends as soon as it tells that boxes are not quick.
-    fn of(edges: &Edges, chains: &mut MonotoneChains, strips: &mut Strips) -> Sample {
-        chains.build(edges.points(), edges.spans());
-        strips.build(chains.boxes());
+    fn of(
+        edges: &Edges,
+        chains: &mut MonotoneChains,
+        strips: &mut Strips,
+        meter: &Meter<'_>,
+    ) -> Result<Sample, Refusal> {
+        chains.build(edges.points(), edges.spans(), meter)?;
+        strips.build(chains.boxes(), meter)?;
         let mut sample = Sample { chains: chains.len(), edges: edges.len(), ..Sample::default() };
         if chains.len() < FEW {
-            return sample;
+            return Ok(sample);
         }
         let margins = Margins::for_size(chains.size());
         let step = STEP.max(chains.len() / MOST);
@@ -121,7 +126,7 @@ impl Sample {
         sample.blocks = blocks;
         let Sample { chain_pairs, pairs, crossings, overlaps, blocks, .. } = &mut sample;
         [chain_pairs, pairs, crossings, overlaps, blocks].into_iter().for_each(|count| *count *= times);
-        sample
+        Ok(sample)
     }
 
     fn choice(&self, budget: WorkBudget) -> BroadPhase {

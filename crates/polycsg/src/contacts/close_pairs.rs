@@ -6,6 +6,7 @@
 //! than boxes do; what else comes near an edge is looked for there.
 
 use super::contact::{Contact, PartnerKind};
+use crate::base::meter::{Meter, Refusal};
 use crate::base::threads::{Threads, ranges};
 use crate::edges::{EdgeRing, Edges};
 use crate::predicates::{Margins, Parameter, Segment, doubled_area, lexicographic};
@@ -84,18 +85,44 @@ impl ClosePairs {
 
     /// Notes what comes near an edge where the [`SlabDecomposition`] takes the place of boxes, and lets it report the rest. Where
     /// these are too many, all edges count as close.
-    pub(crate) fn find_beside(&mut self, edges: &Edges, slabs: &mut SlabDecomposition) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn find_beside(
+        &mut self,
+        edges: &Edges,
+        slabs: &mut SlabDecomposition,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let margins = self.margins;
         self.all = self.all
             || slabs.duplicates().next().is_some()
-            || !slabs.places().all(|place| self.find_at_place(edges, place))
-            || !slabs.ends_beside_ends(margins.close, |p, q| {
+            || !self.find_at_places(edges, slabs, meter)?
+            || !slabs.ends_beside_ends(margins.close, meter, |p, q| {
                 edges.at(p).into_iter().for_each(|e| edges.at(q).into_iter().for_each(|f| self.add(e, f)));
-            })
-            || !slabs.ends_beside_steep_edges(margins, |e, p| {
+            })?
+            || !slabs.ends_beside_steep_edges(margins, meter, |e, p| {
                 edges.at(p).into_iter().for_each(|f| self.add(e, f));
-            })
+            })?
             || !slabs.widen(margins.close);
+        Ok(())
+    }
+
+    /// Notes edges that leave one point in nearly the same direction, at all points; false when they are too many for that.
+    fn find_at_places(
+        &mut self,
+        edges: &Edges,
+        slabs: &SlabDecomposition,
+        meter: &Meter<'_>,
+    ) -> Result<bool, Refusal> {
+        let mut tally = meter.tally();
+        for place in slabs.places() {
+            tally.add(1)?;
+            if !self.find_at_place(edges, place) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Counts all edges as close, and lets the slab decomposition report only what meets; false if it does so already.
@@ -141,15 +168,18 @@ impl ClosePairs {
     }
 
     /// Looks at the contacts of all edges.
-    pub(super) fn find_along_all(&mut self, edges: &Edges, contacts: &[Contact]) {
-        let along = |close_pairs: &mut ClosePairs, contacts: &[Contact]| {
-            contacts
-                .chunk_by(|a, b| a.edge == b.edge)
-                .for_each(|contacts| close_pairs.find_along(edges, contacts));
-        };
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn find_along_all(
+        &mut self,
+        edges: &Edges,
+        contacts: &[Contact],
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let threads = Threads::for_edges(edges.len());
         if !threads.are_many() {
-            return along(self, contacts);
+            return self.find_along_each(edges, contacts, meter);
         }
         // A part goes on to the end of its last edge.
         let next_edge = |at: usize| {
@@ -158,14 +188,31 @@ impl ClosePairs {
         };
         let parts = threads.map(ranges(contacts.len()), |part| {
             let mut own = ClosePairs { pairs: Vec::new(), close: Vec::new(), ..*self };
-            along(&mut own, &contacts[next_edge(part.start)..next_edge(part.end)]);
-            own
+            let contacts = &contacts[next_edge(part.start)..next_edge(part.end)];
+            own.find_along_each(edges, contacts, meter).map(|()| own)
         });
         for part in parts {
+            let part = part?;
             self.pairs.extend(part.pairs);
             self.close.extend(part.close);
             self.all |= part.all || self.pairs.len().max(self.close.len()) > self.most;
         }
+        Ok(())
+    }
+
+    /// The same for the contacts of some edges.
+    fn find_along_each(
+        &mut self,
+        edges: &Edges,
+        contacts: &[Contact],
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        let mut tally = meter.tally();
+        for contacts in contacts.chunk_by(|a, b| a.edge == b.edge) {
+            self.find_along(edges, contacts);
+            tally.add(contacts.len())?;
+        }
+        Ok(())
     }
 
     /// Looks at the contacts of one edge: at the gaps between them, and at what else of its ring is close to it.

@@ -2,16 +2,27 @@
 
 use super::Contacts;
 use super::close_pairs::{CloseGroups, ClosePairs, ClosePlaces, EdgePlace};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 use crate::edges::Edges;
 
 impl Contacts {
     /// Notes all pairs of edges that meet in one of two places close together.
-    pub(super) fn find_at_close_places(&mut self, edges: &Edges, close_pairs: &mut ClosePairs) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn find_at_close_places(
+        &mut self,
+        edges: &Edges,
+        close_pairs: &mut ClosePairs,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let close = std::mem::take(&mut close_pairs.close);
         let mut groups = std::mem::take(&mut self.close_groups);
         if self.degenerate && !close.is_empty() {
-            self.gather(edges, &close, &mut groups);
+            self.gather(edges, &close, &mut groups, meter)?;
         }
+        let mut tally = meter.tally();
         for ClosePlaces { edge, places } in &close {
             if close_pairs.all() {
                 break; // by now so many meet in one place that each of its edges would gather them all
@@ -22,28 +33,36 @@ impl Contacts {
             groups.group.sort_unstable();
             groups.group.dedup();
             close_pairs.add_group(&groups.group);
+            tally.add(groups.group.len())?;
         }
         close_pairs.close = close;
         self.close_groups = groups;
+        Ok(())
     }
 
     /// Gathers the edges that start, end or lie in the nodes of some places.
-    fn gather(&self, edges: &Edges, close: &[ClosePlaces], groups: &mut CloseGroups) {
+    fn gather(
+        &self,
+        edges: &Edges,
+        close: &[ClosePlaces],
+        groups: &mut CloseGroups,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         groups.is_close.clear();
         groups.is_close.resize(self.nodes.len(), false);
         for node in close.iter().flat_map(|close| close.places).filter_map(|at| self.node_of(at)) {
             groups.is_close[node as usize] = true;
         }
         groups.edges.clear();
-        for contact in &self.found {
+        meter.for_each(&self.found[..], |contact| {
             let node = self.node(contact.node);
             if groups.is_close[node as usize] {
                 let ends = contact.partner.is_end();
                 let there = if ends { edges.at(contact.edge) } else { [contact.edge; 2] };
                 groups.edges.extend(there.map(|edge| [node, edge]));
             }
-        }
-        groups.edges.sort_unstable();
+        })?;
+        sort(&mut groups.edges, Ord::cmp, meter)
     }
 
     fn node_of(&self, at: EdgePlace) -> Option<u32> {

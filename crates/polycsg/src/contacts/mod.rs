@@ -16,10 +16,11 @@ mod find;
 mod meeting;
 mod pair;
 
-use crate::base::{id::index, meter::Meter, threads::Threads, union_find::UnionFind};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, threads::Threads, union_find::UnionFind};
 use crate::edges::Edges;
-use crate::error::Error;
 use crate::spatial::slabs::SlabDecomposition;
+use along::sort_along;
 use budget::WorkBudget;
 use candidates::{BroadPhase, Candidates};
 use close_pairs::{CloseGroups, ClosePairs};
@@ -79,7 +80,7 @@ impl Contacts {
         slabs: &mut SlabDecomposition,
         close_pairs: &mut ClosePairs,
         request: Request<'_>,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Refusal> {
         let Candidates { edges, chains, phase, .. } = candidates;
         let Request { meter, rings: wanted, .. } = request;
         let most = meter.contacts();
@@ -94,15 +95,13 @@ impl Contacts {
             self.find_by_slabs(edges, chains, slabs, close_pairs, meter)?;
         }
         if self.found.len() > most {
-            return Err(Error::TooManyContacts { limit: most });
+            return Err(Refusal::Contacts);
         }
-        meter.spend(self.found.len())?;
-        self.sort(edges);
-        self.unify();
-        close_pairs.find_along_all(edges, &self.found);
-        self.find_at_close_places(edges, close_pairs);
-        self.prefer_vertices();
-        Ok(())
+        self.sort(edges, meter)?;
+        self.unify(meter)?;
+        close_pairs.find_along_all(edges, &self.found, meter)?;
+        self.find_at_close_places(edges, close_pairs, meter)?;
+        self.prefer_vertices(meter)
     }
 
     fn start(&mut self, edges: &Edges) {
@@ -162,10 +161,10 @@ impl Contacts {
     /// Sorts the contacts by edge and along it: a counting sort by some leading bits of the edge, then each bucket.
     ///
     /// A few are one bucket; many are moved to the right part of memory first, and the parts are sorted on their own.
-    fn sort(&mut self, edges: &Edges) {
+    fn sort(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
         let Contacts { found, unsorted, starts, free, .. } = self;
         if found.len() <= FEW {
-            return along::sort(edges, found);
+            return sort_along(edges, found, meter);
         }
         let shift = (edges.len() / (found.len() + 1)).max(1).ilog2();
         if found.len() <= MANY {
@@ -173,29 +172,30 @@ impl Contacts {
             starts.resize((edges.len() >> shift) + 3, 0);
             unsorted.clone_from(found);
             scatter(unsorted, found, shift, starts);
-            return buckets(found, starts).for_each(|bucket| along::sort(edges, bucket));
+            meter.spend(found.len())?;
+            return buckets(found, starts).try_for_each(|bucket| sort_along(edges, bucket, meter));
         }
         for buffer in [&mut *starts, free] {
             buffer.clear();
             buffer.resize((edges.len() >> (shift + PART)) + 2, 0);
         }
-        bucket(found, shift + PART, 0, starts, free);
-        Threads::for_edges(edges.len()).for_each(buckets(found, starts), |part| {
+        bucket(found, shift + PART, 0, (starts, free), meter)?;
+        Threads::for_edges(edges.len()).try_for_each(buckets(found, starts), |part| {
             let (mut starts, mut free) = ([0; (1 << PART) + 1], [0; (1 << PART) + 1]);
             let first = part[0].edge >> (shift + PART) << PART;
-            bucket(part, shift, first, &mut starts, &mut free);
-            buckets(part, &starts).for_each(|bucket| along::sort(edges, bucket));
-        });
+            bucket(part, shift, first, (&mut starts, &mut free), meter)?;
+            buckets(part, &starts).try_for_each(|bucket| sort_along(edges, bucket, meter))
+        })
     }
 
     /// Unifies what lies in one place of an edge.
-    fn unify(&mut self) {
+    fn unify(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
         if !self.found.iter().any(Contact::is_with_previous) {
-            return;
+            return Ok(());
         }
         self.degenerate = true;
         let mut kept = 0;
-        for i in 0..self.found.len() {
+        meter.for_each(0..self.found.len(), |i| {
             let contact = self.found[i];
             if contact.is_with_previous() {
                 self.classes.join(self.found[kept - 1].node, contact.node);
@@ -203,43 +203,51 @@ impl Contacts {
                 self.found[kept] = contact;
                 kept += 1;
             }
-        }
+        })?;
         self.found.truncate(kept);
+        Ok(())
     }
 
     /// Lets a vertex, where there is one, tell the place of a node.
-    fn prefer_vertices(&mut self) {
+    fn prefer_vertices(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
         if !self.degenerate {
-            return;
+            return Ok(());
         }
-        for node in 0..self.nodes.len() {
+        meter.for_each(0..self.nodes.len(), |node| {
             let representative = self.classes.find(index(node)) as usize;
             if self.nodes[node][1] == NONE && self.nodes[representative][1] != NONE {
                 self.nodes[representative] = self.nodes[node];
             }
-        }
+        })
     }
 }
 
 /// Moves contacts to their buckets, by the bits of the edge above some, in place. The buckets' starts are zero before, and one
 /// more than there are buckets.
-fn bucket(contacts: &mut [Contact], shift: u32, first: u32, starts: &mut [u32], free: &mut [u32]) {
+fn bucket(
+    contacts: &mut [Contact],
+    shift: u32,
+    first: u32,
+    (starts, free): (&mut [u32], &mut [u32]),
+    meter: &Meter<'_>,
+) -> Result<(), Refusal> {
     let bucket_of = |contact: &Contact| ((contact.edge >> shift) - first) as usize;
-    for contact in &*contacts {
-        starts[bucket_of(contact) + 1] += 1;
-    }
+    meter.for_each(&contacts[..], |contact| starts[bucket_of(contact) + 1] += 1)?;
     for bucket in 1..starts.len() {
         starts[bucket] += starts[bucket - 1];
     }
     free.copy_from_slice(starts);
+    let mut tally = meter.tally();
     for bucket in 0..starts.len() - 1 {
         while free[bucket] < starts[bucket + 1] {
+            tally.add(1)?;
             let at = free[bucket] as usize;
             let other = bucket_of(&contacts[at]);
             contacts.swap(at, free[other] as usize);
             free[other] += 1;
         }
     }
+    Ok(())
 }
 
 /// Copies contacts to their buckets, which is quicker than to swap them in place. The starts are zero before, and two more than

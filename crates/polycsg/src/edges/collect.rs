@@ -1,7 +1,8 @@
 //! Reads the operands' rings. Rings that are near in the plane are stored one after the other.
 
 use super::{END, EdgeRing, Edges, Origin};
-use crate::base::{id::index, threads::Threads};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort_on, threads::Threads};
 use crate::expression::{bounds::ResultBounds, csg::Csg, csg::Token, winding::WindingNumbers};
 use crate::predicates::Window;
 use crate::region::rings::Rings;
@@ -53,38 +54,46 @@ fn are_near(rings: &[RingKey]) -> bool {
 }
 
 /// Sorts by columns of about as many rings as there are columns, up and down in turn.
-fn sort_by_place(rings: &mut [RingKey]) {
+fn sort_by_place(rings: &mut [RingKey], meter: &Meter<'_>) -> Result<(), Refusal> {
     let threads = Threads::for_edges(rings.len());
-    threads.sort(rings, |a, b| {
+    let rightward = |a: &RingKey, b: &RingKey| {
         a.point.x.total_cmp(&b.point.x).then((a.operand, a.ring).cmp(&(b.operand, b.ring)))
-    });
+    };
+    sort_on(threads, rings, rightward, meter)?;
     let column = rings.len().isqrt().max(1);
-    threads.for_each(rings.chunks_mut(column).enumerate(), |(i, rings)| {
+    threads.try_for_each(rings.chunks_mut(column).enumerate(), |(i, rings)| {
         rings.sort_unstable_by(|a, b| {
             let upward = a.point.y.total_cmp(&b.point.y).then((a.operand, a.ring).cmp(&(b.operand, b.ring)));
             if i % 2 == 0 { upward } else { upward.reverse() }
         });
-    });
+        meter.spend(rings.len())
+    })
 }
 
 impl Edges {
     /// Reads the operands, without the rings that miss the result's bounds. Repeated points are dropped, and rings that have
     /// fewer than three others left.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
     pub(crate) fn collect(
         &mut self,
         csg: &Csg<'_>,
         winding: &WindingNumbers,
         bounds: &ResultBounds,
         all: &mut Vec<RingKey>,
-    ) {
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.clear();
         let window = bounds.window();
         let whole = list_rings(csg, window.is_none(), all);
         if all.len() > FEW_RINGS && !are_near(all) {
-            sort_by_place(all);
+            sort_by_place(all, meter)?;
         }
+        let mut tally = meter.tally();
         for &place in &*all {
             if let Some(rings) = csg.token(place.token as usize).rings() {
+                tally.add(rings.closed(place.ring as usize).len())?;
                 self.add_ring(rings, place, winding, bounds, window.as_ref());
             }
         }
@@ -92,10 +101,13 @@ impl Edges {
             let leaves = csg.postfix().filter(|leaf| leaf.rings().is_some());
             for (leaf, operand) in leaves.zip(0..) {
                 if let Token::Prepared(prepared) = leaf {
+                    let before = self.len();
                     self.add_prepared(prepared, operand, winding.counter(operand as usize), &window);
+                    tally.add(self.len() - before)?;
                 }
             }
         }
+        Ok(())
     }
 
     fn add_ring(

@@ -4,6 +4,7 @@
 use super::csg::Token;
 use super::simple_ring::winds_once;
 use crate::base::corners::corners;
+use crate::base::meter::{Meter, Refusal};
 use crate::region::rings::Rings;
 use crate::spatial::strips::Strips;
 use glam::DVec2;
@@ -19,16 +20,19 @@ pub(super) fn operands_are_apart<'t, 'c: 't>(
     operands: impl Iterator<Item = &'t Token<'c>>,
     boxes: &mut Vec<[DVec2; 2]>,
     strips: &mut Strips,
-) -> bool {
+    meter: &Meter<'_>,
+) -> Result<bool, Refusal> {
     boxes.clear();
+    let mut tally = meter.tally();
     for operand in operands {
         match operand {
             Token::Rings(rings, _) => boxes.extend(rings.iter().map(corners)),
             Token::Region(region) => boxes.push(corners(region.rings_of().points())),
-            Token::Prepared(_) | Token::Edge(_) | Token::Operator(..) => return false,
+            Token::Prepared(_) | Token::Edge(_) | Token::Operator(..) => return Ok(false),
         }
+        tally.add(1)?;
     }
-    boxes_are_apart(boxes, strips)
+    boxes_are_apart(boxes, strips, meter)
 }
 
 /// 1 or -1 if each of the rings winds so, and no two around one place.
@@ -36,27 +40,36 @@ pub(super) fn rings_wind_once(
     rings: &Rings,
     boxes: &mut Vec<[DVec2; 2]>,
     strips: &mut Strips,
-) -> Option<i32> {
+    meter: &Meter<'_>,
+) -> Result<Option<i32>, Refusal> {
     boxes.clear();
-    boxes.extend(rings.iter().map(corners));
-    if !boxes_are_apart(boxes, strips) {
-        return None;
+    meter.extend(boxes, rings.iter().map(corners))?;
+    if !boxes_are_apart(boxes, strips, meter)? {
+        return Ok(None);
     }
-    let mut ways = (0..rings.len()).map(|ring| winds_once(rings.closed(ring)));
-    let first = ways.next()?;
-    first.filter(|_| ways.all(|way| way == first))
+    let (mut first, mut tally) = (None, meter.tally());
+    for ring in 0..rings.len() {
+        let closed = rings.closed(ring);
+        tally.add(closed.len())?;
+        match (winds_once(closed), first) {
+            (None, _) => return Ok(None),
+            (way, Some(_)) if way != first => return Ok(None),
+            (way, _) => first = way,
+        }
+    }
+    Ok(first)
 }
 
-fn boxes_are_apart(boxes: &[[DVec2; 2]], strips: &mut Strips) -> bool {
+fn boxes_are_apart(boxes: &[[DVec2; 2]], strips: &mut Strips, meter: &Meter<'_>) -> Result<bool, Refusal> {
     let around = |[low, high]: [DVec2; 2], b: &[DVec2; 2]| [low.min(b[0]), high.max(b[1])];
     let whole = boxes.iter().fold([DVec2::MAX, DVec2::MIN], around);
     if boxes.iter().map(quarter).sum::<f64>() > quarter(&whole) * ROUNDING {
-        return false;
+        return Ok(false);
     }
-    strips.build(boxes.iter().copied());
-    strips.pairs_within(0..strips.len(), BLOCKS_PER_BOX * boxes.len(), |a, b| {
+    strips.build(boxes.iter().copied(), meter)?;
+    strips.pairs_within(0..strips.len(), BLOCKS_PER_BOX * boxes.len(), meter, |a, b| {
         let [[low, high], [other_low, other_high]] = [a, b].map(|i| boxes[i as usize]);
-        low.max(other_low).cmpge(high.min(other_high)).any()
+        Ok(low.max(other_low).cmpge(high.min(other_high)).any())
     })
 }
 
@@ -68,7 +81,7 @@ fn quarter(&[low, high]: &[DVec2; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Strips, rings_wind_once};
+    use super::{Meter, Strips, rings_wind_once};
     use crate::region::rings::Rings;
     use glam::DVec2;
 
@@ -79,7 +92,8 @@ mod tests {
             rings.extend(&corners.map(|corner| DVec2::new(x, y) + corner * DVec2::new(size, size.abs())));
             rings.close();
         }
-        rings_wind_once(&rings, &mut Vec::new(), &mut Strips::default())
+        let meter = Meter::default();
+        rings_wind_once(&rings, &mut Vec::new(), &mut Strips::default(), &meter).expect("no limit was given")
     }
 
     #[test]

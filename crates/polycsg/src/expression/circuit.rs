@@ -10,6 +10,7 @@
 //! composition stays what it was: expressions of any depth cost little more than flat ones.
 
 use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal};
 
 /// When a gate holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,8 +141,12 @@ impl Circuit {
     }
 
     /// Lays out the paths, once all gates and members are there; no member holds.
-    pub(crate) fn lay_out(&mut self) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn lay_out(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.find_largest();
+        meter.spend(self.gates.len())?;
         for gate in 0..self.gates.len() {
             let is_largest = |(above, _): (u32, bool)| {
                 self.gates[above as usize].largest.is_some_and(|(largest, _)| largest as usize == gate)
@@ -150,12 +155,14 @@ impl Circuit {
                 self.lay_out_path(index(gate));
             }
         }
+        meter.spend(self.gates.len())?;
         // Paths start false: those whose start holds tell the gate above.
         for gate in (0..self.gates.len()).rev() {
             if self.gates[gate].top as usize == gate {
                 self.start(index(gate));
             }
         }
+        meter.spend(self.gates.len())
     }
 
     /// Finds the largest member gate of each, and counts the others.

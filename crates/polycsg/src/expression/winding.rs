@@ -10,7 +10,9 @@ use super::apart::{operands_are_apart, rings_wind_once};
 use super::circuit::{Circuit, Kind};
 use super::csg::{Csg, FillRule, Operator, Token};
 use super::simple_ring::winds_once;
-use crate::{base::id::index, region::rings::Rings, spatial::strips::Strips};
+use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal};
+use crate::{region::rings::Rings, spatial::strips::Strips};
 use glam::DVec2;
 
 /// Which winding numbers hold: those that lie in a range, if `mask` is laid over them first. Without branches, as walks
@@ -99,11 +101,12 @@ struct Open {
 
 impl WindingNumbers {
     /// Compiles an expression; the state is that of a place outside of everything.
-    pub(crate) fn compile(&mut self, csg: &Csg<'_>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn compile(&mut self, csg: &Csg<'_>, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.raw_share = csg.len() > 2 * FEW;
-        if !self.compile_pair(csg) {
-            self.compile_shared(csg, None);
-        }
+        if self.compile_pair(csg) { Ok(()) } else { self.compile_shared(csg, None, meter) }
     }
 
     /// Two operands of raw rings, by far the most frequent, need no circuit: they have two counters and one of four tables.
@@ -136,14 +139,28 @@ impl WindingNumbers {
     }
 
     /// Compiles it anew where operands that wind once might share counters and do not yet: operands may have other counters then.
-    pub(crate) fn share(&mut self, csg: &Csg<'_>, strips: &mut Strips) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn share(
+        &mut self,
+        csg: &Csg<'_>,
+        strips: &mut Strips,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         if self.more_may_share && csg.len() > 1 {
             self.raw_share = true;
-            self.compile_shared(csg, Some(strips));
+            self.compile_shared(csg, Some(strips), meter)?;
         }
+        Ok(())
     }
 
-    fn compile_shared(&mut self, csg: &Csg<'_>, mut strips: Option<&mut Strips>) {
+    fn compile_shared(
+        &mut self,
+        csg: &Csg<'_>,
+        mut strips: Option<&mut Strips>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.more_may_share = false;
         self.counters.clear();
         self.gates.clear();
@@ -156,7 +173,9 @@ impl WindingNumbers {
         self.add_gate(root, None);
         self.open.clear();
         self.open.push(Open { remaining: 1, first: 0, rest: 0 });
+        let mut tally = meter.tally();
         for (token, place) in csg.postfix().rev().zip((0..csg.len()).rev()) {
+            tally.add(1)?;
             while self.open.last().is_some_and(|top| top.remaining == 0) {
                 self.open.pop();
             }
@@ -166,16 +185,17 @@ impl WindingNumbers {
             match token {
                 Token::Operator(operator, count) => {
                     let operands = csg.postfix().skip(place.saturating_sub(*count)).take(*count);
-                    let operator = self.simpler(*operator, operands, gate, strips.as_deref_mut());
+                    let operator = self.simpler(*operator, operands, gate, strips.as_deref_mut(), meter)?;
                     let gate = self.gate_for(operator, *count, gate);
                     self.open.push(gate);
                 }
                 Token::Region(_) | Token::Prepared(_) => self.add_once(1, gate),
-                Token::Rings(rings, rule) => match self.winds_once(rings, *rule, gate, strips.as_deref_mut())
-                {
-                    Some(winds) => self.add_once(winds, gate),
-                    None => self.add_rings(*rule, gate),
-                },
+                Token::Rings(rings, rule) => {
+                    match self.winds_once(rings, *rule, gate, strips.as_deref_mut(), meter)? {
+                        Some(winds) => self.add_once(winds, gate),
+                        None => self.add_rings(*rule, gate),
+                    }
+                }
                 Token::Edge(_) => self.operands.push(None),
             }
         }
@@ -186,8 +206,9 @@ impl WindingNumbers {
             self.gates.table(columns)
         });
         if self.table.is_none() {
-            self.gates.lay_out();
+            self.gates.lay_out(meter)?;
         }
+        Ok(())
     }
 
     fn gate_for(&mut self, operator: Operator, count: usize, above: u32) -> Open {
@@ -240,13 +261,17 @@ impl WindingNumbers {
         operands: impl Iterator<Item = &'t Token<'c>>,
         above: u32,
         strips: Option<&mut Strips>,
-    ) -> Operator {
+        meter: &Meter<'_>,
+    ) -> Result<Operator, Refusal> {
         if operator != Operator::Union || self.gates.kind(above) != Kind::Odd {
-            return operator;
+            return Ok(operator);
         }
         self.more_may_share |= strips.is_none();
-        let apart = strips.is_some_and(|strips| operands_are_apart(operands, &mut self.boxes, strips));
-        if apart { Operator::SymmetricDifference } else { operator }
+        let apart = match strips {
+            Some(strips) => operands_are_apart(operands, &mut self.boxes, strips, meter)?,
+            None => false,
+        };
+        Ok(if apart { Operator::SymmetricDifference } else { operator })
     }
 
     /// 1 or -1 if raw rings are known to wind so, or not at all, wherever they hold; sought where they may share a counter.
@@ -256,17 +281,18 @@ impl WindingNumbers {
         rule: FillRule,
         gate: u32,
         strips: Option<&mut Strips>,
-    ) -> Option<i32> {
+        meter: &Meter<'_>,
+    ) -> Result<Option<i32>, Refusal> {
         if self.gates.kind(gate) == Kind::All {
-            return None;
+            return Ok(None);
         }
         self.more_may_share |= strips.is_none() && !self.raw_share;
         let winds = match (strips, rings.len()) {
             (_, 1) if self.raw_share => winds_once(rings.closed(0)),
-            (Some(strips), 2..) => rings_wind_once(rings, &mut self.boxes, strips),
+            (Some(strips), 2..) => rings_wind_once(rings, &mut self.boxes, strips, meter)?,
             _ => None,
         };
-        winds.filter(|&winds| winds > 0 || rule != FillRule::Positive)
+        Ok(winds.filter(|&winds| winds > 0 || rule != FillRule::Positive))
     }
 
     fn add_rings(&mut self, rule: FillRule, gate: u32) {

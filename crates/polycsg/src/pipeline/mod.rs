@@ -2,17 +2,18 @@
 //!
 //! [`region`] is the whole way from an expression to its region. [`boundary`] and [`memberships`] leave it earlier.
 
+#[cfg(test)]
+mod asks;
 pub(crate) mod scratch;
 #[cfg(test)]
 mod tests;
 
 use crate::arrangement::{labels::LabelledArrangement, labels::map::Map};
 use crate::assemble::nest::{Unnested, nest};
-use crate::base::meter::Meter;
+use crate::base::meter::{Meter, Refusal};
 use crate::boundary::{Boundary, repair::Index, repair::fragments::Rounded};
 use crate::contacts::{Request, candidates::Candidates};
 use crate::edges::Edges;
-use crate::error::Error;
 use crate::expression::csg::{Csg, Token};
 use crate::expression::winding::WindingNumbers;
 use crate::region::Region;
@@ -25,25 +26,23 @@ use scratch::{ArrangementBuffers, ContactBuffers, EdgeBuffers, ExpressionBuffers
 ///
 /// # Errors
 /// Those of the limits that the meter has.
-pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) -> Result<Region, Error> {
+pub(crate) fn region(csg: &Csg<'_>, scratch: &mut Scratch, meter: &Meter<'_>) -> Result<Region, Refusal> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, assembly, budget } = scratch;
     boundary.repair.start();
-    let winding = collect(csg, expression, edges);
-    meter.spend(edges.edges.len())?;
+    let winding = collect(csg, expression, edges, meter)?;
     if let Some(region) = untouched(csg, winding, &edges.edges) {
         return Ok(region);
     }
     let request = Request { meter, rings: true, budget: *budget };
     let arranged = arrange(csg, edges, winding, spatial, contacts, arrangement, request)?;
-    let selection = boundary.selection.select(arranged);
+    let selection = boundary.selection.select(arranged, meter)?;
     let rounded = Rounded { edges: arranged.edges, contacts: arranged.contacts, selection };
     let index = Index { strips: &mut spatial.strips, slabs: &mut spatial.slabs, budget: *budget, meter };
     let outline = &mut boundary.outline;
     boundary.repair.outline(rounded, arranged.close_pairs, index, outline)?;
     let SpatialBuffers { chains, strips, slabs } = spatial;
     loop {
-        meter.spend(outline.chains().len())?;
-        let cycles = assembly.cycles.link(outline);
+        let cycles = assembly.cycles.link(outline, meter)?;
         match nest(outline, cycles, chains, strips, slabs, &mut assembly.nesting, meter) {
             Ok(region) => return Ok(region),
             Err(Unnested::Refused(error)) => return Err(error),
@@ -62,13 +61,12 @@ pub(crate) fn boundary<'s>(
     csg: &Csg<'_>,
     scratch: &'s mut Scratch,
     meter: &Meter<'_>,
-) -> Result<Boundary<'s>, Error> {
+) -> Result<Boundary<'s>, Refusal> {
     let Scratch { expression, edges, spatial, contacts, arrangement, boundary, budget, .. } = scratch;
-    let winding = collect(csg, expression, edges);
-    meter.spend(edges.edges.len())?;
+    let winding = collect(csg, expression, edges, meter)?;
     let request = Request { meter, rings: false, budget: *budget };
     let arranged = arrange(csg, edges, winding, spatial, contacts, arrangement, request)?;
-    let selection = boundary.selection.select(arranged);
+    let selection = boundary.selection.select(arranged, meter)?;
     Ok(Boundary::new(selection, arranged.edges, arranged.contacts))
 }
 
@@ -76,10 +74,10 @@ pub(crate) fn boundary<'s>(
 pub(crate) fn memberships<'s>(
     csg: &Csg<'_>,
     scratch: &'s mut Scratch,
-) -> Result<LabelledArrangement<'s>, Error> {
+) -> Result<LabelledArrangement<'s>, Refusal> {
     let Scratch { expression, edges, spatial, contacts, arrangement, budget, .. } = scratch;
-    let winding = collect(csg, expression, edges);
     let meter = Meter::default();
+    let winding = collect(csg, expression, edges, &meter)?;
     let request = Request { meter: &meter, rings: false, budget: *budget };
     arrange(csg, edges, winding, spatial, contacts, arrangement, request)
 }
@@ -89,11 +87,12 @@ fn collect<'s>(
     csg: &Csg<'_>,
     ExpressionBuffers { winding, bounds }: &'s mut ExpressionBuffers,
     EdgeBuffers { edges, keys, .. }: &mut EdgeBuffers,
-) -> &'s mut WindingNumbers {
-    winding.compile(csg);
+    meter: &Meter<'_>,
+) -> Result<&'s mut WindingNumbers, Refusal> {
+    winding.compile(csg, meter)?;
     bounds.find(csg);
-    edges.collect(csg, winding, bounds, keys);
-    winding
+    edges.collect(csg, winding, bounds, keys, meter)?;
+    Ok(winding)
 }
 
 /// The end of stage 1, which edges stand for all, and stages 2 to 5: where edges meet, how this cuts them into sub-edges, and the membership of each.
@@ -107,13 +106,14 @@ fn arrange<'s>(
     ContactBuffers { contacts, close_pairs }: &'s mut ContactBuffers,
     ArrangementBuffers { arrangement, labels }: &'s mut ArrangementBuffers,
     request: Request<'_>,
-) -> Result<LabelledArrangement<'s>, Error> {
-    coincident.unite(edges, csg, winding, strips, request.rings);
+) -> Result<LabelledArrangement<'s>, Refusal> {
+    let meter = request.meter;
+    coincident.unite(edges, csg, winding, strips, request.rings, meter)?;
     let candidates = Candidates::index(edges, coincident, chains, strips, request)?;
     contacts.find(candidates, slabs, close_pairs, request)?;
     let (edges, chains, strips) = (&*edges, &*chains, &*strips);
-    arrangement.split(edges, contacts);
-    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, winding, request.meter)?;
+    arrangement.split(edges, contacts, meter)?;
+    labels.classify(Map { edges, chains, strips, contacts, arrangement }, slabs, winding, meter)?;
     Ok(LabelledArrangement { edges, contacts, close_pairs, arrangement, labels })
 }
 

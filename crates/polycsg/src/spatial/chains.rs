@@ -8,6 +8,7 @@
 
 use super::strips::boxes_meet;
 use crate::base::corners::corners;
+use crate::base::meter::{Meter, Refusal};
 use crate::base::threads::{Threads, ranges};
 use crate::predicates::{Segment, lexicographic};
 use glam::DVec2;
@@ -128,45 +129,83 @@ pub(crate) struct MonotoneChains {
 
 impl MonotoneChains {
     /// Cuts rings into chains; each ring is a span of slots, the last one its first point again.
-    pub(crate) fn build(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
-        self.cut(points, rings, if points.len() <= FEW { 1 } else { LONGEST });
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn build(
+        &mut self,
+        points: &[DVec2],
+        rings: impl Iterator<Item = Range<u32>>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        self.cut(points, rings, if points.len() <= FEW { 1 } else { LONGEST }, meter)
     }
 
     /// Makes each edge a chain.
-    pub(crate) fn cut_to_edges(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
-        self.cut(points, rings, 1);
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn cut_to_edges(
+        &mut self,
+        points: &[DVec2],
+        rings: impl Iterator<Item = Range<u32>>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        self.cut(points, rings, 1, meter)
     }
 
     /// Cuts rings into runs that need not be monotone: enough for vertical rays.
-    pub(crate) fn cut_to_runs(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn cut_to_runs(
+        &mut self,
+        points: &[DVec2],
+        rings: impl Iterator<Item = Range<u32>>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.chains.clear();
+        let mut tally = meter.tally();
         for slots in rings {
             let end = slots.end - 1;
             for first in (slots.start..end).step_by(RUN as usize) {
                 let last = end.min(first + RUN);
                 let [low, high] = corners(&points[first as usize..=last as usize]);
                 self.chains.push(MonotoneChain { first, last, ways: [None; 2], low, high });
+                tally.add(1)?;
             }
         }
+        Ok(())
     }
 
-    fn cut(&mut self, points: &[DVec2], rings: impl Iterator<Item = Range<u32>>, longest: u32) {
+    fn cut(
+        &mut self,
+        points: &[DVec2],
+        mut rings: impl Iterator<Item = Range<u32>>,
+        longest: u32,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.chains.clear();
         self.leftmost.clear();
         let threads = Threads::for_edges(points.len());
         if !threads.are_many() {
-            return rings.for_each(|slots| self.add_ring(points, slots, longest));
+            let mut counted = 0;
+            return rings.try_for_each(|slots| self.add_ring(points, slots, longest, meter, &mut counted));
         }
         let rings: Vec<Range<u32>> = rings.collect();
         let parts = threads.map(ranges(rings.len()), |part| {
-            let mut own = MonotoneChains::default();
-            rings[part].iter().for_each(|slots| own.add_ring(points, slots.clone(), longest));
-            own
+            let (mut own, mut counted) = (MonotoneChains::default(), 0);
+            for slots in &rings[part] {
+                own.add_ring(points, slots.clone(), longest, meter, &mut counted)?;
+            }
+            Ok(own)
         });
         for part in parts {
+            let part = part?;
             self.chains.extend(part.chains);
             self.leftmost.extend(part.leftmost);
         }
+        Ok(())
     }
 
     /// The number of chains.
@@ -200,9 +239,17 @@ impl MonotoneChains {
         self.chains.iter().fold(DVec2::ZERO, larger).max_element()
     }
 
-    fn add_ring(&mut self, points: &[DVec2], slots: Range<u32>, longest: u32) {
+    fn add_ring(
+        &mut self,
+        points: &[DVec2],
+        slots: Range<u32>,
+        longest: u32,
+        meter: &Meter<'_>,
+        counted: &mut usize,
+    ) -> Result<(), Refusal> {
         if longest == 1 {
-            return self.add_edges(points, slots);
+            self.add_edges(points, slots);
+            return meter.spend_up_to(self.chains.len(), counted);
         }
         let (mut start, last) = (slots.start, slots.end - 1);
         let mut leftmost = start;
@@ -213,22 +260,25 @@ impl MonotoneChains {
             }
             self.chains.push(chain);
             start = chain.last;
+            meter.spend_up_to(self.chains.len(), counted)?;
         }
         let is_repeated = leftmost == last && points[last as usize] == points[slots.start as usize];
         self.leftmost.push(if is_repeated { slots.start } else { leftmost });
+        Ok(())
     }
 
     /// Adds each edge of a ring as a chain of its own, which asks for no ways.
     fn add_edges(&mut self, points: &[DVec2], slots: Range<u32>) {
         let (mut leftmost, mut smallest) = (slots.start, points[slots.start as usize]);
         let ends = points[slots.start as usize..slots.end as usize].windows(2);
-        self.chains.extend((slots.start..).zip(ends).map(|(first, ends)| {
+        self.chains.reserve(slots.len());
+        for (first, ends) in (slots.start..).zip(ends) {
             let [low, high] = bounds(ends[0], ends[1]);
             if lexicographic(ends[1], smallest) == Ordering::Less {
                 (leftmost, smallest) = (first + 1, ends[1]);
             }
-            MonotoneChain { first, last: first + 1, ways: [None; 2], low, high }
-        }));
+            self.chains.push(MonotoneChain { first, last: first + 1, ways: [None; 2], low, high });
+        }
         self.leftmost.push(leftmost);
     }
 }

@@ -1,8 +1,8 @@
 //! Vertical ray shooting: the edge right below a point.
 
 use super::{chains::MonotoneChains, slabs::SlabDecomposition, strips::Strips};
-use crate::base::{meter::Meter, threads::Threads};
-use crate::error::Error;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::threads::Threads;
 use crate::predicates::{Segment, Side, height_order, side};
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -37,14 +37,14 @@ impl VerticalRays {
         points: &[DVec2],
         vertices: &[u32],
         meter: &Meter<'_>,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Refusal> {
         let (most, looked_at) = (BOXES_PER_EDGE * points.len(), AtomicUsize::new(0));
         self.edges.clear();
         self.edges.resize(vertices.len(), None);
         let parts = self.edges.chunks_mut(VERTICES).zip(vertices.chunks(VERTICES));
         Threads::for_edges(points.len()).try_for_each(parts, |(edges, vertices)| {
+            let mut tally = meter.tally();
             for (edge, &vertex) in edges.iter_mut().zip(vertices) {
-                meter.spend(1)?;
                 // What other threads look at meanwhile is counted later: only the sum decides.
                 let before = most.saturating_sub(looked_at.load(Relaxed));
                 if before == 0 {
@@ -53,6 +53,7 @@ impl VerticalRays {
                 let mut left = before;
                 *edge = nearest_below(chains, strips, points, points[vertex as usize], &mut left);
                 looked_at.fetch_add(before - left, Relaxed);
+                tally.add(1 + before - left)?;
             }
             Ok(())
         })?;
@@ -60,7 +61,7 @@ impl VerticalRays {
             return Ok(());
         }
         let edges = chains.edges().map(|edge| (edge, [edge, edge + 1]));
-        slabs.build(points.iter().copied(), edges);
+        slabs.build(points.iter().copied(), edges, meter)?;
         slabs.below(vertices, &mut self.edges, meter)
     }
 

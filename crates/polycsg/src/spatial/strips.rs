@@ -11,7 +11,9 @@
 //! Coordinates are mapped to 31-bit integers by one weakly monotone function, so that boxes which meet as reals meet
 //! as integers: the index may report too much and never too little. A few boxes stay as they are, and are all compared.
 
-use crate::base::{id::index, threads::Threads};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::parts::{Numbered, PART};
+use crate::base::{id::index, sort::sort_on, threads::Threads};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -89,27 +91,37 @@ pub(crate) struct Strips {
 
 impl Strips {
     /// Indexes boxes, given by their lower left and upper right corners, under their numbers.
-    pub(crate) fn build(&mut self, boxes: impl ExactSizeIterator<Item = [DVec2; 2]> + Clone) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn build(
+        &mut self,
+        boxes: impl ExactSizeIterator<Item = [DVec2; 2]> + Clone,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.few.clear();
         if boxes.len() <= FEW {
             self.boxes.clear();
-            return self.few.extend(boxes);
+            self.few.extend(boxes);
+            return Ok(());
         }
         let (mut low, mut high) = (DVec2::MAX, DVec2::MIN);
-        for [a, b] in boxes.clone() {
+        meter.for_all(boxes.clone(), |[a, b]| {
             low = low.min(a);
             high = high.max(b);
-        }
+        })?;
         (self.x, self.y) = (Scale::new(low.x, high.x), Scale::new(low.y, high.y));
         self.boxes.clear();
-        for [a, b] in boxes {
+        let extent = |[a, b]: [DVec2; 2]| {
             let (x0, y0, x1, y1) = (self.x.map(a.x), self.y.map(a.y), self.x.map(b.x), self.y.map(b.y));
-            self.boxes.push(Extent { x0, x1, y0, y1 });
-        }
+            Extent { x0, x1, y0, y1 }
+        };
+        meter.extend(&mut self.boxes, boxes.map(extent))?;
         let count = self.strip_count();
-        self.count_entries(count);
-        self.fill();
-        self.sort();
+        self.count_entries(count, meter)?;
+        self.fill(meter)?;
+        self.sort(meter)?;
+        self.arrange(meter)
     }
 
     /// As many strips as keep about 192 boxes in each, and a box in 1.25 strips on the average at most.
@@ -130,63 +142,77 @@ impl Strips {
         Strips::strip(extent.x0, count)..Strips::strip(extent.x1, count) + 1
     }
 
-    fn count_entries(&mut self, count: usize) {
+    fn count_entries(&mut self, count: usize, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.starts.clear();
         self.starts.resize(count + 2, 0);
-        for &extent in &self.boxes {
+        meter.for_each(&self.boxes[..], |&extent| {
             for strip in Strips::strips_of(extent, count) {
                 self.starts[strip + 2] += 1;
             }
-        }
+        })?;
         for strip in 2..count + 2 {
             self.starts[strip] += self.starts[strip - 1];
         }
+        Ok(())
     }
 
     /// Puts (lower side, box) keys into the strips; afterwards `starts[s]..starts[s + 1]` are strip s's entries.
-    fn fill(&mut self) {
+    fn fill(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
         let count = self.starts.len() - 2;
-        self.keys.clear();
-        self.keys.resize(self.starts[count + 1] as usize, 0);
-        for (i, &extent) in self.boxes.iter().enumerate() {
+        meter.fill(&mut self.keys, 0, self.starts[count + 1] as usize)?;
+        meter.for_each(Numbered(&self.boxes), |(i, &extent)| {
             for strip in Strips::strips_of(extent, count) {
                 let at = self.starts[strip + 1];
-                self.keys[at as usize] = u64::from(extent.y0.unsigned_abs()) << 32 | i as u64;
+                self.keys[at as usize] = u64::from(extent.y0.unsigned_abs()) << 32 | u64::from(i);
                 self.starts[strip + 1] += 1;
             }
-        }
+        })?;
         self.starts.pop();
+        Ok(())
     }
 
-    fn sort(&mut self) {
-        for side in [&mut self.x0, &mut self.x1, &mut self.y0, &mut self.y1, &mut self.highest] {
-            side.clear();
-        }
-        self.ids.clear();
+    fn sort(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
         let mut rest = &mut self.keys[..];
         let strips = self.starts.windows(2).map(move |ends| {
             let (strip, others) = std::mem::take(&mut rest).split_at_mut((ends[1] - ends[0]) as usize);
             rest = others;
             strip
         });
-        Threads::for_edges(self.boxes.len()).for_each(strips, <[u64]>::sort_unstable);
+        let threads = Threads::for_edges(self.boxes.len());
+        threads.try_for_each(strips, |strip| {
+            meter.spend(strip.len())?;
+            sort_on(threads, strip, u64::cmp, meter)
+        })
+    }
+
+    /// Puts the boxes into the order of their keys.
+    fn arrange(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
+        for side in [&mut self.x0, &mut self.x1, &mut self.y0, &mut self.y1, &mut self.highest] {
+            side.clear();
+        }
+        self.ids.clear();
+        let mut tally = meter.tally();
         for strip in 0..self.starts.len() - 1 {
             let entries = self.entries(strip);
             let mut highest = 0;
-            for &key in &self.keys[entries] {
-                let id = key & 0xffff_ffff;
-                let extent = self.boxes[id as usize];
-                highest = extent.y1.max(highest);
-                self.ids.push(index(id as usize));
-                self.x0.push(extent.x0);
-                self.x1.push(extent.x1);
-                self.y0.push(extent.y0);
-                self.y1.push(extent.y1);
-                self.highest.push(highest);
+            for keys in self.keys[entries].chunks(PART) {
+                for &key in keys {
+                    let id = key & 0xffff_ffff;
+                    let extent = self.boxes[id as usize];
+                    highest = extent.y1.max(highest);
+                    self.ids.push(index(id as usize));
+                    self.x0.push(extent.x0);
+                    self.x1.push(extent.x1);
+                    self.y0.push(extent.y0);
+                    self.y1.push(extent.y1);
+                    self.highest.push(highest);
+                }
+                tally.add(keys.len())?;
             }
         }
         self.tops.clear();
         self.tops.extend(self.y1.chunks(ROW).map(|row| row.iter().copied().fold(0, i32::max)));
+        Ok(())
     }
 
     fn entries(&self, strip: usize) -> Range<usize> {
@@ -202,31 +228,37 @@ impl Strips {
     /// alone.
     ///
     /// Gives up, and returns false, when `visit` does, or when more than so many blocks of boxes must be looked at.
+    ///
+    /// # Errors
+    /// Those of the meter's limits, as each block is work, and that of the first visit with one.
     pub(crate) fn pairs_within(
         &self,
         strips: Range<usize>,
         mut blocks: usize,
-        mut visit: impl FnMut(u32, u32) -> bool,
-    ) -> bool {
+        meter: &Meter<'_>,
+        mut visit: impl FnMut(u32, u32) -> Result<bool, Refusal>,
+    ) -> Result<bool, Refusal> {
         if self.boxes.is_empty() {
             return self.few_pairs(visit);
         }
+        let mut tally = meter.tally();
         for strip in strips {
             let entries = self.entries(strip);
             for i in entries.clone() {
-                let mut go_on = true;
+                let mut go_on = Ok(true);
                 let looked_at = self.above(i, entries.end, |j| {
-                    if go_on && self.is_first(strip, i, j) {
+                    if go_on == Ok(true) && self.is_first(strip, i, j) {
                         go_on = visit(self.ids[i], self.ids[j]);
                     }
                 });
-                if !go_on || looked_at > blocks {
-                    return false;
+                if !go_on? || looked_at > blocks {
+                    return Ok(false);
                 }
                 blocks -= looked_at;
+                tally.add(looked_at + 1)?;
             }
         }
-        true
+        Ok(true)
     }
 
     /// Calls `visit` for each pair of every `step`-th box and one behind it in its strip, until it returns false or more
@@ -261,10 +293,15 @@ impl Strips {
         count == 1 || Strips::strip(self.x0[i].max(self.x0[j]), count) == strip
     }
 
-    fn few_pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
-        (0..)
-            .zip(&self.few)
-            .all(|(j, &b)| (0..j).zip(&self.few).all(|(i, &a)| !boxes_meet(a, b) || visit(i, j)))
+    fn few_pairs(&self, mut visit: impl FnMut(u32, u32) -> Result<bool, Refusal>) -> Result<bool, Refusal> {
+        for (j, &b) in (0..).zip(&self.few) {
+            for (i, &a) in (0..j).zip(&self.few) {
+                if boxes_meet(a, b) && !visit(i, j)? {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
     }
 
     /// Calls `visit` for the entries behind `i` whose boxes meet that of `i`; returns how many blocks it looked at.

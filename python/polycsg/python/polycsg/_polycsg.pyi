@@ -8,6 +8,8 @@ VERSION: str
 class GeometryError(ValueError):
     """A geometry that cannot be read: the message names the feature, the ring and the vertex."""
 
+def no_polygon(kind: str) -> str: ...
+
 class HeldFeatures:
     metadata: str | None
     def __len__(self) -> int: ...

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _polycsg
-from ._polycsg import GeometryError, HeldFeatures
+from ._polycsg import GeometryError, HeldFeatures, no_polygon
 from ._regions import Frame, Offsets, Region, Regions
 
 #: Vertices, and offsets of rings, polygons and features; none where each is of one. Or what is held beyond the
@@ -157,7 +157,7 @@ def _of_ragged(*parts: Any) -> Layer:
     coordinates, offsets = parts[-2:]
     kind = getattr(parts[0], "name", "POLYGON") if len(parts) == 3 else "POLYGON"
     if kind not in ("POLYGON", "MULTIPOLYGON"):
-        raise GeometryError(f"a {kind} has no area; give polygons")
+        raise GeometryError(no_polygon(kind))
     if len(offsets) not in (2, 3):
         raise GeometryError(f"polygons have 2 arrays of offsets and multipolygons 3, not {len(offsets)}")
     if coordinates.ndim == 2 and coordinates.shape[1] in (3, 4):
@@ -188,7 +188,7 @@ def _of_shapely(values: npt.NDArray[np.object_], missing: npt.NDArray[np.bool_])
     others = ~are_polygons & (kinds != shapely.GeometryType.MULTIPOLYGON)
     if others.any():
         feature = int(np.flatnonzero(others)[0])
-        raise GeometryError(f"feature {feature}: a {values[feature].geom_type} has no area; give polygons")
+        raise GeometryError(f"feature {feature}: {no_polygon(values[feature].geom_type)}")
     if are_polygons.all() and not shapely.get_num_interior_rings(values).any():
         # The same as below, sooner.
         rings = _ends([shapely.get_num_coordinates(values)])
@@ -266,7 +266,7 @@ def _of_interface(value: object) -> Layer:
         return _of_polygons([mapping["coordinates"]])
     if kind == "MultiPolygon":
         return _of_polygons(mapping["coordinates"])
-    raise GeometryError(f"a {kind} has no area; give a Polygon or a MultiPolygon")
+    raise GeometryError(no_polygon(kind))
 
 
 def _of_polygons(polygons: Sequence[Sequence[Any]]) -> Layer:

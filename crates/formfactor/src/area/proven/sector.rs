@@ -41,7 +41,9 @@ pub(super) fn cast(chart: &Chart, occluder: &Occluder, deviation: f64) -> Result
         let [c, a, b] = chart.toward(*on).map(|way| -normal.dot(way));
         match linear_sign(chart, [c, a, b], 2.0 * deviation) {
             Sign::Inside(0.0) => facing.push(true),
-            Sign::Outside(0.0) | Sign::On => facing.push(false),
+            Sign::Outside(0.0) => facing.push(false),
+            // What touches a body is not inside.
+            Sign::On => facing.push(!occluder.is_plate),
             Sign::Unclear(divide) => return Err(divide),
             Sign::Inside(_) | Sign::Outside(_) => return Err(Divide::Line([c, a, b])),
         }

@@ -108,8 +108,9 @@ pub(super) fn holds_behind(sub_edge: u32, map: Map<'_>, winding: &mut WindingNum
     holds
 }
 
-/// Moves over all crossings from `sub_edge` back to `first`.
-pub(super) fn go_back(mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
+/// Moves over all crossings from `sub_edge` back to `first`; returns how many sub-edges it went along.
+pub(super) fn go_back(mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) -> usize {
+    let mut passed = 0;
     while sub_edge != first {
         if let Node::Crossing(other) = map.arrangement.met(sub_edge) {
             map.edges.cross(
@@ -119,11 +120,14 @@ pub(super) fn go_back(mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut
             );
         }
         sub_edge = map.arrangement.previous(map.edges, sub_edge);
+        passed += 1;
     }
+    passed
 }
 
-/// Moves over all crossings from `sub_edge` forward to `first`.
-pub(super) fn go_forward(mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
+/// Moves over all crossings from `sub_edge` forward to `first`; returns how many sub-edges it went along.
+pub(super) fn go_forward(mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) -> usize {
+    let mut passed = 0;
     while sub_edge != first {
         sub_edge = map.arrangement.following(map.edges, sub_edge);
         if let Node::Crossing(other) = map.arrangement.met(sub_edge) {
@@ -133,5 +137,7 @@ pub(super) fn go_forward(mut sub_edge: u32, first: u32, map: Map<'_>, winding: &
                 winding,
             );
         }
+        passed += 1;
     }
+    passed
 }

@@ -21,10 +21,11 @@ mod step;
 mod walk;
 
 use crate::arrangement::{Arrangement, Node};
-use crate::base::{id::index, meter::Meter};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::parts::Numbered;
+use crate::base::{id::index, sort::sort};
 use crate::contacts::{Contacts, close_pairs::ClosePairs};
 use crate::edges::Edges;
-use crate::error::Error;
 use crate::expression::winding::WindingNumbers;
 use crate::predicates::lexicographic;
 use crate::region::membership::Membership;
@@ -76,21 +77,20 @@ impl Labels {
         slabs: &mut SlabDecomposition,
         winding: &mut WindingNumbers,
         meter: &Meter<'_>,
-    ) -> Result<(), Error> {
-        meter.spend(map.arrangement.len() + map.edges.rings().len())?;
+    ) -> Result<(), Refusal> {
         self.steps.clear();
         self.labels.clear();
         self.labels.resize(map.arrangement.len() + map.edges.rings().len(), Label::default());
         self.seen.clear();
         self.seen.resize(map.arrangement.junction_count(), false);
-        self.find_chains(map);
-        self.find_leftmost(map);
+        self.find_chains(map, meter)?;
+        self.find_leftmost(map, meter)?;
         self.find_nested(map, slabs, meter)?;
+        let mut tally = meter.tally();
         while let Some(vertex) = self.outermost.pop() {
             self.steps.push(Step::Component { vertex });
             while let Some(step) = self.steps.pop() {
-                meter.spend(1)?;
-                self.take(step, map, winding);
+                tally.add(1 + self.take(step, map, winding))?;
             }
             debug_assert!(winding.is_outside());
         }
@@ -104,11 +104,12 @@ impl Labels {
         Membership::from_sides(label.is(Label::LEFT), label.is(Label::RIGHT))
     }
 
-    fn find_chains(&mut self, map: Map<'_>) {
-        let mut count = 0;
+    fn find_chains(&mut self, map: Map<'_>, meter: &Meter<'_>) -> Result<(), Refusal> {
+        let (mut count, mut tally) = (0, meter.tally());
         self.chain.clear();
         for ring in 0..index(map.edges.rings().len()) {
             let sub_edges = map.arrangement.of_ring(ring);
+            tally.add(1 + sub_edges.len())?;
             if map.arrangement.junction_count() == 0 {
                 count += 1;
                 self.chain.resize(sub_edges.end as usize, ring);
@@ -129,12 +130,13 @@ impl Labels {
         }
         self.walked.clear();
         self.walked.resize(count as usize, false);
+        Ok(())
     }
 
-    fn find_leftmost(&mut self, map: Map<'_>) {
+    fn find_leftmost(&mut self, map: Map<'_>, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.leftmost.clear();
         self.leftmost.resize(map.edges.rings().len(), NONE);
-        for ring in 0..index(map.edges.rings().len()) {
+        meter.for_each(0..index(map.edges.rings().len()), |ring| {
             let vertex = map.chains.leftmost(ring);
             let best = &mut self.leftmost[map.contacts.component(ring) as usize];
             if *best == NONE
@@ -142,8 +144,9 @@ impl Labels {
             {
                 *best = vertex;
             }
-        }
+        })?;
         self.leftmost.retain(|&vertex| vertex != NONE);
+        Ok(())
     }
 
     /// Finds the sub-edge right below each component, or that there is none.
@@ -152,7 +155,7 @@ impl Labels {
         map: Map<'_>,
         slabs: &mut SlabDecomposition,
         meter: &Meter<'_>,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Refusal> {
         self.nested.clear();
         self.outermost.clear();
         if let [single] = self.leftmost[..] {
@@ -160,16 +163,15 @@ impl Labels {
             return Ok(());
         }
         self.below.shoot(map.chains, map.strips, slabs, map.edges.points(), &self.leftmost, meter)?;
-        for (i, &vertex) in self.leftmost.iter().enumerate() {
-            match self.below.edge(i).map(|edge| map.sub_edge_of(edge, vertex)) {
+        meter.for_each(Numbered(&self.leftmost), |(i, &vertex)| {
+            match self.below.edge(i as usize).map(|edge| map.sub_edge_of(edge, vertex)) {
                 None => self.outermost.push(vertex),
                 Some((sub_edge, left)) => {
                     self.labels[sub_edge as usize].0 |= Label::HAS_NESTED;
                     self.nested.push(NestedComponent { sub_edge, left, vertex });
                 }
             }
-        }
-        self.nested.sort_unstable();
-        Ok(())
+        })?;
+        sort(&mut self.nested, Ord::cmp, meter)
     }
 }

@@ -4,24 +4,27 @@ use super::label::{Label, NestedComponent};
 use super::map::{Map, cross_overlapping, go_back, go_forward, holds_behind};
 use super::{Labels, step::Step};
 use crate::arrangement::Node;
+use crate::base::parts::PART;
 use crate::expression::winding::WindingNumbers;
 use crate::predicates::{Side, side};
 
 impl Labels {
-    pub(super) fn take(&mut self, step: Step, map: Map<'_>, winding: &mut WindingNumbers) {
+    /// Takes a step; returns how many sub-edges it went along.
+    pub(super) fn take(&mut self, step: Step, map: Map<'_>, winding: &mut WindingNumbers) -> usize {
         match step {
-            Step::Ahead { sub_edge, first } => self.walk_ahead(sub_edge, first, map, winding),
+            Step::Ahead { sub_edge, first } => return self.walk_ahead(sub_edge, first, map, winding),
             Step::Back { sub_edge, first } => {
-                go_back(sub_edge, first, map, winding);
-                self.walk_behind(first, first, map, winding);
+                let passed = go_back(sub_edge, first, map, winding);
+                return passed + self.walk_behind(first, first, map, winding);
             }
-            Step::Behind { sub_edge, first } => self.walk_behind(sub_edge, first, map, winding),
-            Step::Return { sub_edge, first } => go_forward(sub_edge, first, map, winding),
+            Step::Behind { sub_edge, first } => return self.walk_behind(sub_edge, first, map, winding),
+            Step::Return { sub_edge, first } => return go_forward(sub_edge, first, map, winding),
             Step::Around { junction, place, left } => self.go_around(junction, place, left, map, winding),
             Step::Cross { sub_edge } => cross_overlapping(sub_edge, false, map, winding),
             Step::CrossBack { sub_edge } => cross_overlapping(sub_edge, true, map, winding),
             Step::Component { vertex } => self.enter_component(vertex, map, winding),
         }
+        0
     }
 
     /// Walks over one crossing after the other until there is something else to do first.
@@ -36,18 +39,25 @@ impl Labels {
     /// ```
     ///
     /// The step pushed last is done first and restores the state, so that the `Ahead` below it goes on from the same place.
-    /// Where there is nothing to do first, the walk goes on without the stack.
-    fn walk_ahead(&mut self, mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
-        loop {
+    /// Where there is nothing to do first, the walk goes on without the stack, for a while.
+    fn walk_ahead(
+        &mut self,
+        mut sub_edge: u32,
+        first: u32,
+        map: Map<'_>,
+        winding: &mut WindingNumbers,
+    ) -> usize {
+        for passed in 1..=PART {
             let next = map.arrangement.following(map.edges, sub_edge);
             let other = match map.arrangement.met(next) {
                 Node::Junction(junction) if self.seen[junction as usize] => {
-                    go_back(sub_edge, first, map, winding);
-                    return self.walk_behind(first, first, map, winding);
+                    let back = go_back(sub_edge, first, map, winding);
+                    return passed + back + self.walk_behind(first, first, map, winding);
                 }
                 Node::Junction(junction) => {
                     self.steps.push(Step::Back { sub_edge, first });
-                    return self.enter_junction(junction, 2 * sub_edge + 1, map);
+                    self.enter_junction(junction, 2 * sub_edge + 1, map);
+                    return passed;
                 }
                 Node::Crossing(other) => other,
             };
@@ -55,7 +65,8 @@ impl Labels {
             if !from_left && !self.is_walked(other) {
                 // It has the place left of `sub_edge` on its left, so it is entered before the crossing is passed.
                 self.steps.push(Step::Ahead { sub_edge, first });
-                return self.enter(other, map, winding);
+                self.enter(other, map, winding);
+                return passed;
             }
             map.edges.cross(map.arrangement.edge(other), !from_left, winding);
             let closes = next == first;
@@ -67,29 +78,39 @@ impl Labels {
                 if enters {
                     self.enter(map.arrangement.previous(map.edges, other), map, winding);
                 }
-                return;
+                return passed;
             }
             sub_edge = next;
         }
+        self.steps.push(Step::Ahead { sub_edge, first });
+        PART
     }
 
     /// The same against the ring, for what lies before the sub-edge where a walk started, back to a junction.
-    fn walk_behind(&mut self, mut sub_edge: u32, first: u32, map: Map<'_>, winding: &mut WindingNumbers) {
-        loop {
+    fn walk_behind(
+        &mut self,
+        mut sub_edge: u32,
+        first: u32,
+        map: Map<'_>,
+        winding: &mut WindingNumbers,
+    ) -> usize {
+        for passed in 1..=PART {
             let other = match map.arrangement.met(sub_edge) {
                 Node::Junction(junction) if self.seen[junction as usize] => {
-                    return go_forward(sub_edge, first, map, winding);
+                    return passed + go_forward(sub_edge, first, map, winding);
                 }
                 Node::Junction(junction) => {
                     self.steps.push(Step::Return { sub_edge, first });
-                    return self.enter_junction(junction, 2 * sub_edge, map);
+                    self.enter_junction(junction, 2 * sub_edge, map);
+                    return passed;
                 }
                 Node::Crossing(other) => other,
             };
             let from_left = map.arrangement.crossed_from_left(sub_edge);
             if from_left && !self.is_walked(other) {
                 self.steps.push(Step::Behind { sub_edge, first });
-                return self.enter(map.arrangement.previous(map.edges, other), map, winding);
+                self.enter(map.arrangement.previous(map.edges, other), map, winding);
+                return passed;
             }
             map.edges.cross(map.arrangement.edge(other), from_left, winding);
             sub_edge = map.arrangement.previous(map.edges, sub_edge);
@@ -101,9 +122,11 @@ impl Labels {
                 if enters {
                     self.enter(other, map, winding);
                 }
-                return;
+                return passed;
             }
         }
+        self.steps.push(Step::Behind { sub_edge, first });
+        PART
     }
 
     /// Whether the chain of a sub-edge was walked, or is being walked.

@@ -2,11 +2,11 @@
 
 use super::fragment::{Class, CutAt, Fragment, in_conflict};
 use super::{Repair, fragments::Rounded, index::Index, near::Near};
-use crate::base::id;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::parts::Numbered;
+use crate::base::{id, sort::sort};
 use crate::boundary::outline::Outline;
-use crate::error::Error;
 use crate::predicates::{Segment, lexicographic, rightward};
-use glam::DVec2;
 use std::cmp::Ordering;
 
 impl Repair {
@@ -22,21 +22,20 @@ impl Repair {
         rounded: Rounded<'_>,
         index: &mut Index<'_>,
         outline: &mut Outline,
-    ) -> Result<(), Error> {
-        let (mut may_coincide, mut overlap) = (false, false);
+    ) -> Result<(), Refusal> {
+        let (mut may_coincide, mut overlap, meter) = (false, false, index.meter);
         for round in 1.. {
-            index.meter.spend(self.fragments.len() + self.conflicts.len())?;
             may_coincide |= self.classes.len() < self.alike.len();
-            let affected = self.list_cuts(rounded, round, &mut overlap);
+            let affected = self.list_cuts(rounded, round, &mut overlap, meter)?;
             if self.cuts.is_empty() {
                 break;
             }
-            rounded.cut_up(&self.cuts, &mut self.fragments);
-            let mut near = Near::to(affected.into_iter());
-            self.find_alike(|fragment| near.is_slow() || near.meets(fragment.segment));
+            rounded.cut_up(&self.cuts, &mut self.fragments, meter)?;
+            let mut near = Near::to(affected.into_iter(), meter)?;
+            self.find_alike(|fragment| near.is_slow() || near.meets(fragment.segment), meter)?;
             if near.is_slow() {
                 // A class must be whole: some of its members have other abscissae in common than all have.
-                self.find_alike(|_| true);
+                self.find_alike(|_| true, meter)?;
             }
             if !self.find_conflicts_again(round, index)? {
                 self.find_conflicts(index)?;
@@ -45,43 +44,49 @@ impl Repair {
         debug_assert!(overlap || self.is_repaired(index)?);
         self.vertices = self.fragments.len() - self.parts.len();
         if overlap {
-            let segments = cut_verticals(&self.fragments);
+            let segments = cut_verticals(&self.fragments, meter)?;
             let whole = self.fragments.iter().filter(|f| f.segment[0] != f.segment[1]);
             self.vertices += segments.len() - whole.count();
-            outline.build(segments.iter().copied(), true);
+            outline.build(segments.iter().copied(), true, meter)
         } else {
-            outline.build(self.fragments.iter().map(|f| f.segment), may_coincide);
+            outline.build(self.fragments.iter().map(|f| f.segment), may_coincide, meter)
         }
-        Ok(())
     }
 
     /// Groups the fragments with the same ends, of those that are wanted; any that rounding shrank to a point are left out.
     ///
     /// Where hundreds of edges pass through nearly one point, most fragments there are alike.
-    pub(super) fn find_alike(&mut self, mut wanted: impl FnMut(&Fragment) -> bool) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn find_alike(
+        &mut self,
+        mut wanted: impl FnMut(&Fragment) -> bool,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let Repair { fragments, alike, classes, .. } = self;
         let mut is_wanted = |f: &Fragment| f.segment[0] != f.segment[1] && wanted(f);
         alike.clear();
-        alike.extend(
-            fragments.iter().zip(0..).filter(|(f, _)| is_wanted(f)).map(|(f, i)| (rightward(f.segment), i)),
-        );
+        meter.for_each(Numbered(fragments), |(i, f)| {
+            alike.extend(is_wanted(f).then(|| (rightward(f.segment), i)));
+        })?;
         let compare =
             |s: Segment, t: Segment| lexicographic(s[0], t[0]).then_with(|| lexicographic(s[1], t[1]));
-        alike.sort_unstable_by(|&(s, i), &(t, j)| compare(s, t).then(i.cmp(&j)));
+        sort(alike, |&(s, i), &(t, j)| compare(s, t).then(i.cmp(&j)), meter)?;
         classes.clear();
         let mut start = 0;
-        for class in alike.chunk_by(|(s, _), (t, _)| s == t) {
+        meter.for_all(alike.chunk_by(|(s, _), (t, _)| s == t), |class| {
             let end = start + class.len();
             let members = || class.iter().map(|&(_, i)| &fragments[i as usize]);
             let (moved, round) = (members().any(|f| f.moved), members().map(|f| f.round).max().unwrap_or(0));
             classes.push(Class { members: start..end, moved, round });
             start = end;
-        }
+        })
     }
 
     /// Whether no fragments at all are in conflict.
-    fn is_repaired(&mut self, index: &mut Index<'_>) -> Result<bool, Error> {
-        self.find_alike(|_| true);
+    fn is_repaired(&mut self, index: &mut Index<'_>) -> Result<bool, Refusal> {
+        self.find_alike(|_| true, index.meter)?;
         self.find_conflicts(index)?;
         Ok(self.conflicts.is_empty())
     }
@@ -96,7 +101,7 @@ impl Repair {
     }
 
     /// Finds the pairs of classes, one at least with a rounded end, that meet otherwise than in common ends.
-    pub(super) fn find_conflicts(&mut self, index: &mut Index<'_>) -> Result<(), Error> {
+    pub(super) fn find_conflicts(&mut self, index: &mut Index<'_>) -> Result<(), Refusal> {
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         if self.classes.iter().any(|class| class.moved) {
@@ -116,11 +121,12 @@ impl Repair {
 
     /// The same where all conflicts are those of classes with fragments that were in conflict in a round; returns false, having
     /// found some, where these are too many for boxes.
-    fn find_conflicts_again(&mut self, round: u32, index: &Index<'_>) -> Result<bool, Error> {
+    fn find_conflicts_again(&mut self, round: u32, index: &Index<'_>) -> Result<bool, Refusal> {
         let is_again = |class: u32| self.classes[class as usize].round == round;
         let all = 0..id::index(self.classes.len());
         let again: Vec<u32> = all.clone().filter(|&class| is_again(class)).collect();
-        let mut near = Near::to(again.iter().map(|&class| self.segment(class)));
+        let mut near = Near::to(again.iter().map(|&class| self.segment(class)), index.meter)?;
+        let mut tally = index.meter.tally();
         let mut conflicts = std::mem::take(&mut self.conflicts);
         conflicts.clear();
         for class in all {
@@ -131,7 +137,7 @@ impl Repair {
                 }
                 true
             });
-            index.meter.spend(1)?;
+            tally.add(1)?;
             if near.is_slow() {
                 break;
             }
@@ -148,12 +154,20 @@ impl Repair {
 
     /// Lists cuts of the conflicting fragments at the common ends of those that they conflict with, and notes whether there
     /// are any that cannot be cut so; returns the segments of the others, in whose boxes their new fragments will lie.
-    fn list_cuts(&mut self, rounded: Rounded<'_>, round: u32, overlap: &mut bool) -> Vec<Segment> {
+    fn list_cuts(
+        &mut self,
+        rounded: Rounded<'_>,
+        round: u32,
+        overlap: &mut bool,
+        meter: &Meter<'_>,
+    ) -> Result<Vec<Segment>, Refusal> {
         let mut affected = Vec::new();
         let mut common = vec![None; self.classes.len()];
         let mut cuts = std::mem::take(&mut self.cuts);
         cuts.clear();
+        let mut tally = meter.tally();
         for &[i, j] in &self.conflicts {
+            tally.add(self.members(i).chain(self.members(j)).count())?;
             let before = cuts.len();
             for (class, other) in [(i, j), (j, i)] {
                 let ends = &mut common[other as usize];
@@ -166,17 +180,17 @@ impl Repair {
                 affected.extend([i, j]);
             }
         }
-        affected.sort_unstable();
+        sort(&mut affected, u32::cmp, meter)?;
         affected.dedup();
         for i in
             affected.iter().flat_map(|&class| self.alike[self.classes[class as usize].members.clone()].iter())
         {
             self.fragments[i.1 as usize].round = round;
         }
-        cuts.sort_unstable();
+        sort(&mut cuts, Ord::cmp, meter)?;
         cuts.dedup();
         self.cuts = cuts;
-        affected.into_iter().map(|class| self.segment(class)).collect()
+        Ok(affected.into_iter().map(|class| self.segment(class)).collect())
     }
 
     /// The ends of the abscissae that all of a class have in common: the left end furthest right and the right end furthest
@@ -198,12 +212,14 @@ impl Repair {
 }
 
 /// All fragments, those that rounding left vertical cut at the points that lie on them.
-fn cut_verticals(fragments: &[Fragment]) -> Vec<Segment> {
-    let mut points: Vec<DVec2> = fragments.iter().flat_map(|f| f.segment).collect();
-    points.sort_unstable_by(|&a, &b| lexicographic(a, b));
+fn cut_verticals(fragments: &[Fragment], meter: &Meter<'_>) -> Result<Vec<Segment>, Refusal> {
+    let (mut points, mut tally) = (Vec::new(), meter.tally());
+    meter.extend(&mut points, fragments.iter().flat_map(|f| f.segment))?;
+    sort(&mut points, |&a, &b| lexicographic(a, b), meter)?;
     points.dedup();
     let mut segments = Vec::with_capacity(fragments.len());
     for fragment in fragments {
+        tally.add(1)?;
         let segment = fragment.segment;
         if segment[0].x != segment[1].x {
             segments.push(segment);
@@ -212,9 +228,10 @@ fn cut_verticals(fragments: &[Fragment]) -> Vec<Segment> {
         let [low, high] = rightward(segment);
         let first = points.partition_point(|&p| lexicographic(p, low) == Ordering::Less);
         let last = points.partition_point(|&p| lexicographic(p, high) == Ordering::Less);
+        tally.add(last - first)?;
         for pair in points[first..=last].windows(2) {
             segments.push(if segment[0] == low { [pair[0], pair[1]] } else { [pair[1], pair[0]] });
         }
     }
-    segments
+    Ok(segments)
 }

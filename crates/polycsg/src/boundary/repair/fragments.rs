@@ -2,12 +2,16 @@
 
 use super::fragment::{CutAt, Fragment, Part};
 use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal, Tally};
 use crate::boundary::select::{End, Piece, Selection};
 use crate::contacts::{Contacts, Place};
 use crate::edges::Edges;
 use crate::predicates::{Ratio, crossing_ratio, crossing_x_order, crossings_x_order};
 use glam::DVec2;
 use std::cmp::Ordering;
+
+/// A cut counts for so much work, as exact numbers make it.
+const EXACT: usize = 16;
 
 /// The rounded boundary, which may need repair.
 #[derive(Clone, Copy)]
@@ -19,28 +23,49 @@ pub(crate) struct Rounded<'a> {
 
 impl Rounded<'_> {
     /// The parts of all pieces, or of those on some edges.
-    pub(super) fn list_parts(&self, only: Option<&[u32]>, parts: &mut Vec<Part>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn list_parts(
+        &self,
+        only: Option<&[u32]>,
+        parts: &mut Vec<Part>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         parts.clear();
+        let mut tally = meter.tally();
         for piece in self.selection.pieces() {
             for (i, span) in piece.edge_spans().into_iter().enumerate() {
+                tally.add(1)?;
                 match only {
-                    None => self.add_parts(piece, i, span, parts),
+                    None => self.add_parts(piece, i, span, parts, &mut tally)?,
                     Some(edges) => {
                         let first = edges.partition_point(|&e| e < span.start);
                         let count = edges[first..].partition_point(|&e| e < span.end);
-                        self.add_parts(piece, i, edges[first..first + count].iter().copied(), parts);
+                        let edges = edges[first..first + count].iter().copied();
+                        self.add_parts(piece, i, edges, parts, &mut tally)?;
                     }
                 }
             }
         }
+        Ok(())
     }
 
-    fn add_parts(&self, piece: &Piece, span: usize, edges: impl Iterator<Item = u32>, parts: &mut Vec<Part>) {
+    fn add_parts(
+        &self,
+        piece: &Piece,
+        span: usize,
+        edges: impl Iterator<Item = u32>,
+        parts: &mut Vec<Part>,
+        tally: &mut Tally<'_>,
+    ) -> Result<(), Refusal> {
         for edge in edges {
+            tally.add(1)?;
             let [from, to] = piece.ends_on(span, edge, self.edges.ring(edge)).map(|end| self.vertex(end));
             let (start, end) = if piece.along { (from, to) } else { (to, from) };
             parts.push(Part { start, end, edge });
         }
+        Ok(())
     }
 
     /// The id of a vertex, the same for all pieces that end there.
@@ -75,18 +100,37 @@ impl Rounded<'_> {
     }
 
     /// A fragment for each part.
-    pub(super) fn round(&self, parts: &[Part], fragments: &mut Vec<Fragment>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn round(
+        &self,
+        parts: &[Part],
+        fragments: &mut Vec<Fragment>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         fragments.clear();
-        fragments.extend(parts.iter().map(|&Part { start, end, edge }| {
+        let fragment = |&Part { start, end, edge }: &Part| {
             let ends = [start, end];
             let moved = ends.iter().any(|&vertex| self.crossing(vertex).is_some());
             Fragment { segment: ends.map(|vertex| self.point(vertex)), edge, ends, moved, round: 0 }
-        }));
+        };
+        meter.extend(fragments, parts.iter().map(fragment))
     }
 
     /// Cuts some of the fragments: the first piece takes the place of the whole, the others are added.
-    pub(super) fn cut_up(&self, cuts: &[CutAt], fragments: &mut Vec<Fragment>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn cut_up(
+        &self,
+        cuts: &[CutAt],
+        fragments: &mut Vec<Fragment>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        let mut tally = meter.tally();
         for own in cuts.chunk_by(|a, b| a.0 == b.0) {
+            tally.add(EXACT * own.len())?;
             let place = own[0].0 as usize;
             let mut rest = Fragment { moved: true, ..fragments[place] };
             for vertex in self.ordered(rest.ends, own).into_iter().rev() {
@@ -100,6 +144,7 @@ impl Rounded<'_> {
             }
             fragments[place] = rest;
         }
+        Ok(())
     }
 
     /// The vertices of cuts between two vertices, from the first of these to the second, equal abscissae once.

@@ -1,8 +1,8 @@
 //! Which segments may meet: those whose boxes do or, where these are far too many, those that the slab decomposition finds.
 
-use crate::base::{id::index, meter::Meter};
+use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal};
 use crate::contacts::budget::WorkBudget;
-use crate::error::Error;
 use crate::predicates::Segment;
 use crate::spatial::{slabs::SlabDecomposition, strips::Strips};
 
@@ -28,16 +28,15 @@ impl Index<'_> {
         &mut self,
         segments: impl ExactSizeIterator<Item = Segment> + Clone,
         mut visit: impl FnMut(u32, u32) -> bool,
-    ) -> Result<bool, Error> {
+    ) -> Result<bool, Refusal> {
         let Index { strips, budget, meter, .. } = self;
-        let (count, mut pairs, mut allowed) = (segments.len(), 0, Ok(()));
-        strips.build(segments.map(|[a, b]| [a.min(b), a.max(b)]));
-        let is_done = strips.pairs_within(0..strips.len(), budget.blocks(count), |i, j| {
+        let (count, mut pairs, mut tally) = (segments.len(), 0, meter.tally());
+        strips.build(segments.map(|[a, b]| [a.min(b), a.max(b)]), meter)?;
+        strips.pairs_within(0..strips.len(), budget.blocks(count), meter, |i, j| {
             pairs += 1;
-            allowed = meter.spend(1);
-            allowed.is_ok() && visit(i, j) && budget.lasts(count, DEAR * pairs, 0)
-        });
-        allowed.map(|()| is_done)
+            tally.add(1)?;
+            Ok(visit(i, j) && budget.lasts(count, DEAR * pairs, 0))
+        })
     }
 
     /// Calls `visit` for all pairs of segments that may meet elsewhere than in common ends.
@@ -48,11 +47,9 @@ impl Index<'_> {
         &mut self,
         segments: impl ExactSizeIterator<Item = Segment> + Clone,
         visit: impl FnMut(u32, u32),
-    ) -> Result<(), Error> {
+    ) -> Result<(), Refusal> {
         let numbers = 0..index(segments.len());
-        self.slabs.build(segments.flatten(), numbers.map(|i| (i, [2 * i, 2 * i + 1])));
-        self.slabs.find(usize::MAX, self.meter)?;
-        self.slabs.visit(visit);
-        Ok(())
+        self.slabs.build(segments.flatten(), numbers.map(|i| (i, [2 * i, 2 * i + 1])), self.meter)?;
+        self.slabs.pairs(self.meter, visit)
     }
 }

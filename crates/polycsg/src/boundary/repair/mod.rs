@@ -35,9 +35,9 @@ mod index;
 mod near;
 mod sound;
 
+use crate::base::meter::Refusal;
 use crate::boundary::outline::Outline;
 use crate::contacts::close_pairs::ClosePairs;
-use crate::error::Error;
 use crate::predicates::Segment;
 use fragment::{Class, CutAt, Fragment, Part};
 use fragments::Rounded;
@@ -80,10 +80,9 @@ impl Repair {
         close_pairs: &ClosePairs,
         mut index: Index<'_>,
         outline: &mut Outline,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Refusal> {
         if self.is_sound(rounded, close_pairs, &mut index)? {
-            outline.take(rounded.edges, rounded.contacts, rounded.selection);
-            Ok(())
+            outline.take(rounded.edges, rounded.contacts, rounded.selection, index.meter)
         } else {
             self.cut(rounded, &mut index, outline)
         }

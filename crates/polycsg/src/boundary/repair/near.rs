@@ -1,5 +1,7 @@
 //! Which boxes of segments meet a box.
 
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 use crate::predicates::Segment;
 use glam::DVec2;
 
@@ -21,12 +23,18 @@ pub(super) struct Near {
 }
 
 impl Near {
-    pub(super) fn to(segments: impl Iterator<Item = Segment>) -> Near {
-        let mut boxes: Vec<(Box, u32)> = segments.map(|[a, b]| [a.min(b), a.max(b)]).zip(0..).collect();
-        boxes.sort_unstable_by(|(a, _), (b, _)| a[0].x.total_cmp(&b[0].x));
+    /// The boxes of segments.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn to(segments: impl Iterator<Item = Segment>, meter: &Meter<'_>) -> Result<Near, Refusal> {
+        let mut boxes: Vec<(Box, u32)> = Vec::new();
+        meter.extend(&mut boxes, segments.map(|[a, b]| [a.min(b), a.max(b)]).zip(0..))?;
+        sort(&mut boxes, |(a, _), (b, _)| a[0].x.total_cmp(&b[0].x), meter)?;
         let count = boxes.len().next_power_of_two();
         let column = 1 << count.ilog2().div_ceil(2);
         for column in boxes.chunks_mut(column) {
+            meter.spend(column.len())?;
             column.sort_unstable_by(|(a, _), (b, _)| a[0].y.total_cmp(&b[0].y));
         }
         let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
@@ -37,7 +45,7 @@ impl Near {
             let ([a, b], [c, d]) = (tree[2 * i], tree[2 * i + 1]);
             tree[i] = [a.min(c), b.max(d)];
         }
-        Near { tree, ids: boxes.into_iter().map(|(_, id)| id).collect(), looked_at: 0, asked: 0 }
+        Ok(Near { tree, ids: boxes.into_iter().map(|(_, id)| id).collect(), looked_at: 0, asked: 0 })
     }
 
     /// Calls `visit` for the places of segments whose boxes meet that of a segment, until it returns false.

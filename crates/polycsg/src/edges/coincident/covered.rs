@@ -9,7 +9,8 @@
 //! ```
 
 use super::{Fate, cells::Cells};
-use crate::base::corners::corners;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{corners::corners, sort::sort};
 use crate::edges::{EdgeRing, Edges};
 use crate::expression::{simple_ring::winds_once, winding::WindingNumbers};
 use crate::predicates::{Side, is_inside, lexicographic, side};
@@ -119,9 +120,17 @@ pub(super) struct CoveredRings {
 
 impl CoveredRings {
     /// Whether so many rings are united, and their boxes lie so deep, that looking for covered ones pays.
-    pub(super) fn pays(&mut self, edges: &Edges, winding: &WindingNumbers) -> bool {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn pays(
+        &mut self,
+        edges: &Edges,
+        winding: &WindingNumbers,
+        meter: &Meter<'_>,
+    ) -> Result<bool, Refusal> {
         if edges.rings().len() < FEW {
-            return false;
+            return Ok(false);
         }
         let is_united = |ring: &&EdgeRing| ring.counter.is_some_and(|counter| winding.is_union(counter));
         let united = edges.rings().iter().filter(is_united);
@@ -135,21 +144,36 @@ impl CoveredRings {
         let is_deep = area * step as f64 > DEEP * quarter(low, high);
         if is_deep {
             self.sheets.clear();
-            self.sheets.extend(united.map(|&ring| Sheet::of(edges, ring)));
-            self.keep_once_wound(edges);
+            meter.for_all(united, |&ring| self.sheets.push(Sheet::of(edges, ring)))?;
+            self.keep_once_wound(edges, meter)?;
         }
-        is_deep
+        Ok(is_deep)
     }
 
     /// Finds the rings that others cover: these represent them, and take over the vertices that touch them. A vertex of
     /// a covered ring on the union's border is on that of the covering one. O(n log n).
-    pub(super) fn find(&mut self, edges: &Edges, fates: &mut [Fate], touched: &mut Vec<(u32, DVec2)>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn find(
+        &mut self,
+        edges: &Edges,
+        fates: &mut [Fate],
+        touched: &mut Vec<(u32, DVec2)>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let cells = Cells::over(edges.points(), edges.rings().len());
         self.largest.clear();
         self.largest.resize(cells.len(), [NONE; LARGEST]);
-        self.sheets.sort_by(|a, b| quarter(b.low, b.high).total_cmp(&quarter(a.low, a.high)));
+        let from_largest = |a: &Sheet, b: &Sheet| {
+            let by_size = quarter(b.low, b.high).total_cmp(&quarter(a.low, a.high));
+            by_size.then(a.ring.start.cmp(&b.ring.start))
+        };
+        sort(&mut self.sheets, from_largest, meter)?;
         let mut room = CELLS_PER_EDGE * edges.len();
+        let mut tally = meter.tally();
         for (i, sheet) in (0..).zip(&self.sheets) {
+            tally.add((sheet.ring.end - sheet.ring.start) as usize)?;
             let near = self.largest[cells.at(sheet.low * 0.5 + sheet.high * 0.5) as usize];
             let same = |other: &&u32| self.sheets[**other as usize].ring.counter == sheet.ring.counter;
             let larger = near.iter().take_while(|&&other| other != NONE).filter(same);
@@ -159,16 +183,18 @@ impl CoveredRings {
                 other.add_touched(edges, sheet, touched);
             } else if room > 0 && sheet.is_convex(edges) {
                 for cell in cells.within(sheet.low, sheet.high).flatten().take(room) {
+                    tally.add(1)?;
                     room -= 1;
                     let free = self.largest[cell as usize].iter_mut().find(|place| **place == NONE);
                     free.into_iter().for_each(|place| *place = i);
                 }
             }
         }
+        Ok(())
     }
 
     /// Keeps the rings of operands that have one alone, or several that are simple and all run one way: not those with holes.
-    fn keep_once_wound(&mut self, edges: &Edges) {
+    fn keep_once_wound(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
         let operand = |ring: &EdgeRing| ring.origin.operand as usize;
         let count = edges.rings().iter().map(operand).max().map_or(0, |most| most + 1);
         self.counts.clear();
@@ -176,11 +202,14 @@ impl CoveredRings {
         edges.rings().iter().for_each(|ring| self.counts[operand(ring)] += 1);
         self.ways.clear();
         self.ways.resize(count, [false; 2]);
+        let mut tally = meter.tally();
         for ring in edges.rings().iter().filter(|ring| self.counts[operand(ring)] > 1) {
+            tally.add((ring.end - ring.start) as usize)?;
             let winds = winds_once(&edges.points()[ring.start as usize..=ring.end as usize]);
             let way = &mut self.ways[operand(ring)];
             *way = [way[0] | (winds != Some(1)), way[1] | (winds != Some(-1))];
         }
         self.sheets.retain(|sheet| self.ways[operand(&sheet.ring)] != [true; 2]);
+        Ok(())
     }
 }

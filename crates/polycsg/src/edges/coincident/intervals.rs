@@ -1,8 +1,8 @@
 //! Edges that overlap on one line, cut at all their ends: one edge for each interval, with the sum of all changes there.
 
-use crate::base::meter::Meter;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 use crate::edges::{Change, Edges};
-use crate::error::Error;
 use crate::predicates::lexicographic;
 use glam::DVec2;
 use std::cmp::{Ordering, Reverse};
@@ -35,20 +35,22 @@ impl Intervals {
         overlapping: &[u32],
         united: &mut Edges,
         meter: &Meter<'_>,
-    ) -> Result<(), Error> {
-        self.list_ends(edges, overlapping);
+    ) -> Result<(), Refusal> {
+        self.list_ends(edges, overlapping, meter)?;
         self.sums.clear();
         self.over.clear();
         let ends = std::mem::take(&mut self.ends);
+        let mut tally = meter.tally();
         let mut places = ends.chunk_by(|a, b| a.point == b.point).peekable();
         while let Some(place) = places.next() {
             place.iter().for_each(|end| self.pass(edges, *end));
+            tally.add(place.len())?;
             let start = place[0].point;
             if let (Some(next), Some(first)) = (places.peek(), self.first_over(edges, start)) {
                 self.changes.clear();
                 let changes = self.sums.iter().map(|(&counter, &winds)| Change { counter, winds });
                 self.changes.extend(changes);
-                meter.spend(self.changes.len())?;
+                tally.add(self.changes.len())?;
                 united.add_edge(start, edges.origin(first));
                 united.end_ring(Some(next[0].point), &self.changes);
             }
@@ -57,13 +59,13 @@ impl Intervals {
         Ok(())
     }
 
-    fn list_ends(&mut self, edges: &Edges, overlapping: &[u32]) {
+    fn list_ends(&mut self, edges: &Edges, overlapping: &[u32], meter: &Meter<'_>) -> Result<(), Refusal> {
         self.ends.clear();
         self.ends.extend(overlapping.iter().flat_map(|&edge| {
             let [low, high] = low_and_high(edges, edge);
             [LineEnd { point: low, edge, starts: true }, LineEnd { point: high, edge, starts: false }]
         }));
-        self.ends.sort_unstable_by(|a, b| lexicographic(a.point, b.point));
+        sort(&mut self.ends, |a, b| lexicographic(a.point, b.point), meter)
     }
 
     /// Takes up an edge that starts, or drops one that ends.

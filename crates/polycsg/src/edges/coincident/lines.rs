@@ -3,6 +3,8 @@
 //! Edges are brought together by rounded slopes and rounded distances from the origin, and whether they lie on one line is
 //! decided exactly. What rounding keeps apart is not found, which costs time only.
 
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 use crate::edges::Edges;
 use crate::predicates::{Side, lexicographic, side};
 use glam::DVec2;
@@ -60,24 +62,29 @@ pub(super) struct Lines {
 
 impl Lines {
     /// Finds the edges that overlap. O(n log n).
-    pub(super) fn find(&mut self, edges: &Edges) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn find(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.members.clear();
         self.ends.clear();
         let mut all = std::mem::take(&mut self.lines);
         all.clear();
         let spans = edges.rings().iter().filter(|ring| ring.counter.is_some());
-        all.extend(spans.flat_map(|ring| ring.start..ring.end).map(|edge| EdgeLine::of(edges, edge)));
-        all.sort_unstable_by(|a, b| a.is_steep.cmp(&b.is_steep).then(a.slope.total_cmp(&b.slope)));
+        let lines = spans.flat_map(|ring| ring.start..ring.end).map(|edge| EdgeLine::of(edges, edge));
+        meter.extend(&mut all, lines)?;
+        sort(&mut all, |a, b| a.is_steep.cmp(&b.is_steep).then(a.slope.total_cmp(&b.slope)), meter)?;
         let size = edges.points().iter().fold(0.0, |size: f64, p| size.max(p.abs().max_element()));
         let parallel = |a: &EdgeLine, b: &EdgeLine| a.is_steep == b.is_steep && b.slope - a.slope <= SLOPE;
         for parallel in all.chunk_by_mut(parallel) {
             let slope = parallel[0].slope;
             parallel.iter_mut().for_each(|edge| edge.distance = edge.distance(slope));
-            parallel.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance));
+            sort(parallel, |a, b| a.distance.total_cmp(&b.distance), meter)?;
             let near = |a: &EdgeLine, b: &EdgeLine| b.distance - a.distance <= DISTANCE * size;
-            parallel.chunk_by_mut(near).for_each(|near| self.add_lines(near));
+            parallel.chunk_by_mut(near).try_for_each(|near| self.add_lines(near, meter))?;
         }
         self.lines = all;
+        Ok(())
     }
 
     /// The edges of each component.
@@ -87,17 +94,18 @@ impl Lines {
     }
 
     /// Adds the components of edges that are about on one line.
-    fn add_lines(&mut self, mut near: &mut [EdgeLine]) {
+    fn add_lines(&mut self, mut near: &mut [EdgeLine], meter: &Meter<'_>) -> Result<(), Refusal> {
         for _ in 0..LINES {
-            let [first, _, ..] = near else { return };
+            let [first, _, ..] = near else { return Ok(()) };
             let line = [first.low, first.high];
             near.sort_by_key(|edge| !edge.is_on(line));
             let count = near.partition_point(|edge| edge.is_on(line));
             let (on_line, others) = near.split_at_mut(count);
-            on_line.sort_unstable_by(|a, b| lexicographic(a.low, b.low).then(a.edge.cmp(&b.edge)));
+            sort(on_line, |a, b| lexicographic(a.low, b.low).then(a.edge.cmp(&b.edge)), meter)?;
             self.add_components(on_line);
             near = others;
         }
+        Ok(())
     }
 
     /// Adds the components of edges of one line, in the order of their lower ends.

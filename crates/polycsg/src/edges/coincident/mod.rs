@@ -24,9 +24,8 @@ mod sample;
 mod table;
 mod touched;
 
-use crate::base::meter::Meter;
+use crate::base::meter::{Meter, Refusal, Tally};
 use crate::edges::{Change, END, EdgeRing, Edges};
-use crate::error::Error;
 use crate::expression::{csg::Csg, winding::WindingNumbers};
 use crate::spatial::strips::Strips;
 use covered::CoveredRings;
@@ -89,6 +88,9 @@ pub(crate) struct CoincidentEdges {
 impl CoincidentEdges {
     /// Drops what others cover, and lets one edge stand for all that coincide with it, if a good part of all edges coincide. What
     /// leads on is joined, which changes the order of edges, if asked for.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
     pub(crate) fn unite(
         &mut self,
         edges: &mut Edges,
@@ -96,44 +98,54 @@ impl CoincidentEdges {
         winding: &mut WindingNumbers,
         strips: &mut Strips,
         joins: bool,
-    ) {
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.joins = joins;
-        self.drop_covered(edges, winding);
-        if self.sample.pays(edges) {
-            winding.share(csg, strips);
+        self.drop_covered(edges, winding, meter)?;
+        if self.sample.pays(edges, meter)? {
+            winding.share(csg, strips, meter)?;
             edges.count_by(winding);
-            self.table.group(edges, &mut self.fates);
-            self.decide(edges);
-            self.find_touched(edges);
-            self.link(edges);
+            self.table.group(edges, &mut self.fates, meter)?;
+            self.decide(edges, meter)?;
+            self.find_touched(edges, meter)?;
+            self.link(edges, meter)?;
             std::mem::swap(edges, &mut self.united);
         }
+        Ok(())
     }
 
     /// Drops the rings of a union that others of it cover.
-    fn drop_covered(&mut self, edges: &mut Edges, winding: &WindingNumbers) {
-        if self.covered.pays(edges, winding) {
+    fn drop_covered(
+        &mut self,
+        edges: &mut Edges,
+        winding: &WindingNumbers,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        if self.covered.pays(edges, winding, meter)? {
             self.table.clear(edges, &mut self.fates);
-            self.touched.set(edges, |touched| self.covered.find(edges, &mut self.fates, touched));
-            self.decide(edges);
-            self.link(edges);
+            self.touched.clear();
+            self.covered.find(edges, &mut self.fates, self.touched.inside_mut(), meter)?;
+            self.touched.sort(edges, meter)?;
+            self.decide(edges, meter)?;
+            self.link(edges, meter)?;
             std::mem::swap(edges, &mut self.united);
         }
+        Ok(())
     }
 
     /// Cuts the edges that overlap in part, and lets one edge stand for all in each interval.
     ///
     /// # Errors
     /// Those of the meter's limits, by the sums of all intervals.
-    pub(crate) fn cut(&mut self, edges: &mut Edges, meter: &Meter<'_>) -> Result<(), Error> {
-        self.lines.find(edges);
+    pub(crate) fn cut(&mut self, edges: &mut Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
+        self.lines.find(edges, meter)?;
         self.table.clear(edges, &mut self.fates);
         self.touched.clear();
         for &edge in self.lines.components().flatten() {
             self.fates[edge as usize] = Fate::Represented;
         }
-        self.decide(edges);
-        self.link(edges);
+        self.decide(edges, meter)?;
+        self.link(edges, meter)?;
         for overlapping in self.lines.components() {
             self.intervals.add(edges, overlapping, &mut self.united, meter)?;
         }
@@ -142,8 +154,10 @@ impl CoincidentEdges {
     }
 
     /// Finds the edges whose changes add up to nothing, and those where they are not those of the edge before.
-    fn decide(&mut self, edges: &Edges) {
+    fn decide(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
+        let mut tally = meter.tally();
         for ring in edges.rings() {
+            tally.add((ring.end - ring.start) as usize)?;
             let mut before = None;
             for edge in ring.start..ring.end {
                 // Half of the edges of a layer: not worth a call.
@@ -157,6 +171,7 @@ impl CoincidentEdges {
                 self.decide_on(edges, ring, ring.start, before);
             }
         }
+        Ok(())
     }
 
     /// Decides on an edge that stands for others or itself, behind another one of its ring; returns what it stands for if it is
@@ -202,26 +217,29 @@ impl CoincidentEdges {
     }
 
     /// Finds what the edges touch that are gone. Where that takes too long, they are kept after all, each by itself.
-    fn find_touched(&mut self, edges: &Edges) {
+    fn find_touched(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.touched.clear();
         let any = self.fates.contains(&Fate::Gone);
-        if any && !self.touched.find(edges, &self.fates) {
+        if any && !self.touched.find(edges, &self.fates, meter)? {
             self.touched.clear();
             self.fates.iter_mut().filter(|fate| **fate == Fate::Gone).for_each(|fate| *fate = Fate::Starts);
         }
+        Ok(())
     }
 
     /// Puts the rings that are whole, and of all others what is left, joined where it leads on.
-    fn link(&mut self, edges: &Edges) {
+    fn link(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.united.clear();
         self.runs.all.clear();
+        let mut tally = meter.tally();
         for &ring in edges.rings() {
+            tally.add((ring.end - ring.start) as usize)?;
             let fate = |edge: u32| self.fates[edge as usize];
             match (ring.start..ring.end).find(|&edge| fate(edge) == Fate::Starts) {
                 Some(first) => {
                     self.add_runs(ring, first);
                     if !self.joins {
-                        self.add_open_rings(edges);
+                        self.add_open_rings(edges, &mut tally)?;
                     }
                 }
                 None if fate(ring.start) == Fate::GoesOn => {
@@ -231,19 +249,21 @@ impl CoincidentEdges {
                 None => {}
             }
         }
-        self.add_open_rings(edges);
+        self.add_open_rings(edges, &mut tally)
     }
 
-    fn add_open_rings(&mut self, edges: &Edges) {
+    fn add_open_rings(&mut self, edges: &Edges, tally: &mut Tally<'_>) -> Result<(), Refusal> {
         let mut runs = std::mem::take(&mut self.runs);
-        runs.join(edges);
+        runs.join(edges, tally)?;
         for (ring, is_open) in runs.rings() {
+            tally.add(ring.len())?;
             ring.iter().flat_map(|run| run.spans(edges)).for_each(|span| self.add_edges(edges, span));
             let end = ring.last().filter(|_| is_open).map(|run| run.end);
             self.end_ring(edges, ring[0].start, end);
         }
         runs.all.clear();
         self.runs = runs;
+        Ok(())
     }
 
     /// Goes once round a ring, from an edge that starts a run.

@@ -1,7 +1,8 @@
 //! Runs of edges that change the same. Those that lead on from one another become one ring: what is left of neighbours whose
 //! common border is gone is a closed one, which meets nothing in the corners of the border.
 
-use crate::base::id::index;
+use crate::base::meter::{Refusal, Tally};
+use crate::base::{id::index, sort::sort};
 use crate::edges::{Change, Edges};
 use crate::predicates::lexicographic;
 use std::{cmp::Ordering, ops::Range};
@@ -49,16 +50,21 @@ pub(super) struct EdgeRuns {
 
 impl EdgeRuns {
     /// Finds out which runs lead on to which: of those that change the same to the first at the point that no other does.
-    pub(super) fn join(&mut self, edges: &Edges) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn join(&mut self, edges: &Edges, tally: &mut Tally<'_>) -> Result<(), Refusal> {
         let EdgeRuns { all, by_start, next, goes_on, .. } = self;
         let start = |run: u32| edges.point(all[run as usize].start);
         by_start.clear();
         by_start.extend((0..index(all.len())).filter(|&run| all[run as usize].change.is_some()));
-        by_start.sort_unstable_by(|&a, &b| lexicographic(start(a), start(b)).then(a.cmp(&b)));
+        let by_place = |&a: &u32, &b: &u32| lexicographic(start(a), start(b)).then(a.cmp(&b));
+        sort(by_start, by_place, tally.meter())?;
         next.clear();
         goes_on.clear();
         goes_on.resize(all.len(), false);
         for run in &*all {
+            tally.add(1)?;
             let end = edges.point(run.end);
             let first = by_start.partition_point(|&other| lexicographic(start(other), end) == Ordering::Less);
             let mut there = by_start[first..].iter().take(AT_ONE_POINT);
@@ -69,6 +75,7 @@ impl EdgeRuns {
             other.into_iter().for_each(|&other| goes_on[other as usize] = true);
         }
         self.order();
+        Ok(())
     }
 
     /// Lists the runs ring by ring: the open rings from their first run on, then what is left, which closes.
@@ -98,6 +105,7 @@ impl EdgeRuns {
 #[cfg(test)]
 mod tests {
     use super::{EdgeRun, EdgeRuns};
+    use crate::base::meter::Meter;
     use crate::edges::{Change, Edges, Origin};
     use glam::DVec2;
 
@@ -120,7 +128,7 @@ mod tests {
                 end,
                 change,
             }));
-            runs.join(&edges);
+            runs.join(&edges, &mut Meter::default().tally()).expect("no limit was given");
             runs.rings().map(|(ring, open)| (ring.iter().map(|run| run.start).collect(), open)).collect()
         };
         assert_eq!(joined([Some(change); 2]), [(vec![2, 5], false)]);

@@ -1,6 +1,8 @@
 //! Whether many edges coincide, by the ends of all edges where they are few, and of those at some points where they are many.
 //! The points are chosen by their digits, so that the order of the input, its scale and quarter turns do not matter.
 
+use crate::base::meter::{Meter, Refusal};
+use crate::base::parts::Numbered;
 use crate::base::{hash::mixed, id::index, threads::Threads};
 use crate::edges::Edges;
 use glam::DVec2;
@@ -28,11 +30,14 @@ pub(super) struct EdgeSample {
 
 impl EdgeSample {
     /// Whether to look for the edges that coincide.
-    pub(super) fn pays(&mut self, edges: &Edges) -> bool {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn pays(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<bool, Refusal> {
         match edges.len() {
-            ..FEW => false,
-            FEW..MANY => self.of_all(edges),
-            MANY.. => self.at_some_points(edges),
+            ..FEW => Ok(false),
+            FEW..MANY => Ok(self.of_all(edges)),
+            MANY.. => self.at_some_points(edges, meter),
         }
     }
 
@@ -56,21 +61,22 @@ impl EdgeSample {
         SHARE * coincide > edges.len()
     }
 
-    fn at_some_points(&mut self, edges: &Edges) -> bool {
+    fn at_some_points(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<bool, Refusal> {
         let shift = 64 - (edges.len() / POINTS).min(RAREST).ilog2();
         self.keys.clear();
         Threads::for_edges(edges.len()).list(edges.len(), &mut self.keys, |slots, keys| {
-            let points = edges.points()[slots.clone()].iter();
-            for (slot, _) in (index(slots.start)..).zip(points).filter(|&(_, &p)| digits(p) >> shift == 0) {
-                let leaving = edges.is_vertex(slot).then(|| edges.at(slot));
-                keys.extend(leaving.into_iter().flatten().map(|edge| (key(edges, edge), edge)));
-            }
-        });
+            let first = index(slots.start);
+            meter.for_each(Numbered(&edges.points()[slots]), |(i, &p)| {
+                if digits(p) >> shift == 0 && edges.is_vertex(first + i) {
+                    keys.extend(edges.at(first + i).map(|edge| (key(edges, edge), edge)));
+                }
+            })
+        })?;
         self.keys.sort_unstable();
         self.keys.dedup();
         let count = self.keys.len();
         self.keys.dedup_by_key(|&mut (key, _)| key);
-        SHARE * (count - self.keys.len()) > count
+        Ok(SHARE * (count - self.keys.len()) > count)
     }
 }
 

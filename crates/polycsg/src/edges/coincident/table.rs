@@ -2,6 +2,7 @@
 
 use super::Fate;
 use crate::base::hash::mixed;
+use crate::base::meter::{Meter, Refusal};
 use crate::edges::Edges;
 use crate::predicates::Segment;
 use glam::DVec2;
@@ -44,14 +45,24 @@ impl Table {
     }
 
     /// Groups the edges that bound something by their ends; the first of each group represents the others.
-    pub(super) fn group(&mut self, edges: &Edges, fates: &mut Vec<Fate>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn group(
+        &mut self,
+        edges: &Edges,
+        fates: &mut Vec<Fate>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         self.clear(edges, fates);
         self.firsts.clear();
         self.firsts.resize(2 * edges.len(), NONE);
+        let mut tally = meter.tally();
         for ring in edges.rings().iter().filter(|ring| ring.counter.is_some()) {
             let slots = ring.start as usize..ring.end as usize + 1;
             let mut key = mixed(edges.point(ring.start));
             for (edge, ends) in (ring.start..).zip(edges.points()[slots].windows(2)) {
+                tally.add(1)?;
                 let next_key = mixed(ends[1]);
                 let key = std::mem::replace(&mut key, next_key).wrapping_add(next_key);
                 if !self.is_first(edges.points(), edge, [ends[0], ends[1]], key) {
@@ -59,6 +70,7 @@ impl Table {
                 }
             }
         }
+        Ok(())
     }
 
     /// Whether an edge is the first with its ends; else it joins the list of the first.

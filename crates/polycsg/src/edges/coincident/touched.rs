@@ -1,7 +1,8 @@
 //! Vertices of edges that are gone, where they touch edges that are left: they become vertices of one of these.
 
 use super::{Fate, cells::Cells};
-use crate::base::{corners::corners, id::index};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{corners::corners, id::index, sort::sort};
 use crate::edges::Edges;
 use crate::predicates::{Side, is_inside, lexicographic, side};
 use glam::{BVec2, DVec2};
@@ -44,21 +45,25 @@ pub(super) struct Touched {
 
 impl Touched {
     /// Finds them; false where the edges that are left are too long, or all too close together, for that.
-    pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate]) -> bool {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn find(&mut self, edges: &Edges, fates: &[Fate], meter: &Meter<'_>) -> Result<bool, Refusal> {
         self.left.clear();
         self.left.extend((0..).zip(fates).filter(|(_, fate)| fate.is_kept()).map(|(edge, _)| edge));
         if fates.len() <= FEW_SLOTS {
             self.list_between(edges, fates);
             if self.left.len() * self.between.len() <= FEW_PAIRS {
-                self.look_at_all(edges);
-                return true;
+                self.look_at_all(edges, meter)?;
+                return Ok(true);
             }
         }
         let cells = Cells::over(edges.points(), (CELLS_PER_LEFT * self.left.len()).min(fates.len() / 2));
-        self.list(edges, cells) && {
-            self.count(cells.columns());
-            self.look(edges, cells, fates)
+        if !self.list(edges, cells, meter)? {
+            return Ok(false);
         }
+        self.count(cells.columns());
+        self.look(edges, cells, fates, meter)
     }
 
     /// No points.
@@ -66,11 +71,9 @@ impl Touched {
         self.inside.clear();
     }
 
-    /// Takes points inside edges from elsewhere.
-    pub(super) fn set(&mut self, edges: &Edges, list: impl FnOnce(&mut Vec<(u32, DVec2)>)) {
-        self.inside.clear();
-        list(&mut self.inside);
-        self.sort(edges);
+    /// The points inside edges, to be listed from elsewhere and sorted.
+    pub(super) fn inside_mut(&mut self) -> &mut Vec<(u32, DVec2)> {
+        &mut self.inside
     }
 
     /// The points inside some edges, by edge and in order along each.
@@ -84,7 +87,7 @@ impl Touched {
     }
 
     /// Lists the edges that are left cell by cell.
-    fn list(&mut self, edges: &Edges, cells: Cells) -> bool {
+    fn list(&mut self, edges: &Edges, cells: Cells, meter: &Meter<'_>) -> Result<bool, Refusal> {
         let touched = |edge: u32| {
             let [a, b] = edges.segment(edge);
             cells.within(a.min(b), a.max(b)).flatten().map(|cell| cell as usize)
@@ -92,12 +95,14 @@ impl Touched {
         self.starts.clear();
         self.starts.resize(cells.len() + 2, 0);
         let mut room = MORE + CELLS_PER_EDGE * edges.len();
+        let mut tally = meter.tally();
         for &edge in &self.left {
             for cell in touched(edge) {
                 if room == 0 {
-                    return false;
+                    return Ok(false);
                 }
                 room -= 1;
+                tally.add(1)?;
                 self.starts[cell + 2] += 1;
             }
         }
@@ -108,11 +113,12 @@ impl Touched {
         self.near.resize(self.starts.last().copied().unwrap_or(0) as usize, 0);
         for &edge in &self.left {
             for cell in touched(edge) {
+                tally.add(1)?;
                 self.near[self.starts[cell + 1] as usize] = edge;
                 self.starts[cell + 1] += 1;
             }
         }
-        true
+        Ok(true)
     }
 
     /// Counts the cells that edges which are left touch.
@@ -145,34 +151,43 @@ impl Touched {
     }
 
     /// Looks at all edges that are left, for each vertex between gone edges.
-    fn look_at_all(&mut self, edges: &Edges) {
+    fn look_at_all(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.inside.clear();
         let (left, between) = (std::mem::take(&mut self.left), std::mem::take(&mut self.between));
         between.iter().for_each(|&p| self.look_at(edges, &left, p));
         (self.left, self.between) = (left, between);
-        self.sort(edges);
+        self.sort(edges, meter)
     }
 
     /// Looks at those in the cells of these vertices.
-    fn look(&mut self, edges: &Edges, cells: Cells, fates: &[Fate]) -> bool {
+    fn look(
+        &mut self,
+        edges: &Edges,
+        cells: Cells,
+        fates: &[Fate],
+        meter: &Meter<'_>,
+    ) -> Result<bool, Refusal> {
         self.inside.clear();
         let mut room = MORE + PAIRS_PER_EDGE * fates.len();
         let near = std::mem::take(&mut self.near);
+        let mut tally = meter.tally();
         for (start, points) in (0..).step_by(TOGETHER).zip(edges.points().chunks(TOGETHER)) {
+            tally.add(1)?;
             if !self.are_near(cells, points) {
                 continue;
             }
             for (_, &p) in (start..).zip(points).filter(|(slot, _)| is_between_gone(edges, fates, *slot)) {
                 let cell = cells.at(p) as usize;
                 let near = &near[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-                let Some(left) = room.checked_sub(near.len()) else { return false };
+                let Some(left) = room.checked_sub(near.len()) else { return Ok(false) };
+                tally.add(1 + near.len())?;
                 self.look_at(edges, near, p);
                 room = left;
             }
         }
         self.near = near;
-        self.sort(edges);
-        true
+        self.sort(edges, meter)?;
+        Ok(true)
     }
 
     /// Whether the points' box touches cells with edges that are left.
@@ -184,12 +199,18 @@ impl Touched {
         before(right + 1, top + 1) + before(left, bottom) != before(left, top + 1) + before(right + 1, bottom)
     }
 
-    fn sort(&mut self, edges: &Edges) {
-        self.inside.sort_unstable_by(|(e, p), (f, q)| {
+    /// Sorts the points inside edges by edge and along each.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn sort(&mut self, edges: &Edges, meter: &Meter<'_>) -> Result<(), Refusal> {
+        let by_place = |(e, p): &(u32, DVec2), (f, q): &(u32, DVec2)| {
             let along = || if rises(edges, *e) { lexicographic(*p, *q) } else { lexicographic(*q, *p) };
             e.cmp(f).then_with(along)
-        });
+        };
+        sort(&mut self.inside, by_place, meter)?;
         self.inside.dedup();
+        Ok(())
     }
 
     /// Notes one of some edges that a point lies in: from there the others meet it.
@@ -226,6 +247,7 @@ fn rises(edges: &Edges, edge: u32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Fate, Touched};
+    use crate::base::meter::Meter;
     use crate::edges::coincident::table::Table;
     use crate::edges::{Change, Edges, Origin};
     use glam::DVec2;
@@ -245,12 +267,13 @@ mod tests {
         for cell in 0..columns * columns {
             add_square(&mut edges, DVec2::new(f64::from(cell % columns), f64::from(cell / columns)));
         }
-        table.group(&edges, &mut fates);
+        let meter = Meter::default();
+        table.group(&edges, &mut fates, &meter).expect("no limit was given");
         (0..)
             .zip(&mut fates)
             .filter(|(edge, _)| !table.is_alone(*edge))
             .for_each(|(_, fate)| *fate = Fate::Gone);
-        touched.find(&edges, &fates).then_some(touched.inside)
+        touched.find(&edges, &fates, &meter).expect("no limit was given").then_some(touched.inside)
     }
 
     #[test]

@@ -11,7 +11,8 @@
 //! Steep edges are few in most inputs and their boxes narrow. Where they are not, looking at them is given up.
 
 use super::{SlabDecomposition, segments::RankedSegment};
-use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort};
 use crate::predicates::{Margins, doubled_area, lexicographic};
 use std::ops::Range;
 
@@ -45,43 +46,64 @@ impl SlabDecomposition {
 
     /// Calls `visit` for pairs of points, ends of edges, the second of which is just beyond an edge that ends in the first;
     /// false when there are too many.
-    pub(crate) fn ends_beside_ends(&mut self, distance: f64, mut visit: impl FnMut(u32, u32)) -> bool {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn ends_beside_ends(
+        &mut self,
+        distance: f64,
+        meter: &Meter<'_>,
+        mut visit: impl FnMut(u32, u32),
+    ) -> Result<bool, Refusal> {
         let height = (1.0 + 2.0 * STEEP) * distance;
         let mut left = ENDS_PER_EDGE * self.segments.len();
         let mut by_height = std::mem::take(&mut self.by_height);
         let y = |rank: u32| self.ends[rank as usize].y;
-        let (mut first, mut is_in_time) = (0, true);
+        let (mut first, mut is_in_time, mut tally) = (0, true, meter.tally());
         for close in self.ends.chunk_by(|p, q| q.x - p.x <= distance) {
             by_height.clear();
             by_height.extend(index(first)..index(first + close.len()));
             first += close.len();
-            by_height.sort_unstable_by(|&i, &j| y(i).total_cmp(&y(j)));
+            sort(&mut by_height, |&i, &j| y(i).total_cmp(&y(j)), meter)?;
             for (place, &i) in by_height.iter().enumerate() {
+                tally.add(1)?;
                 for &j in by_height[place + 1..].iter().take_while(|&&j| y(j) - y(i) <= height) {
                     is_in_time &= left > 0;
                     if !is_in_time {
                         break;
                     }
                     left -= 1;
+                    tally.add(1)?;
                     self.points_at(i).for_each(|p| self.points_at(j).for_each(|q| visit(p, q)));
                 }
             }
         }
         self.by_height = by_height;
-        is_in_time
+        Ok(is_in_time)
     }
 
     /// Calls `visit` for steep edges and points, ends of others, that are not clear of them; false when there are too many.
-    pub(crate) fn ends_beside_steep_edges(&self, margins: Margins, mut visit: impl FnMut(u32, u32)) -> bool {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn ends_beside_steep_edges(
+        &self,
+        margins: Margins,
+        meter: &Meter<'_>,
+        mut visit: impl FnMut(u32, u32),
+    ) -> Result<bool, Refusal> {
         let mut left = ENDS_PER_EDGE * self.segments.len();
+        let mut tally = meter.tally();
         for &segment in &*self.segments {
+            tally.add(1)?;
             let [a, b] = self.ends_of(segment);
             if (b.y - a.y).abs() / STEEP <= b.x - a.x {
                 continue;
             }
             let ranks = self.ranks_beside(segment, margins.close);
-            let Some(fewer) = left.checked_sub(ranks.len()) else { return false };
+            let Some(fewer) = left.checked_sub(ranks.len()) else { return Ok(false) };
             left = fewer;
+            tally.add(ranks.len())?;
             let (low, high) = (a.y.min(b.y) - margins.close, a.y.max(b.y) + margins.close);
             for rank in ranks.filter(|rank| !segment.ranks.contains(rank)) {
                 let p = self.ends[rank as usize];
@@ -90,7 +112,7 @@ impl SlabDecomposition {
                 }
             }
         }
-        true
+        Ok(true)
     }
 
     /// The ends over an edge's range of abscissae, widened.

@@ -10,7 +10,8 @@
 
 use super::SlabDecomposition;
 use super::segments::{ClippedSegment, RankedSegment, Slab, parts};
-use crate::base::{id::index, meter::Meter, threads::Threads};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort, threads::Threads};
 use std::{cmp::Ordering, ops::Range};
 
 /// So many sequences of stairs are taken from a slab's spanning segments, before the rest is handed on.
@@ -50,14 +51,17 @@ fn is_lower(a: &ClippedSegment, b: &ClippedSegment) -> bool {
 
 impl SlabDecomposition {
     /// Looks into the slab of all ends.
-    pub(super) fn look_into_all(&mut self, search: Search<'_>) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn look_into_all(&mut self, search: Search<'_>) -> Result<(), Refusal> {
         self.passing.clear();
         self.starting.clear();
-        let Some(last) = self.ends.len().checked_sub(1) else { return };
+        let Some(last) = self.ends.len().checked_sub(1) else { return Ok(()) };
         let starts = self.starting_before(0..self.segments.len(), 1);
         self.start(0, starts.clone());
         self.merge(0);
-        self.descend([0, index(last)], 0, starts.end..self.segments.len(), search);
+        self.descend([0, index(last)], 0, starts.end..self.segments.len(), search)
     }
 
     /// Some of all edges, under their places for ids.
@@ -74,10 +78,17 @@ impl SlabDecomposition {
 
     /// Looks into a slab that the edges passing from `base` on come into, and that others start in; leaves those passing that
     /// go beyond it, in their order there.
-    fn descend(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
+    fn descend(
+        &mut self,
+        slab: Slab,
+        base: usize,
+        starts: Range<usize>,
+        search: Search<'_>,
+    ) -> Result<(), Refusal> {
         if self.passing.len() - base + starts.len() <= FEW_EDGES {
-            self.look_at_few(slab, base, starts.clone(), search.quest);
-            return self.pass_all(slab[1], base, starts);
+            self.look_at_few(slab, base, starts.clone(), search)?;
+            self.pass_all(slab[1], base, starts);
+            return Ok(());
         }
         let threads = Threads::for_edges(self.passing.len() - base + starts.len());
         if threads.are_many() {
@@ -88,33 +99,39 @@ impl SlabDecomposition {
             let inside = self.starting_before(rest.clone(), part[1]);
             let at_end = self.starting_before(inside.end..rest.end, part[1] + 1);
             rest.start = at_end.end;
-            self.look_into(part, base, inside, search);
+            self.look_into(part, base, inside, search)?;
             if self.found.is_over() {
                 break;
             }
             self.start(part[1], at_end);
             self.merge(base);
         }
+        Ok(())
     }
 
     /// Finds what is asked for between the stairs of a slab and all else in it; then, of what is left, in its parts. Leaves
     /// passing what goes beyond it, and in `starting` what started in it and does so.
-    pub(super) fn look_into(&mut self, slab: Slab, base: usize, starts: Range<usize>, search: Search<'_>) {
+    pub(super) fn look_into(
+        &mut self,
+        slab: Slab,
+        base: usize,
+        starts: Range<usize>,
+        search: Search<'_>,
+    ) -> Result<(), Refusal> {
         let Search { quest, meter } = search;
-        self.found.allow(meter.spend(self.passing.len() - base + starts.len()));
         let is_column = quest == Quest::Pairs && self.is_column(slab);
         if is_column {
-            self.look_into_column(slab, base, starts.clone());
+            self.look_into_column(slab, base, starts.clone(), meter)?;
         }
         let child = self.passing.len();
         if is_column || (quest == Quest::Below && self.queries_in(slab).is_empty()) {
             self.pass_all(slab[1], child, starts);
         } else {
-            self.sort_out(slab, base, starts.clone());
-            self.look_at_spanning(slab, search);
+            self.sort_out(slab, base, starts.clone(), meter)?;
+            self.look_at_spanning(slab, search)?;
             if slab[1] - slab[0] > 1 && !self.found.is_over() {
-                self.hand_on(slab);
-                self.descend(slab, child, starts, search);
+                self.hand_on(slab, meter)?;
+                self.descend(slab, child, starts, search)?;
             }
         }
         self.starting.clear();
@@ -122,25 +139,27 @@ impl SlabDecomposition {
         self.starting.extend(started);
         self.passing.truncate(child);
         self.pass(slab[1], base);
+        Ok(())
     }
 
     /// Finds what is asked for between the stairs of a slab and all else in it: at first all that spans it may be stairs.
-    fn look_at_spanning(&mut self, slab: Slab, Search { quest, meter }: Search<'_>) {
+    fn look_at_spanning(&mut self, slab: Slab, search: Search<'_>) -> Result<(), Refusal> {
         let is_last = slab[1] - slab[0] == 1;
         let mut round = 0;
         while !self.stairs.is_empty() && !self.found.is_over() {
             round += 1;
-            self.found.allow(meter.spend(self.stairs.len()));
+            search.meter.spend(self.stairs.len())?;
             self.choose_stairs(slab);
-            match quest {
-                Quest::Pairs => self.compare_stairs(slab),
-                Quest::Below => self.queries_in(slab).for_each(|query| self.look_at_stairs(query, slab)),
+            match search.quest {
+                Quest::Pairs => self.compare_stairs(slab, search.meter)?,
+                Quest::Below => self.look_at_queries(slab, search.meter)?,
             }
             self.stairs.clear();
             if round < ROUNDS || is_last {
                 self.stairs.append(&mut self.spanning);
             }
         }
+        Ok(())
     }
 
     pub(super) fn is_column(&self, [left, right]: Slab) -> bool {
@@ -148,25 +167,31 @@ impl SlabDecomposition {
     }
 
     /// Takes apart the edges that span a slab, in their order, and those that end or start in it.
-    fn sort_out(&mut self, slab: Slab, base: usize, starts: Range<usize>) {
+    fn sort_out(
+        &mut self,
+        slab: Slab,
+        base: usize,
+        starts: Range<usize>,
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
         let (mut stairs, mut partial) = (std::mem::take(&mut self.stairs), std::mem::take(&mut self.partial));
         self.spanning.clear();
         stairs.clear();
         partial.clear();
-        for passing in &self.passing[base..] {
+        meter.for_each(&self.passing[base..], |passing| {
             let right = passing.segment.ranks[1].min(slab[1]);
             let clipped =
                 ClippedSegment { heights: [passing.heights[0], self.height(passing, right)], ..*passing };
             if right == slab[1] { stairs.push(clipped) } else { partial.push(clipped) }
-        }
-        partial.extend(self.edges(starts).map(|segment| self.clip(segment, slab)));
+        })?;
+        meter.extend(&mut partial, self.edges(starts).map(|segment| self.clip(segment, slab)))?;
         (self.stairs, self.partial) = (stairs, partial);
-        self.sort_ties(slab);
+        self.sort_ties(slab, meter)
     }
 
     /// Lets the edges that are left of a slab's spanning segments, and those that end in it, pass into its parts.
-    fn hand_on(&mut self, slab: Slab) {
-        self.spanning.sort_unstable_by(by_height);
+    fn hand_on(&mut self, slab: Slab, meter: &Meter<'_>) -> Result<(), Refusal> {
+        sort(&mut self.spanning, by_height, meter)?;
         let mut left = self.spanning.iter().peekable();
         for ending in self.partial.iter().take_while(|ending| ending.segment.ranks[0] <= slab[0]) {
             while let Some(span) = left.next_if(|span| is_lower(span, ending)) {
@@ -175,6 +200,7 @@ impl SlabDecomposition {
             self.passing.push(*ending);
         }
         self.passing.extend(left);
+        Ok(())
     }
 
     /// Moves the passing edges on to a rank that some of them do not reach.
@@ -238,7 +264,13 @@ impl SlabDecomposition {
     }
 
     /// Looks at each of a few edges in a slab.
-    fn look_at_few(&mut self, slab: Slab, base: usize, starts: Range<usize>, quest: Quest) {
+    fn look_at_few(
+        &mut self,
+        slab: Slab,
+        base: usize,
+        starts: Range<usize>,
+        Search { quest, meter }: Search<'_>,
+    ) -> Result<(), Refusal> {
         let mut few = std::mem::take(&mut self.partial);
         few.clear();
         few.extend(self.passing[base..].iter().map(|passing| {
@@ -250,10 +282,13 @@ impl SlabDecomposition {
             Quest::Pairs => self.compare_all(slab, &few),
             Quest::Below => {
                 let queries = self.queries_in(slab);
-                queries.for_each(|query| few.iter().for_each(|edge| self.look_at(query, edge.segment)));
+                meter.for_each(queries, |query| {
+                    few.iter().for_each(|edge| self.look_at(query, edge.segment));
+                })?;
             }
         }
         self.partial = few;
+        self.found.check(meter)
     }
 
     /// Finds the pairs among a few edges that may meet in a slab.

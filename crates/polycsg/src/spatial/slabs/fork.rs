@@ -10,7 +10,8 @@
 use super::SlabDecomposition;
 use super::descent::{Search, by_height};
 use super::segments::{ClippedSegment, Slab, parts};
-use crate::base::{id::index, threads::Threads};
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort, threads::Threads};
 use std::{ops::Range, sync::Arc};
 
 impl SlabDecomposition {
@@ -23,24 +24,32 @@ impl SlabDecomposition {
         starts: Range<usize>,
         search: Search<'_>,
         threads: Threads,
-    ) {
+    ) -> Result<(), Refusal> {
         let looked_into = threads.map(parts(slab), |part| {
-            let mut own = self.part(part, base, starts.clone());
+            let mut own = self.part(part, base, starts.clone(), search.meter)?;
             let inside = own.starting_before(starts.clone(), part[0] + 1).end..starts.end;
             let inside = own.starting_before(inside, part[1]);
-            own.look_into(part, 0, inside, search);
-            (part, own.found, own.nearest)
+            own.look_into(part, 0, inside, search)?;
+            Ok((part, own.found, own.nearest))
         });
-        for (part, found, nearest) in looked_into {
-            self.found.add_part(found);
+        for part in looked_into {
+            let (part, found, nearest) = part?;
+            self.found.add_part(found, search.meter)?;
             for (query, nearest) in self.queries_in(part).zip(nearest) {
                 self.nearest[self.queries[query].1 as usize] = nearest;
             }
         }
+        Ok(())
     }
 
     /// A part with what comes into it, of the edges passing from `base` on and others that start further left, and its queries.
-    fn part(&self, part: Slab, base: usize, starts: Range<usize>) -> SlabDecomposition {
+    fn part(
+        &self,
+        part: Slab,
+        base: usize,
+        starts: Range<usize>,
+        meter: &Meter<'_>,
+    ) -> Result<SlabDecomposition, Refusal> {
         let mut own = SlabDecomposition {
             ends: Arc::clone(&self.ends),
             segments: Arc::clone(&self.segments),
@@ -63,9 +72,11 @@ impl SlabDecomposition {
         };
         let starting = self.edges(self.starting_before(starts, part[0] + 1));
         let starting = starting.map(|segment| self.clip(segment, [segment.ranks[0]; 2]));
-        let passing = self.passing[base..].iter().copied().chain(starting).filter(goes_on);
-        own.passing.extend(passing.map(at_side));
-        own.passing.sort_unstable_by(by_height);
-        own
+        let passing = self.passing[base..].iter().copied().chain(starting);
+        meter.for_all(passing, |passing| {
+            own.passing.extend(goes_on(&passing).then(|| at_side(passing)));
+        })?;
+        sort(&mut own.passing, by_height, meter)?;
+        Ok(own)
     }
 }

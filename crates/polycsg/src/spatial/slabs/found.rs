@@ -1,6 +1,7 @@
 //! The pairs found so far, counted before they are too many.
 
-use crate::error::Error;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 
 /// See the module's page. A pair may be found in several slabs, and is dropped when they are counted.
 #[derive(Debug, Default)]
@@ -10,9 +11,9 @@ pub(super) struct Found {
     /// How many only come near one another, those found twice counted twice, and how many may.
     near: usize,
     most_near: usize,
+    /// How many of all of these are counted as work.
+    counted: usize,
     is_over: bool,
-    /// That the limits of the call are met.
-    refused: Option<Error>,
 }
 
 impl Found {
@@ -22,8 +23,8 @@ impl Found {
         self.most = most;
         self.near = 0;
         self.most_near = near;
+        self.counted = 0;
         self.is_over = false;
-        self.refused = None;
     }
 
     /// Starts over for a part of a search.
@@ -32,25 +33,14 @@ impl Found {
     }
 
     /// Adds what was found in a part.
-    pub(super) fn add_part(&mut self, part: Found) {
-        self.refused = self.refused.or(part.refused);
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn add_part(&mut self, part: Found, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.pairs.extend(part.pairs);
         self.near += part.near;
         self.is_over |= part.is_over || self.near > self.most_near;
-        if self.pairs.len() / 2 > self.most {
-            self.count();
-        }
-    }
-
-    /// Ends the search where work is more than allowed.
-    pub(super) fn allow(&mut self, allowed: Result<(), Error>) {
-        self.refused = self.refused.or(allowed.err());
-        self.is_over |= self.refused.is_some();
-    }
-
-    /// Whether all work was allowed.
-    pub(super) fn allowed(&self) -> Result<(), Error> {
-        self.refused.map_or(Ok(()), Err)
+        self.check(meter)
     }
 
     /// Adds pairs, each with whether it may be new, which may only come near one another; when there are too many, nothing. Those
@@ -67,17 +57,28 @@ impl Found {
             self.near += count;
             self.is_over = self.near > self.most_near;
         }
-        if self.pairs.len() / 2 > self.most {
-            self.count();
-        }
+    }
+
+    /// Counts what was added since the last call as work, and finds out whether there are too many.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    #[inline]
+    pub(super) fn check(&mut self, meter: &Meter<'_>) -> Result<(), Refusal> {
+        meter.spend_up_to(self.pairs.len() + self.near, &mut self.counted)?;
+        if self.pairs.len() / 2 > self.most { self.count(meter).map(drop) } else { Ok(()) }
     }
 
     /// Drops what was found twice; returns whether there are too many even so.
-    pub(super) fn count(&mut self) -> bool {
-        self.pairs.sort_unstable();
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn count(&mut self, meter: &Meter<'_>) -> Result<bool, Refusal> {
+        sort(&mut self.pairs, Ord::cmp, meter)?;
         self.pairs.dedup();
+        self.counted = self.pairs.len() + self.near;
         self.is_over |= self.pairs.len() > self.most;
-        self.is_over
+        Ok(self.is_over)
     }
 
     /// Whether more were added than there is room for: there is nothing left to look for.

@@ -61,8 +61,8 @@ mod spanning;
 #[cfg(test)]
 mod tests;
 
-use crate::base::{id::index, meter::Meter, threads::Threads};
-use crate::error::Error;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort_on, threads::Threads};
 use crate::predicates::{Segment, Side, lexicographic, side};
 use descent::{Quest, Search};
 use found::Found;
@@ -127,46 +127,54 @@ pub(crate) struct SlabDecomposition {
 
 impl SlabDecomposition {
     /// Indexes edges between points, given by the numbers of their ends, under their ids.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
     pub(crate) fn build(
         &mut self,
         points: impl Iterator<Item = DVec2>,
         edges: impl Iterator<Item = (u32, [u32; 2])>,
-    ) {
-        let threads = self.rank(points);
+        meter: &Meter<'_>,
+    ) -> Result<(), Refusal> {
+        let threads = self.rank(points, meter)?;
         let segment = |(id, ends): (u32, [u32; 2])| {
             let [a, b] = ends.map(|point| self.ranks[point as usize]);
             RankedSegment { ranks: [a.min(b), a.max(b)], id }
         };
         self.all.clear();
-        self.all.extend(edges.map(segment).filter(|segment| segment.ranks[0] < segment.ranks[1]));
+        meter.for_all(edges.map(segment), |segment| {
+            self.all.extend((segment.ranks[0] < segment.ranks[1]).then_some(segment));
+        })?;
         let key = |ranks: [u32; 2]| u64::from(ranks[0]) << 32 | u64::from(ranks[1]);
-        threads.sort(&mut self.all, |a, b| (key(a.ranks), a.id).cmp(&(key(b.ranks), b.id)));
+        sort_on(threads, &mut self.all, |a, b| (key(a.ranks), a.id).cmp(&(key(b.ranks), b.id)), meter)?;
         let segments = Arc::make_mut(&mut self.segments);
         segments.clear();
-        segments.extend(self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]));
+        let first_of_each = self.all.chunk_by(|a, b| a.ranks == b.ranks).map(|same| same[0]);
+        meter.extend(segments, first_of_each)?;
         let highest = self.ends.iter().fold(0.0, |y: f64, p| y.max(p.y.abs()));
         self.error = highest * SLACK + f64::MIN_POSITIVE;
         self.narrow();
         let is_moderate = |x: f64| x == 0.0 || (LEAST..=1.0 / LEAST).contains(&x.abs());
         self.has_slopes = self.ends.iter().all(|p| is_moderate(p.x) && is_moderate(p.y));
+        Ok(())
     }
 
-    fn rank(&mut self, points: impl Iterator<Item = DVec2>) -> Threads {
+    fn rank(&mut self, points: impl Iterator<Item = DVec2>, meter: &Meter<'_>) -> Result<Threads, Refusal> {
         self.sorted.clear();
-        self.sorted.extend(points.zip(0..));
+        meter.extend(&mut self.sorted, points.zip(0..))?;
         let threads = Threads::for_edges(self.sorted.len());
-        threads.sort(&mut self.sorted, |a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
+        sort_on(threads, &mut self.sorted, |a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)), meter)?;
         let ends = Arc::make_mut(&mut self.ends);
         ends.clear();
         self.ranks.clear();
         self.ranks.resize(self.sorted.len(), 0);
-        for &(point, number) in &self.sorted {
+        meter.for_each(&self.sorted[..], |&(point, number)| {
             if ends.last() != Some(&point) {
                 ends.push(point);
             }
             self.ranks[number as usize] = index(ends.len() - 1);
-        }
-        threads
+        })?;
+        Ok(threads)
     }
 
     /// The points by their numbers, those in one place together.
@@ -182,19 +190,38 @@ impl SlabDecomposition {
 
     /// Calls `visit` once for each pair of edges that may meet but in one common end or both, by their ids; of edges with
     /// both ends in common, one stands for all against another such.
-    pub(crate) fn pairs(&mut self, visit: impl FnMut(u32, u32)) {
-        self.find(usize::MAX, &Meter::default()).expect("no limit was given");
-        self.visit(visit);
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(crate) fn pairs(
+        &mut self,
+        meter: &Meter<'_>,
+        mut visit: impl FnMut(u32, u32),
+    ) -> Result<(), Refusal> {
+        self.find(usize::MAX, meter)?;
+        let mut tally = meter.tally();
+        self.visit(|e, f| {
+            visit(e, f);
+            tally.add(1)
+        })
     }
 
-    /// The same for the pairs that were found.
-    pub(crate) fn visit(&self, mut visit: impl FnMut(u32, u32)) {
+    /// The same for the pairs that were found, until one fails.
+    ///
+    /// # Errors
+    /// That of the first visit with one.
+    pub(crate) fn visit(
+        &self,
+        mut visit: impl FnMut(u32, u32) -> Result<(), Refusal>,
+    ) -> Result<(), Refusal> {
         for segments in self.found.pairs() {
-            let [e, f] = segments.map(|segment| self.duplicates_of(segment));
-            visit(self.all[e.start].id, self.all[f.start].id);
-            f.clone().skip(1).for_each(|g| visit(self.all[e.start].id, self.all[g].id));
-            e.skip(1).for_each(|g| visit(self.all[g].id, self.all[f.start].id));
+            let [mut e, mut f] = segments.map(|segment| self.duplicates_of(segment));
+            let [first, other] = [&e, &f].map(|same| self.all[same.start].id);
+            visit(first, other)?;
+            f.by_ref().skip(1).try_for_each(|g| visit(first, self.all[g].id))?;
+            e.by_ref().skip(1).try_for_each(|g| visit(self.all[g].id, other))?;
         }
+        Ok(())
     }
 
     /// The places in `all` of the edges that a segment stands for.
@@ -212,13 +239,12 @@ impl SlabDecomposition {
     ///
     /// # Errors
     /// Those of the meter's limits.
-    pub(crate) fn find(&mut self, most: usize, meter: &Meter<'_>) -> Result<bool, Error> {
+    pub(crate) fn find(&mut self, most: usize, meter: &Meter<'_>) -> Result<bool, Refusal> {
         let near = if self.reach > 0.0 { NEAR * self.segments.len() } else { usize::MAX };
         self.found.start(most, near);
         self.queries.clear();
-        self.look_into_all(Search { quest: Quest::Pairs, meter });
-        self.found.allowed()?;
-        Ok(!self.found.count())
+        self.look_into_all(Search { quest: Quest::Pairs, meter })?;
+        Ok(!self.found.count(meter)?)
     }
 
     /// An edge, directed to the right.

@@ -3,8 +3,8 @@
 use super::SlabDecomposition;
 use super::descent::{Quest, Search};
 use super::segments::{ClippedSegment, NONE, RankedSegment, Slab};
-use crate::base::meter::Meter;
-use crate::error::Error;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::sort::sort;
 use crate::predicates::{Side, height_order, side};
 use glam::DVec2;
 use std::{cmp::Ordering, ops::Range, sync::Arc};
@@ -20,22 +20,21 @@ impl SlabDecomposition {
         points: &[u32],
         found: &mut Vec<Option<u32>>,
         meter: &Meter<'_>,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Refusal> {
         self.queries.clear();
-        self.queries.extend((0..).zip(points).map(|(place, &point)| (self.ranks[point as usize], place)));
-        self.queries.sort_unstable();
+        let ranked = (0..).zip(points).map(|(place, &point)| (self.ranks[point as usize], place));
+        meter.extend(&mut self.queries, ranked)?;
+        sort(&mut self.queries, Ord::cmp, meter)?;
         self.nearest.clear();
         self.nearest.resize(points.len(), NONE);
         let SlabDecomposition { segments, ends, found: pairs, .. } = self;
         pairs.start(0, 0);
         Arc::make_mut(segments)
             .retain(|segment| ends[segment.ranks[0] as usize].x < ends[segment.ranks[1] as usize].x);
-        self.look_into_all(Search { quest: Quest::Below, meter });
-        self.found.allowed()?;
+        self.look_into_all(Search { quest: Quest::Below, meter })?;
         found.clear();
         let id = |&segment: &u32| self.segments.get(segment as usize).map(|segment| segment.id);
-        found.extend(self.nearest.iter().map(id));
-        Ok(())
+        meter.extend(found, self.nearest.iter().map(id))
     }
 
     /// The queries that lie in a slab but not at its right side.
@@ -44,8 +43,15 @@ impl SlabDecomposition {
         first..end
     }
 
-    /// Takes the highest stair below a query.
-    pub(super) fn look_at_stairs(&mut self, query: usize, slab: Slab) {
+    /// Takes the highest stair below each query in a slab.
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn look_at_queries(&mut self, slab: Slab, meter: &Meter<'_>) -> Result<(), Refusal> {
+        meter.for_each(self.queries_in(slab), |query| self.look_at_stairs(query, slab))
+    }
+
+    fn look_at_stairs(&mut self, query: usize, slab: Slab) {
         let rank = self.queries[query].0;
         let p = self.ends[rank as usize];
         let at = |stair: &ClippedSegment| {

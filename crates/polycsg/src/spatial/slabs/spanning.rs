@@ -3,27 +3,32 @@
 use super::order::Order;
 use super::segments::{ClippedSegment, RankedSegment, Slab};
 use super::{FEW, SlabDecomposition};
-use crate::base::id::index;
+use crate::base::meter::{Meter, Refusal};
+use crate::base::{id::index, sort::sort};
 use glam::DVec2;
 use std::ops::Range;
 
 impl SlabDecomposition {
     /// Sorts spanning segments whose heights at the left side do not tell them apart: exactly, unless all that comes near is
     /// asked for; those from one point by their other heights.
-    pub(super) fn sort_ties(&mut self, slab: Slab) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn sort_ties(&mut self, slab: Slab, meter: &Meter<'_>) -> Result<(), Refusal> {
         let SlabDecomposition { stairs, ends, slack, reach, .. } = self;
         let order = Order { ends, slack: *slack, is_exact: *reach == 0.0 };
         let is_tied = |a: &ClippedSegment, b: &ClippedSegment| b.heights[0] - a.heights[0] <= order.slack;
         for tied in stairs.chunk_by_mut(is_tied).filter(|tied| tied.len() > 1) {
-            if order.is_exact {
-                tied.sort_by(|a, b| order.compare(a, b, slab));
-            } else {
-                tied.sort_unstable_by(|a, b| {
-                    let by_height = |side: usize| a.heights[side].total_cmp(&b.heights[side]);
-                    by_height(0).then(by_height(1)).then(a.segment.id.cmp(&b.segment.id))
-                });
-            }
+            let compare = |a: &ClippedSegment, b: &ClippedSegment| {
+                let by_height = |side: usize| a.heights[side].total_cmp(&b.heights[side]);
+                match order.is_exact {
+                    true => order.compare(a, b, slab),
+                    false => by_height(0).then(by_height(1)).then(a.segment.id.cmp(&b.segment.id)),
+                }
+            };
+            sort(tied, compare, meter)?;
         }
+        Ok(())
     }
 
     /// Leaves of the stairs those of which none meets another, from below each that is above the last one; the rest are
@@ -51,14 +56,18 @@ impl SlabDecomposition {
 
     /// Finds the pairs that may meet in a slab of a stair and another edge; takes what is coincident with a stair from the
     /// spanning segments.
-    pub(super) fn compare_stairs(&mut self, slab: Slab) {
+    ///
+    /// # Errors
+    /// Those of the meter's limits.
+    pub(super) fn compare_stairs(&mut self, slab: Slab, meter: &Meter<'_>) -> Result<(), Refusal> {
         self.coincident.clear();
         if !self.spanning.is_empty() {
             self.sort_out_coincident(slab);
-            self.compare_coincident(slab);
+            self.compare_coincident(slab, meter)?;
             let mut guess = 0;
             for i in 0..self.spanning.len() {
                 guess = self.compare(self.spanning[i], slab, true, Some(guess));
+                self.found.check(meter)?;
             }
         }
         let mut guess = 0;
@@ -66,7 +75,9 @@ impl SlabDecomposition {
             let clipped = self.partial[i];
             let comes_in = clipped.segment.ranks[0] <= slab[0];
             guess = self.compare(clipped, slab, true, comes_in.then_some(guess));
+            self.found.check(meter)?;
         }
+        Ok(())
     }
 
     /// Takes the spanning segments that are coincident with a stair.
@@ -114,10 +125,12 @@ impl SlabDecomposition {
 
     /// Finds the pairs that may meet in a slab of coincident segments and stairs, and of coincident segments of one stair or of
     /// stairs near one another.
-    fn compare_coincident(&mut self, slab: Slab) {
+    fn compare_coincident(&mut self, slab: Slab, meter: &Meter<'_>) -> Result<(), Refusal> {
         for i in 0..self.coincident.len() {
             self.compare(self.coincident[i].1, slab, false, None);
+            self.found.check(meter)?;
         }
+        let mut tally = meter.tally();
         for (i, &(place, e)) in self.coincident.iter().enumerate() {
             let [left, right] = self.stairs[place].heights;
             let are_near = |other: usize| {
@@ -129,8 +142,11 @@ impl SlabDecomposition {
                 if self.may_meet(&e, &f, slab) {
                     self.found.add(std::iter::once(([e.segment.id, f.segment.id], true)), true);
                 }
+                tally.add(1)?;
             }
+            self.found.check(meter)?;
         }
+        Ok(())
     }
 
     /// Finds the stairs, and if asked for their coincident segments, that an edge may meet in a slab. Takes and returns the

@@ -10,13 +10,27 @@ fn find(slabs: &mut SlabDecomposition) -> bool {
     slabs.find(usize::MAX, &Meter::default()).expect("no limit was given")
 }
 
-fn found(segments: &[Segment]) -> BTreeSet<[u32; 2]> {
-    let mut slabs = SlabDecomposition::default();
-    let count = u32::try_from(segments.len()).unwrap();
-    slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+fn slabs_of(segments: &[Segment]) -> SlabDecomposition {
+    let (mut slabs, meter) = (SlabDecomposition::default(), Meter::default());
+    let numbered = (0..u32::try_from(segments.len()).unwrap()).map(|i| (i, [2 * i, 2 * i + 1]));
+    slabs.build(segments.iter().flatten().copied(), numbered, &meter).expect("no limit was given");
+    slabs
+}
+
+fn visited(slabs: &SlabDecomposition) -> BTreeSet<[u32; 2]> {
     let mut found = BTreeSet::new();
-    slabs.pairs(|i, j| assert!(found.insert([i.min(j), i.max(j)]), "{i} and {j} twice"));
+    let note = |i: u32, j| {
+        assert!(found.insert([i.min(j), i.max(j)]), "{i} and {j} twice");
+        Ok(())
+    };
+    slabs.visit(note).expect("no limit was given");
     found
+}
+
+fn found(segments: &[Segment]) -> BTreeSet<[u32; 2]> {
+    let mut slabs = slabs_of(segments);
+    assert!(find(&mut slabs));
+    visited(&slabs)
 }
 
 /// Whether two segments have a point in common that is not an end of both.
@@ -74,11 +88,9 @@ fn segments(
 
 /// What is below each end, looked for in the slabs and among all segments.
 fn check_below(segments: &[Segment]) {
-    let mut slabs = SlabDecomposition::default();
-    let count = u32::try_from(segments.len()).unwrap();
-    slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+    let mut slabs = slabs_of(segments);
     let mut found = Vec::new();
-    let points: Vec<u32> = (0..2 * count).collect();
+    let points: Vec<u32> = (0..2 * u32::try_from(segments.len()).unwrap()).collect();
     slabs.below(&points, &mut found, &Meter::default()).expect("no limit was given");
     let covers = |s: Segment, p: DVec2| s[0].x <= p.x && p.x < s[1].x && side(s[0], s[1], p) == Side::Left;
     for (found, p) in found.iter().zip(segments.iter().flatten()) {
@@ -126,14 +138,11 @@ fn is_near(s: Segment, p: DVec2) -> bool {
 
 /// Widened slabs report whatever meets or comes near one another, unless it has an end in common, or there is too much of it.
 fn check_near(segments: &[Segment]) {
-    let mut slabs = SlabDecomposition::default();
-    let count = u32::try_from(segments.len()).unwrap();
-    slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+    let mut slabs = slabs_of(segments);
     if !slabs.widen(REACH) || !find(&mut slabs) {
         return;
     }
-    let mut found = BTreeSet::new();
-    slabs.visit(|i, j| assert!(found.insert([i.min(j), i.max(j)]), "{i} and {j} twice"));
+    let found = visited(&slabs);
     let is_steep = |[a, b]: Segment| (b.y - a.y).abs() > 100.0 * (b.x - a.x).abs();
     let shares = |s: Segment, t: Segment| s.iter().any(|p| t.contains(p));
     for (i, &s) in segments.iter().enumerate().filter(|&(_, &s)| !is_steep(s)) {
@@ -289,8 +298,7 @@ fn bundles_are_compared_once() {
         .chain((0..60).map(|i| [along(i, 0.1 + f64::from(i) / 80.0), DVec2::new(0.5, 1.0 + f64::from(i))]))
         .collect();
     check(&bundle);
-    let mut slabs = SlabDecomposition::default();
-    slabs.build(bundle.iter().flatten().copied(), (0..120).map(|i| (i, [2 * i, 2 * i + 1])));
+    let mut slabs = slabs_of(&bundle);
     assert!(find(&mut slabs));
     let room = slabs.found.room();
     assert!(room < 60_000, "{room}");
@@ -318,9 +326,7 @@ fn edges_nearly_through_a_point_cost_nothing() {
         assert!(segments.len() > 400, "{}", segments.len());
         for turn in [|p| p, |p: DVec2| DVec2::new(p.y, p.x)] {
             let segments: Vec<Segment> = segments.iter().map(|s| s.map(turn)).collect();
-            let mut slabs = SlabDecomposition::default();
-            let count = u32::try_from(segments.len()).unwrap();
-            slabs.build(segments.iter().flatten().copied(), (0..count).map(|i| (i, [2 * i, 2 * i + 1])));
+            let mut slabs = slabs_of(&segments);
             assert!(find(&mut slabs));
             let room = slabs.found.room();
             assert!(room < 20 * segments.len(), "{room} for {}", segments.len());
@@ -339,16 +345,10 @@ fn parallel_edges_a_few_roundings_apart() {
         let part = |i: u32| f64::from(i * 211 % 400) / 1000.0;
         (0..400).map(move |i| [at(i, part(i)), at(i, 1.0 - part(i + 100))]).collect::<Vec<Segment>>()
     };
-    let slabs_of = |segments: &[Segment]| {
-        let mut slabs = SlabDecomposition::default();
-        slabs.build(segments.iter().flatten().copied(), (0..400).map(|i| (i, [2 * i, 2 * i + 1])));
-        slabs
-    };
     let near = edges(2e-14);
     let mut slabs = slabs_of(&near);
     assert!(slabs.widen(4e-16) && find(&mut slabs));
-    let mut found = BTreeSet::new();
-    slabs.visit(|i, j| assert!(found.insert([i.min(j), i.max(j)])));
+    let found = visited(&slabs);
     let closest = |i: u32| near[i as usize][0].x.max(near[i as usize + 1][0].x) < near[i as usize][1].x;
     assert!((0..399).filter(|&i| closest(i)).all(|i| found.contains(&[i, i + 1])));
     assert!(slabs.found.room() < 64 * 400, "{}", slabs.found.room());
