@@ -65,16 +65,16 @@ impl Run<'_> {
 
     /// The solution; direct light is gathered for the last mesh only.
     pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
-        let (mut closure, mut direct) = (None, None);
+        let (mut closure, mut gathered) = (None, None);
         if converged {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
         if converged && last && self.options.gather {
-            let gathered = gather(scene, &mut self);
-            direct = self.survive(gathered)?;
+            let direct = gather(scene, &mut self);
+            gathered = self.survive(direct)?;
         }
-        Ok(self.into_solution(converged, closure, direct))
+        Ok(self.into_solution(converged, closure, gathered))
     }
 
     /// The largest |ΣF − 1| over the elements, for pieces that cover the patches once. Not found where that takes more

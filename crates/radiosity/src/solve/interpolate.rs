@@ -10,20 +10,20 @@ use std::collections::BTreeMap;
 
 impl Solution {
     /// Irradiance at the vertices, vertices × bands, W/m²: the area-weighted mean of the elements around each vertex.
-    /// Where direct light was gathered, that of the emitters is exact and only the rest is such a mean. O(elements).
+    /// Light that was gathered at the vertices is theirs, and only the rest is such a mean. O(elements).
     #[must_use]
     pub fn vertex_irradiance(&self) -> Vec<f64> {
         let means = Means::of(&self.mesh, self.bands);
-        let Some(direct) = &self.direct else {
+        let Some(gathered) = &self.gathered else {
             return means.shared(&self.welds, means.around(&self.irradiance));
         };
-        let indirect: Vec<f64> =
-            self.irradiance.iter().zip(&direct.elements).map(|(all, emitters)| all - emitters).collect();
+        let rest: Vec<f64> =
+            self.irradiance.iter().zip(&gathered.elements).map(|(all, gathered)| all - gathered).collect();
         let sums = means
-            .around(&indirect)
+            .around(&rest)
             .into_iter()
-            .zip(&direct.vertices)
-            .map(|(rest, emitters)| (rest + emitters).max(0.0));
+            .zip(&gathered.vertices)
+            .map(|(rest, gathered)| (rest + gathered).max(0.0));
         means.shared(&self.welds, sums.collect())
     }
 

@@ -5,6 +5,7 @@
 //! drive        one mesh from the first step to its solution: which method, the steps, closure, direct light
 //! levels       light between parts of patches of any size; the mesh follows
 //! direct       light straight from the emitters, exact at every vertex
+//! receivers    where the light of vertices is gathered
 //! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! shoot        progressive refinement: the piece with most to shoot shoots, again and again
 //! follow       the light followed through the rooms
@@ -50,6 +51,7 @@ pub(crate) mod options;
 mod overlap;
 pub(crate) mod progress;
 pub(crate) mod quality;
+mod receivers;
 mod refine;
 mod relax;
 mod rooms;

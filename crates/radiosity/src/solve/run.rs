@@ -1,6 +1,6 @@
 //! A run of the solver: all that its steps share.
 use super::ledger::{Ledger, bound, gaps};
-use super::solution::{DirectLight, Solution};
+use super::solution::{Gathered, Solution};
 use super::{factors::Factors, interpolate::welds, light::Light, magnitude::largest, options::Options};
 use super::{
     progress::{LinkedTiles, Moment, Progress},
@@ -129,7 +129,7 @@ impl<'r> Run<'r> {
             radiosity: light.radiosity.clone(),
             irradiance: light.irradiance.clone(),
             reflectance: light.reflectance.clone(),
-            direct: None,
+            gathered: None,
             welds: welds.clone(),
             ledger: ledger.clone(),
             bound: bound.clone(),
@@ -167,12 +167,12 @@ impl<'r> Run<'r> {
         largest(&self.unshot) <= self.options.tolerance && self.light.live().all(within)
     }
 
-    /// What comes out: with the closure and the direct light, where these were found.
+    /// What comes out: with the closure and what was gathered, where these were found.
     pub(super) fn into_solution(
         self,
         converged: bool,
         closure: Option<f64>,
-        direct: Option<DirectLight>,
+        gathered: Option<Gathered>,
     ) -> Solution {
         Solution {
             bands: self.light.bands,
@@ -181,7 +181,7 @@ impl<'r> Run<'r> {
             radiosity: self.light.radiosity,
             irradiance: self.light.irradiance,
             reflectance: self.light.reflectance,
-            direct,
+            gathered,
             welds: self.welds,
             bound: self.bound,
             estimate: None,

@@ -40,8 +40,8 @@ pub struct Solution {
     pub seconds: f64,
     /// Reflectance of every element, elements × bands.
     pub(crate) reflectance: Vec<f64>,
-    /// Light straight from the emitters, where it was gathered.
-    pub(crate) direct: Option<DirectLight>,
+    /// What the vertices receive, where it was gathered.
+    pub(crate) gathered: Option<Gathered>,
     /// For each vertex the first one that it shares its light with.
     pub(crate) welds: Vec<usize>,
 }
@@ -97,10 +97,10 @@ impl Solution {
     }
 }
 
-/// Light that comes straight from the emitters, found exactly.
+/// Light that was gathered at every vertex: straight from the emitters, or all of it.
 #[derive(Clone, Debug)]
-pub(crate) struct DirectLight {
-    /// Irradiance of the elements, elements × bands.
+pub(crate) struct Gathered {
+    /// How much of the irradiance of the elements it is, elements × bands.
     pub(crate) elements: Vec<f64>,
     /// Irradiance of the vertices, vertices × bands.
     pub(crate) vertices: Vec<f64>,

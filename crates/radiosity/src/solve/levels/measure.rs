@@ -92,7 +92,7 @@ impl View {
 }
 
 /// What a point sees of a tile: the integrals over it of the kernel times each function.
-fn look(tiling: &Tiling<'_>, point: &DifferentialArea, to: &Tile, among: &[usize]) -> [f64; 3] {
+pub(super) fn look(tiling: &Tiling<'_>, point: &DifferentialArea, to: &Tile, among: &[usize]) -> [f64; 3] {
     let rises = |place: &DVec3| point.normal().dot(*place - point.position()) > NEAR * tiling.size;
     if !to.outline.corners.iter().any(|(_, place)| rises(place)) {
         return [0.0; 3];

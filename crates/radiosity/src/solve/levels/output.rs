@@ -1,6 +1,7 @@
 //! The light of the leaves on a mesh.
 use super::equilibrium::{Equilibrium, largest};
 use super::flow::Linear;
+use super::pieces::Piece;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use crate::mesh::cover::Cover;
@@ -68,6 +69,16 @@ impl LeafLight {
         self.received.push(received);
     }
 
+    /// The mean irradiance in each band.
+    pub(super) fn means(&self, equilibrium: &Equilibrium<'_>) -> Vec<f64> {
+        let areas: Vec<f64> = (0..equilibrium.leaves().len()).map(|leaf| equilibrium.area(leaf)).collect();
+        let mean = |received: &Vec<Linear>| {
+            let power: f64 = received.iter().zip(&areas).map(|(light, area)| area * light[0]).sum();
+            power / areas.iter().sum::<f64>()
+        };
+        self.received.iter().map(mean).collect()
+    }
+
     /// Unshot over emitted power in the worst band.
     pub(super) fn unshot(&self) -> f64 {
         let shares = self.unshot.iter().zip(&self.ledger.emitted).filter(|(_, emitted)| **emitted > 0.0);
@@ -82,12 +93,11 @@ impl LeafLight {
     }
 }
 
-/// The mesh of the leaves, and the leaf that each element is a part of.
-fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Cover {
+/// A mesh of pieces of the leaves, and the leaf that each element is a part of.
+pub(super) fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, pieces: &[Piece]) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
-    for (leaf, &index) in equilibrium.leaves().iter().enumerate() {
-        let tile = &tiling.tiles[index];
-        of_patch[tile.patch].push((leaf, tile.outline.corners.as_slice()));
+    for Piece { leaf, outline } in pieces {
+        of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
     let mut cover = Cover::default();
     for (patch, tiles) in of_patch.iter().enumerate() {
@@ -107,9 +117,13 @@ fn positive(tile: &Tile, [mean, first, second]: Linear) -> Linear {
     [mean.max(0.0), share * first, share * second]
 }
 
-/// The solution on a mesh, as far as it is known here.
-pub(super) fn solution(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
-    let Cover { mesh, owners } = cover(tiling, equilibrium);
+/// The solution on a mesh of the leaves, as far as it is known here.
+pub(super) fn solution(
+    tiling: &Tiling<'_>,
+    equilibrium: &Equilibrium<'_>,
+    light: &LeafLight,
+    Cover { mesh, owners }: Cover,
+) -> Solution {
     let bands = light.received.len();
     let [mut irradiance, mut radiosity, mut reflectance] =
         [(); 3].map(|()| Vec::with_capacity(owners.len() * bands));
@@ -135,7 +149,7 @@ pub(super) fn solution(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, light
         ledger: light.ledger.clone(),
         bound: light.bound.clone(),
         estimate: None,
-        direct: None,
+        gathered: None,
         closure: None,
         scaling: Some(equilibrium.scaling()),
         shots: 0,

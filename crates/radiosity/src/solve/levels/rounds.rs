@@ -1,17 +1,23 @@
 //! Rounds of linking, solving and refining.
 use super::budget::{BandLight, cut, limits};
-use super::equilibrium::largest;
+use super::equilibrium::{Equilibrium, largest};
 use super::estimate::estimate;
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link, UNSEEN};
 use super::links::Links;
-use super::output::{LeafLight, solution};
+use super::output::{LeafLight, cover, solution};
+use super::pieces::{pieces, whole};
 use super::tiling::Tiling;
+use super::vertices::Sights;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::solve::progress::{LinkedTiles, Moment, Progress};
-use crate::solve::{options::Options, solution::Solution, state::State};
+use crate::solve::{
+    options::Options,
+    solution::{Gathered, Solution},
+    state::State,
+};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
@@ -110,29 +116,23 @@ impl Levels<'_> {
 
     /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
     fn report(&mut self, state: &State) -> ControlFlow<()> {
-        let Levels { tiling, links, sent, rounds, products, start, watch, light, .. } = self;
-        let (tiling, links, sent): (&Tiling<'_>, &Links, _) = (tiling, links, &*sent);
-        let seconds = start.elapsed().as_secs_f64();
-        let so_far = || {
-            let equilibrium = links.equilibrium(tiling, true);
-            let light = LeafLight::of(tiling, &equilibrium, sent);
-            Solution { products: *products, seconds, ..solution(tiling, &equilibrium, &light) }
-        };
-        watch(&Progress {
-            moment: Moment::Round(*rounds),
-            open: &Vec::new,
-            tiles: &|| LinkedTiles { tiles: tiling.outlines(), links: links.ends() },
-            shots: 0,
+        let (stand, watch) = self.stand();
+        stand.show(watch, state)
+    }
+
+    fn stand(&mut self) -> (Stand<'_>, &mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>) {
+        let Levels { options, start, tiling, links, sent, rounds, products, light, watch, .. } = self;
+        let stand = Stand {
+            options,
+            start: *start,
+            tiling,
+            links,
+            sent,
+            rounds: *rounds,
             products: *products,
-            unshot: light.unshot(),
-            bound: &light.bound,
-            ledger: &light.ledger,
-            seconds,
-            light: &so_far,
-            state,
-        })?;
-        let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
-        if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            light,
+        };
+        (stand, watch)
     }
 
     /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
@@ -237,15 +237,85 @@ impl Levels<'_> {
             // The run is over: there is nothing to stop.
             let _ = self.report(state);
         }
-        let equilibrium = self.links.equilibrium(&self.tiling, true);
-        let estimate = estimate(&self.tiling, &self.links.all, &equilibrium, &lights, self.sent.len());
+        let fault = self.fault.take();
+        let (stand, watch) = self.stand();
+        let Stand { options, tiling, links, sent, light, .. } = stand;
+        let equilibrium = links.equilibrium(tiling, true);
+        let estimate = estimate(tiling, &links.all, &equilibrium, &lights, sent.len());
+        let shown = if converged { stand.shown(&equilibrium, watch, state)? } else { None };
+        let is_shown = shown.is_some();
+        let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            converged: converged && self.light.is_within(self.options.tolerance),
-            products: self.products,
-            seconds: self.start.elapsed().as_secs_f64(),
-            fault: self.fault,
-            ..solution(&self.tiling, &equilibrium, &self.light)
+            converged: is_shown && light.is_within(options.tolerance),
+            seconds: stand.start.elapsed().as_secs_f64(),
+            fault,
+            ..solution
         })
+    }
+}
+
+/// Where a run stands.
+struct Stand<'s> {
+    options: &'s Options,
+    start: Instant,
+    tiling: &'s Tiling<'s>,
+    links: &'s Links,
+    sent: &'s [Vec<Linear>],
+    rounds: usize,
+    products: usize,
+    light: &'s LeafLight,
+}
+
+impl Stand<'_> {
+    fn show(&self, watch: Follower<'_>, state: &State) -> ControlFlow<()> {
+        let seconds = self.start.elapsed().as_secs_f64();
+        let so_far = || {
+            let equilibrium = self.links.equilibrium(self.tiling, true);
+            let light = LeafLight::of(self.tiling, &equilibrium, self.sent);
+            Solution { seconds, ..self.solution(&equilibrium, &light) }
+        };
+        watch(&Progress {
+            moment: Moment::Round(self.rounds),
+            open: &Vec::new,
+            tiles: &|| LinkedTiles { tiles: self.tiling.outlines(), links: self.links.ends() },
+            shots: 0,
+            products: self.products,
+            unshot: self.light.unshot(),
+            bound: &self.light.bound,
+            ledger: &self.light.ledger,
+            seconds,
+            light: &so_far,
+            state,
+        })?;
+        let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
+        if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The light on the leaves.
+    fn solution(&self, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
+        let cover = cover(self.tiling, equilibrium, &whole(self.tiling, equilibrium));
+        Solution { products: self.products, ..solution(self.tiling, equilibrium, light, cover) }
+    }
+
+    /// The light on a mesh that shows it, exact at every vertex; nothing when the watcher, or the time, says to stop.
+    fn shown(
+        &self,
+        equilibrium: &Equilibrium<'_>,
+        watch: Follower<'_>,
+        state: &State,
+    ) -> Result<Option<Solution>, Error> {
+        let Stand { tiling, links, sent, light, .. } = self;
+        let sights = Sights::new(tiling, &links.all, sent);
+        let mut ask = || self.show(watch, state);
+        let means = light.means(equilibrium);
+        let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
+        let Some(pieces) = pieces else { return Ok(None) };
+        let cover = cover(tiling, equilibrium, &pieces);
+        let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
+        let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
+        let solution = solution(tiling, equilibrium, light, cover);
+        let gathered = Some(Gathered { elements: solution.irradiance.clone(), vertices });
+        Ok(Some(Solution { products: self.products, gathered, ..solution }))
     }
 }

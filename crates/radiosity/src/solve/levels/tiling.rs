@@ -121,23 +121,14 @@ impl<'s> Tiling<'s> {
             .iter()
             .map(|place| if parent.is_some() { *place + (middle - *place) * WITHIN } else { *place });
         let normal = source.polygon.normal();
-        let point = |at: DVec2| {
-            DifferentialArea::new(frame.lift(at), normal).map(|p| p.owned_by(self.surface_of[patch]))
-        };
-        let [a, b, c, d, e] = outline.points().map(point);
+        let points = self.points(patch, &outline)?;
         Ok(Tile {
             patch,
             surface: self.surface_of[patch],
             reflectance: reflectance(source, &places),
             polygon: PlanarPolygon::new([within.collect::<Vec<_>>()]).map_err(refused)?,
-            area: outline.area * frame.unit() * frame.unit(),
-            points: [
-                a.map_err(refused)?,
-                b.map_err(refused)?,
-                c.map_err(refused)?,
-                d.map_err(refused)?,
-                e.map_err(refused)?,
-            ],
+            area: self.area(patch, &outline),
+            points,
             normal,
             is_crossed: self.contact_in(patch, &outline).is_some(),
             halves: None,
@@ -146,6 +137,24 @@ impl<'s> Tiling<'s> {
             outline,
             key,
         })
+    }
+
+    /// The points of an outline on a patch.
+    pub(super) fn points(&self, patch: usize, outline: &Outline) -> Result<[DifferentialArea; 5], Error> {
+        let (source, frame) = (&self.scene.patches[patch], self.bases[patch].frame);
+        let point = |at: DVec2| {
+            DifferentialArea::new(frame.lift(at), source.polygon.normal())
+                .map(|point| point.owned_by(self.surface_of[patch]))
+                .map_err(|error| Error::Shape { patch: source.name.clone(), source: error })
+        };
+        let [a, b, c, d, e] = outline.points().map(point);
+        Ok([a?, b?, c?, d?, e?])
+    }
+
+    /// The area of an outline on a patch, in the scene's units.
+    pub(super) fn area(&self, patch: usize, outline: &Outline) -> f64 {
+        let unit = self.bases[patch].frame.unit();
+        outline.area * unit * unit
     }
 
     /// A point of space in the frame of a patch.
@@ -158,19 +167,14 @@ impl<'s> Tiling<'s> {
         &self.bases[patch].contacts
     }
 
-    /// The halves of a tile: cut along a contact in it if there is one, else across one of its axes through the centroid. Nothing when it is too
-    /// small.
+    /// The halves of a tile: see [`cut`](Tiling::cut). Nothing when it is too small.
     pub(super) fn halve(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
         let parent = &self.tiles[tile];
         if parent.halves.is_some() || parent.area < self.least {
             return Ok(parent.halves);
         }
         let (patch, key) = (parent.patch, parent.key);
-        let frame = self.bases[patch].frame;
-        let cut = |line| parent.outline.cut(line, |flat| frame.lift(flat));
-        let contact =
-            self.contact_in(patch, &parent.outline).and_then(|[start, end]| cut([start, end - start]));
-        let Some(parts) = contact.or_else(|| cut(across(&parent.outline, axis))) else { return Ok(None) };
+        let Some(parts) = self.cut(patch, &parent.outline, axis) else { return Ok(None) };
         let way = parts[0].centroid - parts[1].centroid;
         let mut halves = [0; 2];
         for (index, part) in parts.into_iter().enumerate() {
@@ -181,6 +185,14 @@ impl<'s> Tiling<'s> {
         }
         self.tiles[tile].halves = Some(halves);
         Ok(Some(halves))
+    }
+
+    /// The halves of an outline on a patch: cut along a contact in it if there is one, else across one of its axes through the centroid.
+    pub(super) fn cut(&self, patch: usize, outline: &Outline, axis: usize) -> Option<[Outline; 2]> {
+        let frame = self.bases[patch].frame;
+        let cut = |line| outline.cut(line, |flat| frame.lift(flat));
+        let contact = self.contact_in(patch, outline).and_then(|[start, end]| cut([start, end - start]));
+        contact.or_else(|| cut(across(outline, axis)))
     }
 
     /// The contact of which most is inside an outline.
