@@ -1,4 +1,6 @@
-"""Rooms."""
+"""Rooms and signals."""
+
+import signal
 
 import numpy as np
 import pytest
@@ -26,3 +28,11 @@ def box(low, high, parts, inward):
 def room():
     """A closed room with a box in it: polygons (k, 4, 3)."""
     return np.concatenate([box((0, 0, 0), (3, 3, 3), 3, True), box((1, 1.2, 0.9), (1.7, 2, 1.8), 1, False)])
+
+
+@pytest.fixture
+def interruptible():
+    """Ctrl-C interrupts, even where the tests run in the background of a shell that ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

@@ -173,7 +173,7 @@ def crowd(count):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
-def test_ctrl_c():
+def test_ctrl_c(interruptible):
     scene = Enclosure(crowd(400))
     for long in (lambda: scene.matrix(1e-8), lambda: scene.rows(np.zeros((100_000, 3)), [0, 0, 1])):
         threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
