@@ -98,11 +98,13 @@ fn a_scene_without_light_is_solved_and_dark_by_every_method() {
 fn rooms_without_light_stay_dark() {
     let mut scene = banded(1, |_, _| 0.9, |_| 1.0);
     scene.patches.extend(room([10.0; 3], [11.0; 3], 1, 0.99, 0.0));
-    for method in [Method::Auto, Method::Shoot, Method::Cg, Method::Gmres, Method::Matrix] {
+    for method in
+        [Method::Auto, Method::Shoot, Method::Cg, Method::Gmres, Method::Matrix, Method::Hierarchical]
+    {
         let solution = solved(&scene, &Options { method, elements: 100, ..Options::default() });
         let dark =
             solution.mesh.elements.iter().zip(&solution.radiosity).filter(|(element, _)| element.patch > 5);
-        assert!(dark.map(|(_, b)| *b).all(|b| b == 0.0));
+        assert!(dark.map(|(_, b)| *b).all(|b| b == 0.0), "{method:?}");
         assert!(solution.converged);
     }
 }

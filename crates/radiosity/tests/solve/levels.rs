@@ -1,5 +1,6 @@
 //! Solving by levels.
 use crate::build::{cube, patch, polygon, room, scene, solved};
+use radiosity::formfactor::{DifferentialArea, Enclosure};
 use radiosity::{Error, Method, Options, Patch, Scene, State, glam::DVec3, solve, solve_from};
 use std::ops::ControlFlow;
 
@@ -167,4 +168,47 @@ fn a_dark_scene_is_dark() {
     let solution = solved(&cube(1, 0.5, 0.0), &options(0.01));
     assert!(solution.converged && solution.radiosity.iter().all(|b| *b == 0.0));
     assert!(solution.estimate.is_some_and(|estimate| estimate.iter().all(|e| *e == 0.0)));
+}
+
+/// A lamp, a plate askew below it, and what falls on the floor: exact at the vertices, and nearly so between them.
+#[test]
+fn shadows_are_where_points_see_them() {
+    let square = |[x, y]: [f64; 2], side: f64, z: f64, rise: f64| {
+        [[x, y, z], [x, y + side, z + rise], [x + side, y + side, z + rise], [x + side, y, z]]
+    };
+    let mut floor = square([0.0, 0.0], 4.0, 0.0, 0.0);
+    floor.reverse();
+    let lit = scene(vec![
+        patch("floor", &floor, 0.0, 0.0),
+        patch("lamp", &square([1.5, 1.5], 0.5, 3.0, 0.0), 0.0, 1.0),
+        patch("plate", &square([1.2, 1.4], 1.0, 1.0, 0.2), 0.0, 0.0),
+    ]);
+    let solution = solved(&lit, &options(0.01));
+    let shown = solution.vertex_irradiance();
+    let enclosure = Enclosure::new(lit.patches.iter().map(|patch| patch.polygon.clone()).collect());
+    let exact = |place: DVec3| {
+        let point = DifferentialArea::new(place, DVec3::Z).unwrap().owned_by(0);
+        enclosure.form_factor(&point, 1).value
+    };
+    let mut off = Vec::new();
+    for (index, element) in solution.mesh.elements.iter().enumerate().filter(|(_, of)| of.patch == 0) {
+        let between = element.corners.iter().map(|&corner| shown[corner]).sum::<f64>() / 3.0;
+        off.push((between - exact(solution.mesh.centroid(index))).abs());
+        for &corner in &element.corners {
+            let place = solution.mesh.vertices[corner];
+            if place.x.min(place.y) > 0.01 && place.x.max(place.y) < 3.99 {
+                assert!(
+                    (shown[corner] - exact(place)).abs() < 1e-3 * exact(place).max(0.01),
+                    "{place}: {} {}",
+                    shown[corner],
+                    exact(place)
+                );
+            }
+        }
+    }
+    let brightest = shown.iter().copied().fold(0.0, f64::max);
+    off.sort_by(f64::total_cmp);
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(mean < 5e-3 * brightest, "{mean} of {brightest}");
+    assert!(off[off.len() * 99 / 100] < 0.03 * brightest, "{} of {brightest}", off[off.len() * 99 / 100]);
 }

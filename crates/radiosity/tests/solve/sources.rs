@@ -2,7 +2,7 @@
 use crate::build::solved;
 use radiosity::formfactor::{DifferentialArea, unoccluded};
 use radiosity::glam::DVec3;
-use radiosity::{Options, Scene, Solution, scenes};
+use radiosity::{Method, Options, Scene, Solution, scenes};
 use std::f64::consts::PI;
 
 fn scene(name: &str) -> Scene {
@@ -136,8 +136,14 @@ fn mean(solution: &Solution, picked: impl Fn(usize, DVec3) -> bool) -> Vec<f64> 
 
 #[test]
 fn no_light_passes_the_separating_wall() {
+    for method in [Method::Auto, Method::Hierarchical] {
+        assert_dark_behind_the_wall(&Options { elements: 800, method, ..Options::default() });
+    }
+}
+
+fn assert_dark_behind_the_wall(options: &Options) {
     let scene = scene("separating-wall");
-    let solution = solved(&scene, &Options { elements: 800, ..Options::default() });
+    let solution = solved(&scene, options);
     let light = solution.vertex_irradiance();
     let lit = light.iter().copied().fold(0.0, f64::max);
     let wall = scene.patches.iter().position(|patch| patch.name == "wall-east").expect("the wall");

@@ -173,6 +173,14 @@ impl<'e> Equilibrium<'e> {
         self.leaves.iter().zip(&self.scales).zip(sent).zip(&self.missing).map(here).collect()
     }
 
+    /// Takes the light out of rooms into which none is sent: what rounding leaves there.
+    pub(super) fn darken(&self, emitted: &[Linear], light: &mut [Linear]) {
+        let mut lit = vec![false; self.first_of.len()];
+        self.room_of.iter().zip(emitted).for_each(|(room, emitted)| lit[*room] |= emitted[0] > 0.0);
+        let dark = self.room_of.iter().zip(light).filter(|(room, _)| !lit[**room]);
+        dark.for_each(|(_, light)| *light = [0.0; 3]);
+    }
+
     /// The area of a leaf.
     pub(super) fn area(&self, leaf: usize) -> f64 {
         self.tiling.tiles[self.leaves[leaf]].area
@@ -219,19 +227,22 @@ pub(super) fn largest(light: &[Linear]) -> f64 {
     light.iter().map(|l| l[0].abs() + l[1].abs() + l[2].abs()).fold(0.0, f64::max)
 }
 
-/// Which leaves exchange light, at once or through others.
+/// Which leaves exchange light, at once or through others: the room of each, and the first leaf of each room.
 fn rooms(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize]) -> (Vec<usize>, Vec<usize>) {
-    let patches = tiling.scene.patches.len();
-    let mut groups = UnionFind::new(patches);
+    let root_of = tiling.roots();
+    let mut groups = UnionFind::new(tiling.tiles.len());
+    for (tile, root) in root_of.iter().enumerate() {
+        groups.join(tile, *root);
+    }
     for link in links.iter().filter(|link| link.exchange[0] > 0.0) {
-        let [one, other] = link.ends.map(|end| tiling.tiles[end].patch);
+        let [one, other] = link.ends;
         groups.join(one, other);
     }
     let (numbers, firsts) = groups.number();
     let mut first_of = vec![usize::MAX; firsts.len()];
     let mut room_of = Vec::with_capacity(leaves.len());
     for (index, &leaf) in leaves.iter().enumerate() {
-        let room = numbers[tiling.tiles[leaf].patch];
+        let room = numbers[leaf];
         first_of[room] = first_of[room].min(index);
         room_of.push(room);
     }

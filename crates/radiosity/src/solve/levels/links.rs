@@ -99,7 +99,7 @@ impl Links {
     }
 
     /// ΣF of the tiles of which it is known: 1 in closed rooms, 0 under what stands on them.
-    fn known(&self, tiling: &Tiling<'_>) -> Vec<Option<f64>> {
+    pub(super) fn known(&self, tiling: &Tiling<'_>) -> Vec<Option<f64>> {
         let of = |(tile, enclosed): (&Tile, &Enclosed)| match enclosed {
             Enclosed::Wholly if !tile.is_crossed => Some(1.0),
             Enclosed::Covered if !tile.is_crossed => Some(0.0),

@@ -1,8 +1,11 @@
 //! Solving by levels: light goes between tiles of any size, large ones where that is right enough.
 //!
 //! ```text
-//! output        the light of the leaves on a mesh
 //! rounds        rounds: link, solve, refine where the budget of a patch is exceeded
+//! stand         where a run stands, and how its light is shown
+//! output        the light of the leaves on a mesh
+//! pieces        leaves in pieces that are small enough to be shown
+//! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by
@@ -37,6 +40,7 @@ mod pieces;
 mod roots;
 pub(super) mod rounds;
 mod shaft;
+mod stand;
 mod tile;
 mod tiling;
 mod totals;

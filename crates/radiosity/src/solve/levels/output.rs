@@ -1,12 +1,14 @@
 //! The light of the leaves on a mesh.
 use super::equilibrium::{Equilibrium, largest};
 use super::flow::Linear;
-use super::pieces::Piece;
+use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use crate::mesh::cover::Cover;
+use crate::scene::Scene;
+use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
-use crate::solve::{interpolate::welds, solution::Solution};
+use crate::solve::solution::{Gathered, Solution};
 
 /// What the leaves receive, and what is known of it.
 #[derive(Debug)]
@@ -94,9 +96,9 @@ impl LeafLight {
 }
 
 /// A mesh of pieces of the leaves, and the leaf that each element is a part of.
-pub(super) fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, pieces: &[Piece]) -> Cover {
+pub(super) fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, pieces: &[LeafPart]) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
-    for Piece { leaf, outline } in pieces {
+    for LeafPart { leaf, outline } in pieces {
         of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
     let mut cover = Cover::default();
@@ -158,4 +160,27 @@ pub(super) fn solution(
         fault: None,
         seconds: 0.0,
     }
+}
+
+/// The solution with what its vertices receive: elements are as bright as their vertices, and patches as bright as they were.
+pub(super) fn with_vertices(scene: &Scene, mut solution: Solution, vertices: Vec<f64>) -> Solution {
+    let bands = solution.bands;
+    let mean = |element: usize, band: usize| {
+        let corners = solution.mesh.elements[element].corners;
+        corners.map(|corner| vertices[corner * bands + band]).iter().sum::<f64>() / 3.0
+    };
+    let count = solution.mesh.elements.len();
+    let shown: Vec<f64> = (0..count * bands).map(|at| mean(at / bands, at % bands)).collect();
+    let [before, after] =
+        [&solution.irradiance, &shown].map(|light| solution.patch_means(light, scene.patches.len()));
+    for (at, shown) in shown.into_iter().enumerate() {
+        let (patch, band) = (solution.mesh.elements[at / bands].patch, at % bands);
+        // Where no vertex sees what the patch receives it is even.
+        let [is, was] = [after[patch][band], before[patch][band]];
+        let here = if is > 0.0 { shown * (was / is) } else { was };
+        solution.radiosity[at] += solution.reflectance[at] * (here - solution.irradiance[at]);
+        solution.irradiance[at] = here;
+    }
+    solution.gathered = Some(Gathered { elements: solution.irradiance.clone(), vertices });
+    solution
 }

@@ -8,12 +8,14 @@ use formfactor::DifferentialArea;
 
 /// Light is as bright as the eye makes it where it is more than this share of the mean.
 const DIM: f64 = 0.1;
-/// Pieces of less than this share of the scene's area are not cut.
+/// Pieces of less than this share of the scene's area are seen less: by the share of their size.
+const SMALL: f64 = 1e-4;
+/// Pieces of less than this share are not cut.
 const LEAST: f64 = 1e-6;
 
 /// A part of a leaf.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(super) struct LeafPart {
     /// Which of the leaves.
     pub(super) leaf: usize,
     pub(super) outline: Outline,
@@ -27,8 +29,9 @@ struct Measure<'m> {
 }
 
 /// The leaves as they are.
-pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<Piece> {
-    let piece = |(leaf, tile): (usize, &usize)| Piece { leaf, outline: tiling.tiles[*tile].outline.clone() };
+pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<LeafPart> {
+    let piece =
+        |(leaf, tile): (usize, &usize)| LeafPart { leaf, outline: tiling.tiles[*tile].outline.clone() };
     equilibrium.leaves().iter().enumerate().map(piece).collect()
 }
 
@@ -43,14 +46,14 @@ pub(super) fn pieces(
     means: &[f64],
     share: f64,
     ask: Ask<'_>,
-) -> Result<Option<Vec<Piece>>, Error> {
+) -> Result<Option<Vec<LeafPart>>, Error> {
     let tiling = sights.tiling;
     let dim: Vec<f64> = means.iter().map(|mean| DIM * mean).collect();
     let measure = Measure { share, dim: &dim };
-    let least = LEAST * equilibrium.leaves().iter().map(|&leaf| tiling.tiles[leaf].area).sum::<f64>();
+    let whole_area = equilibrium.leaves().iter().map(|&leaf| tiling.tiles[leaf].area).sum::<f64>();
     let (mut fine, mut open) = (Vec::new(), whole(tiling, equilibrium));
     while !open.is_empty() {
-        let tile = |piece: &Piece| equilibrium.leaves()[piece.leaf];
+        let tile = |piece: &LeafPart| equilibrium.leaves()[piece.leaf];
         let mut points: Vec<(usize, DifferentialArea)> = Vec::with_capacity(5 * open.len());
         for piece in &open {
             let on = tiling.points(tiling.tiles[tile(piece)].patch, &piece.outline)?;
@@ -60,10 +63,12 @@ pub(super) fn pieces(
         let mut parts = Vec::new();
         for (piece, light) in open.into_iter().zip(light.chunks(5 * means.len())) {
             let patch = tiling.tiles[equilibrium.leaves()[piece.leaf]].patch;
-            let is_large = tiling.area(patch, &piece.outline) > least;
-            let axis = measure.uneven(light).filter(|_| is_large);
+            let area = tiling.area(patch, &piece.outline) / whole_area;
+            let uneven = measure.uneven(light, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
+            // What stands on a leaf parts what it covers from what is lit.
+            let axis = uneven.or(tiling.is_crossed(patch, &piece.outline).then_some(0));
             match axis.and_then(|axis| tiling.cut(patch, &piece.outline, axis)) {
-                Some(halves) => parts.extend(halves.map(|outline| Piece { leaf: piece.leaf, outline })),
+                Some(halves) => parts.extend(halves.map(|outline| LeafPart { leaf: piece.leaf, outline })),
                 None => fine.push(piece),
             }
         }
@@ -73,8 +78,8 @@ pub(super) fn pieces(
 }
 
 impl Measure<'_> {
-    /// The axis along which the light of five points bends most, if that is too much.
-    fn uneven(&self, light: &[f64]) -> Option<usize> {
+    /// The axis along which the light of five points bends most, if that is more than `times` what it may.
+    fn uneven(&self, light: &[f64], times: f64) -> Option<usize> {
         let bands = self.dim.len();
         let bend = |ends: [usize; 2]| {
             let of_band = |band: usize| {
@@ -85,6 +90,6 @@ impl Measure<'_> {
             (0..bands).map(of_band).fold(0.0, f64::max)
         };
         let [long, short] = [[1, 2], [3, 4]].map(bend);
-        (long.max(short) > self.share).then_some(usize::from(short > long))
+        (long.max(short) > times * self.share).then_some(usize::from(short > long))
     }
 }

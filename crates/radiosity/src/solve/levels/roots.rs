@@ -24,10 +24,7 @@ pub(super) struct Roots {
 
 impl Roots {
     pub(super) fn new(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize], known: &[Option<f64>]) -> Roots {
-        let mut root_of: Vec<usize> = Vec::with_capacity(tiling.tiles.len());
-        for (index, tile) in tiling.tiles.iter().enumerate() {
-            root_of.push(tile.parent.map_or(index, |parent| root_of[parent]));
-        }
+        let root_of = tiling.roots();
         let mut wholes = vec![0.0; tiling.tiles.len()];
         for link in links {
             link.ends.iter().for_each(|&end| wholes[root_of[end]] += link.exchange[0]);

@@ -1,23 +1,17 @@
 //! Rounds of linking, solving and refining.
 use super::budget::{BandLight, cut, limits};
-use super::equilibrium::{Equilibrium, largest};
+use super::equilibrium::largest;
 use super::estimate::estimate;
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link, UNSEEN};
 use super::links::Links;
-use super::output::{LeafLight, cover, solution};
-use super::pieces::{pieces, whole};
+use super::output::LeafLight;
+use super::stand::{Follower, Stand};
 use super::tiling::Tiling;
-use super::vertices::Sights;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::solve::progress::{LinkedTiles, Moment, Progress};
-use crate::solve::{
-    options::Options,
-    solution::{Gathered, Solution},
-    state::State,
-};
+use crate::solve::{options::Options, solution::Solution, state::State};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
@@ -30,9 +24,6 @@ const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
 const FEW: usize = 8;
 const ALL: usize = 400;
-
-/// Whoever follows a run.
-pub(crate) type Follower<'w> = &'w mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 
 /// A run by levels.
 struct Levels<'l> {
@@ -120,7 +111,7 @@ impl Levels<'_> {
         stand.show(watch, state)
     }
 
-    fn stand(&mut self) -> (Stand<'_>, &mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>) {
+    fn stand(&mut self) -> (Stand<'_>, Follower<'_>) {
         let Levels { options, start, tiling, links, sent, rounds, products, light, watch, .. } = self;
         let stand = Stand {
             options,
@@ -153,6 +144,7 @@ impl Levels<'_> {
             let enough = equilibrium.enough(&reflectance, &light, &emitted, self.options.tolerance);
             let products =
                 Gradients::new(&equilibrium, &emitted, &reflectance).better(&mut light, enough, most);
+            equilibrium.darken(&emitted, &mut light);
             *sent = equilibrium.spread(&light);
             products
         };
@@ -237,12 +229,18 @@ impl Levels<'_> {
             // The run is over: there is nothing to stop.
             let _ = self.report(state);
         }
-        let fault = self.fault.take();
+        let mut fault = self.fault.take();
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
         let estimate = estimate(tiling, &links.all, &equilibrium, &lights, sent.len());
-        let shown = if converged { stand.shown(&equilibrium, watch, state)? } else { None };
+        let shown = match converged.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
+            Err(defect @ Error::Defect { .. }) => {
+                fault = Some(defect);
+                None
+            }
+            shown => shown?.flatten(),
+        };
         let is_shown = shown.is_some();
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
@@ -252,70 +250,5 @@ impl Levels<'_> {
             fault,
             ..solution
         })
-    }
-}
-
-/// Where a run stands.
-struct Stand<'s> {
-    options: &'s Options,
-    start: Instant,
-    tiling: &'s Tiling<'s>,
-    links: &'s Links,
-    sent: &'s [Vec<Linear>],
-    rounds: usize,
-    products: usize,
-    light: &'s LeafLight,
-}
-
-impl Stand<'_> {
-    fn show(&self, watch: Follower<'_>, state: &State) -> ControlFlow<()> {
-        let seconds = self.start.elapsed().as_secs_f64();
-        let so_far = || {
-            let equilibrium = self.links.equilibrium(self.tiling, true);
-            let light = LeafLight::of(self.tiling, &equilibrium, self.sent);
-            Solution { seconds, ..self.solution(&equilibrium, &light) }
-        };
-        watch(&Progress {
-            moment: Moment::Round(self.rounds),
-            open: &Vec::new,
-            tiles: &|| LinkedTiles { tiles: self.tiling.outlines(), links: self.links.ends() },
-            shots: 0,
-            products: self.products,
-            unshot: self.light.unshot(),
-            bound: &self.light.bound,
-            ledger: &self.light.ledger,
-            seconds,
-            light: &so_far,
-            state,
-        })?;
-        let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
-        if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    /// The light on the leaves.
-    fn solution(&self, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
-        let cover = cover(self.tiling, equilibrium, &whole(self.tiling, equilibrium));
-        Solution { products: self.products, ..solution(self.tiling, equilibrium, light, cover) }
-    }
-
-    /// The light on a mesh that shows it, exact at every vertex; nothing when the watcher, or the time, says to stop.
-    fn shown(
-        &self,
-        equilibrium: &Equilibrium<'_>,
-        watch: Follower<'_>,
-        state: &State,
-    ) -> Result<Option<Solution>, Error> {
-        let Stand { tiling, links, sent, light, .. } = self;
-        let sights = Sights::new(tiling, &links.all, sent);
-        let mut ask = || self.show(watch, state);
-        let means = light.means(equilibrium);
-        let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
-        let Some(pieces) = pieces else { return Ok(None) };
-        let cover = cover(tiling, equilibrium, &pieces);
-        let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
-        let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
-        let solution = solution(tiling, equilibrium, light, cover);
-        let gathered = Some(Gathered { elements: solution.irradiance.clone(), vertices });
-        Ok(Some(Solution { products: self.products, gathered, ..solution }))
     }
 }

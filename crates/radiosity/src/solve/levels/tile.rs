@@ -12,6 +12,9 @@ pub(super) const SQUARE: f64 = 1.0 / (REACH * REACH);
 pub(super) const OUTER: f64 = SQUARE / 2.0;
 pub(super) const INNER: f64 = 1.0 - 4.0 * OUTER;
 
+/// No tile is made longer than this many times its width.
+const SLENDER: f64 = 3.0;
+
 /// A convex polygon in the frame of its patch, with what integrals over it need.
 ///
 /// Light on it is a combination of 1 and two linear functions, which are orthogonal: zero at the centroid, 1 at the tips of
@@ -100,6 +103,29 @@ impl Outline {
         let [left, right] = parts.map(Outline::new);
         let (left, right) = (left?, right?);
         (left.area.min(right.area) > 1e-7 * self.area).then_some([left, right])
+    }
+
+    /// A line through the centroid across an axis, or across the long one of what is slender.
+    pub(super) fn across(&self, axis: usize) -> [DVec2; 2] {
+        let [long, short] = self.axes;
+        let axis = if long.length() > SLENDER * short.length() { 0 } else { axis };
+        [self.centroid, self.axes[1 - axis]]
+    }
+
+    /// How the functions of a parent read on a part of it: 1 adds to 1 only; a linear function adds its value at the centroid to 1, and its
+    /// climbs along both axes to the linear functions.
+    pub(super) fn restriction(&self, parent: &Outline) -> [f64; 6] {
+        let [a, b] = parent.linear(self.centroid);
+        let climb = |axis: DVec2| parent.axes.map(|of| axis.dot(of) / of.length_squared());
+        let [[aa, ab], [ba, bb]] = self.axes.map(climb);
+        [a, b, aa, ab, ba, bb]
+    }
+
+    /// Whether a line passes through from rim to rim.
+    pub(super) fn is_crossed_by(&self, [start, end]: [DVec2; 2]) -> bool {
+        let far = (end - start).normalize_or_zero() * self.axes[0].length() * 1e3;
+        let whole = self.within([start - far, end + far]);
+        whole > 1e-4 * self.axes[0].length() && self.within([start, end]) > (1.0 - 1e-6) * whole
     }
 
     /// How much of a line is inside: the length of that part.

@@ -13,9 +13,6 @@ use std::{f64::consts::PI, sync::Arc};
 const NEAR: f64 = 1e-9;
 /// Tiles of less than this share of the scene's area are not cut.
 const LEAST: f64 = 1e-8;
-/// No tile is made longer than this many times its width.
-const SLENDER: f64 = 3.0;
-
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
 /// quicker where no two edges are in line.
 const WITHIN: f64 = 1e-7;
@@ -35,7 +32,7 @@ pub(super) struct Tile {
     pub(super) normal: DVec3,
     pub(super) halves: Option<[usize; 2]>,
     pub(super) parent: Option<usize>,
-    /// The functions of the parent in those of this one: see [`Tiling::restriction`].
+    /// The functions of the parent in those of this one: see [`Outline::restriction`].
     pub(super) restriction: [f64; 6],
     /// Whether something else stands on it, so that a part of it may be covered.
     pub(super) is_crossed: bool,
@@ -103,13 +100,31 @@ impl<'s> Tiling<'s> {
         let (polygon, frame) = (&self.scene.patches[patch].polygon, self.bases[patch].frame);
         let parts =
             convex_parts(polygon, &frame).map_err(|refusal| refusal.of(&self.scene.patches[patch].name))?;
-        for (index, corners) in (0..).zip(parts) {
-            let Some(outline) = Outline::new(corners) else { continue };
+        let outlines: Vec<Outline> = parts.into_iter().filter_map(Outline::new).collect();
+        let apart: Vec<Outline> =
+            outlines.into_iter().flat_map(|outline| self.apart(patch, outline)).collect();
+        for (index, outline) in (0..).zip(apart) {
             let key = crate::solve::fingerprint::of(&[patch as u64, index].map(u64::to_le_bytes).concat());
             let tile = self.tile(patch, outline, None, key)?;
             self.tiles.push(tile);
         }
         Ok(())
+    }
+
+    /// The parts of an outline in different rooms: cut along all contacts that cross it from rim to rim.
+    fn apart(&self, patch: usize, outline: Outline) -> Vec<Outline> {
+        let frame = self.bases[patch].frame;
+        let (mut open, mut apart) = (vec![outline], Vec::new());
+        while let Some(outline) = open.pop() {
+            let crossing = self.bases[patch].contacts.iter().filter(|line| outline.is_crossed_by(**line));
+            let cut =
+                |[start, end]: &[DVec2; 2]| outline.cut([*start, *end - *start], |flat| frame.lift(flat));
+            match crossing.filter_map(cut).next() {
+                Some(halves) => open.extend(halves),
+                None => apart.push(outline),
+            }
+        }
+        apart
     }
 
     fn tile(&self, patch: usize, outline: Outline, parent: Option<usize>, key: u64) -> Result<Tile, Error> {
@@ -130,10 +145,10 @@ impl<'s> Tiling<'s> {
             area: self.area(patch, &outline),
             points,
             normal,
-            is_crossed: self.contact_in(patch, &outline).is_some(),
+            is_crossed: self.is_crossed(patch, &outline),
             halves: None,
             parent,
-            restriction: parent.map_or([0.0; 6], |parent| restriction(&outline, &self.tiles[parent].outline)),
+            restriction: parent.map_or([0.0; 6], |parent| outline.restriction(&self.tiles[parent].outline)),
             outline,
             key,
         })
@@ -192,7 +207,12 @@ impl<'s> Tiling<'s> {
         let frame = self.bases[patch].frame;
         let cut = |line| outline.cut(line, |flat| frame.lift(flat));
         let contact = self.contact_in(patch, outline).and_then(|[start, end]| cut([start, end - start]));
-        contact.or_else(|| cut(across(outline, axis)))
+        contact.or_else(|| cut(outline.across(axis)))
+    }
+
+    /// Whether something else stands on an outline.
+    pub(super) fn is_crossed(&self, patch: usize, outline: &Outline) -> bool {
+        self.contact_in(patch, outline).is_some()
     }
 
     /// The contact of which most is inside an outline.
@@ -223,26 +243,19 @@ impl<'s> Tiling<'s> {
         PI * self.scene.patches[self.tiles[tile].patch].emission[band]
     }
 
+    /// The whole tile that each tile is a part of.
+    pub(super) fn roots(&self) -> Vec<usize> {
+        let mut roots: Vec<usize> = Vec::with_capacity(self.tiles.len());
+        for (index, tile) in self.tiles.iter().enumerate() {
+            roots.push(tile.parent.map_or(index, |parent| roots[parent]));
+        }
+        roots
+    }
+
     /// The tiles that are not cut.
     pub(super) fn leaves(&self) -> impl Iterator<Item = usize> {
         (0..self.tiles.len()).filter(|&tile| self.tiles[tile].halves.is_none())
     }
-}
-
-/// A line through the centroid across an axis, or across the long one of what is slender.
-fn across(outline: &Outline, axis: usize) -> [DVec2; 2] {
-    let [long, short] = outline.axes;
-    let axis = if long.length() > SLENDER * short.length() { 0 } else { axis };
-    [outline.centroid, outline.axes[1 - axis]]
-}
-
-/// How the functions of a parent read on a part of it: 1 adds to 1 only; a linear function adds its value at the centroid to 1, and its
-/// climbs along both axes to the linear functions.
-fn restriction(part: &Outline, parent: &Outline) -> [f64; 6] {
-    let [a, b] = parent.linear(part.centroid);
-    let climb = |axis: DVec2| parent.axes.map(|of| axis.dot(of) / of.length_squared());
-    let [[aa, ab], [ba, bb]] = part.axes.map(climb);
-    [a, b, aa, ab, ba, bb]
 }
 
 /// The mean reflectance of a polygon.

@@ -80,5 +80,6 @@ fn total(tiling: &Tiling<'_>, link: &Link, relative: f64) -> Option<Total> {
     let parts = [one, other].map(|tile| (tile.surface, &tile.polygon));
     let AreaFormFactor { value, error_estimate, .. } =
         tiling.enclosure.area_form_factor(parts[0], parts[1], tolerance, &limits).ok()??;
-    (value > 0.0).then_some(Total { power: one.area * value, error: one.area * error_estimate })
+    // What may be nothing is not known.
+    (value > error_estimate).then_some(Total { power: one.area * value, error: one.area * error_estimate })
 }

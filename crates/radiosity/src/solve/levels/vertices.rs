@@ -1,7 +1,9 @@
 //! What points receive: from every linked tile as bright as it was found, exactly past what stands in between.
 use super::flow::Linear;
 use super::link::Link;
+use super::links::Links;
 use super::measure::look;
+use super::tile::SQUARE;
 use super::tiling::Tiling;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
@@ -17,23 +19,74 @@ const BATCH: usize = 512;
 /// Asks whether to go on.
 pub(super) type Ask<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
-/// What each tile is linked to.
+/// How much of what points of a tile receive may be other than it is shown, by links of which points look at nothing: a share of what may be.
+const SMOOTH: f64 = 0.2;
+
+/// Points look at tiles that see so much of theirs: those are near, and what they bring is least linear at the rim.
+const NEAR: f64 = 0.05;
+
+/// What points of each tile see.
 pub(super) struct Sights<'s> {
     pub(super) tiling: &'s Tiling<'s>,
     links: &'s [Link],
-    /// For each tile its links, and which end of them it is.
-    of_tile: Vec<Vec<(usize, usize)>>,
-    /// What each tile sends, band by band.
-    sent: &'s [Vec<Linear>],
+    of_tile: Vec<Sight>,
+    /// What each tile sends, band by band, and 1 of each: what comes of that is ΣF.
+    sent: Vec<Vec<Linear>>,
+    /// ΣF of the tiles of which it is known.
+    known: Vec<Option<f64>>,
+}
+
+/// What points of a tile see across the tile's links.
+#[derive(Default)]
+struct Sight {
+    /// What each point looks at by itself: links, and which end of them the tile is.
+    looks: Vec<(usize, usize)>,
+    /// What the other links bring, which is linear enough, band by band.
+    rest: Vec<Linear>,
 }
 
 impl<'s> Sights<'s> {
-    pub(super) fn new(tiling: &'s Tiling<'s>, links: &'s [Link], sent: &'s [Vec<Linear>]) -> Sights<'s> {
+    /// `fine` is how wrong the light of points may be in each band.
+    pub(super) fn new(
+        tiling: &'s Tiling<'s>,
+        links: &'s Links,
+        sent: &[Vec<Linear>],
+        fine: &[f64],
+    ) -> Sights<'s> {
+        let (known, links) = (links.known(tiling), &links.all[..]);
+        let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
+        let sent: Vec<Vec<Linear>> = sent.iter().cloned().chain([even]).collect();
         let mut of_tile = vec![Vec::new(); tiling.tiles.len()];
         for (index, link) in links.iter().enumerate() {
             [0, 1].into_iter().for_each(|end| of_tile[link.ends[end]].push((index, end)));
         }
-        Sights { tiling, links, of_tile, sent }
+        let sight = |(tile, of_tile): (usize, Vec<(usize, usize)>)| {
+            let (area, is_crossed) = (tiling.tiles[tile].area, tiling.tiles[tile].is_crossed);
+            let flaw = |&(index, end): &(usize, usize)| {
+                let link = &links[index];
+                let smaller =
+                    link.ends.map(|end| tiling.tiles[end].area).into_iter().fold(f64::MAX, f64::min);
+                if is_crossed || link.exchange[0] > NEAR * smaller {
+                    return f64::INFINITY;
+                }
+                let wrong = (link.curvature(end) + link.error()) / area;
+                let light = sent.iter().map(|sent| sent[link.ends[1 - end]][0].abs());
+                let share = |(light, fine): (f64, &f64)| if light > 0.0 { wrong * light / fine } else { 0.0 };
+                light.zip(fine).map(share).fold(0.0, f64::max)
+            };
+            let mut flaws: Vec<(f64, (usize, usize))> = of_tile.iter().map(|at| (flaw(at), *at)).collect();
+            flaws.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut sum = 0.0;
+            let count = flaws.iter().take_while(|(flaw, _)| {
+                sum += flaw;
+                sum <= SMOOTH
+            });
+            let count = count.count();
+            let rest = sent.iter().map(|sent| received(tiling, links, &flaws[..count], sent)).collect();
+            Sight { looks: flaws[count..].iter().map(|(_, at)| *at).collect(), rest }
+        };
+        let of_tile = of_tile.into_iter().enumerate().map(sight).collect();
+        Sights { tiling, links, of_tile, sent, known }
     }
 
     /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `tile_of` is the tile of an element.
@@ -63,7 +116,7 @@ impl<'s> Sights<'s> {
         points: &[(usize, DifferentialArea)],
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
-        let mut all = Vec::with_capacity(points.len() * self.sent.len());
+        let mut all = Vec::with_capacity(points.len() * (self.sent.len() - 1));
         for points in points.chunks(BATCH) {
             if ask().is_break() {
                 return Ok(None);
@@ -75,18 +128,43 @@ impl<'s> Sights<'s> {
         Ok(Some(all))
     }
 
+    /// What a point of a tile receives, of even light 1 where ΣF is 1.
     fn at(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
-        let mut received = vec![0.0f64; self.sent.len()];
-        let above = |tile: &usize| self.tiling.tiles[*tile].parent;
-        for (index, end) in std::iter::successors(Some(tile), above).flat_map(|tile| &self.of_tile[tile]) {
-            let link = &self.links[*index];
-            let other = link.ends[1 - end];
-            let among: Vec<usize> = link.among.iter().map(|id| *id as usize).collect();
-            let seen = look(self.tiling, point, &self.tiling.tiles[other], &among);
-            for (sum, sent) in received.iter_mut().zip(self.sent) {
-                *sum += seen.iter().zip(sent[other]).map(|(seen, sent)| seen * sent).sum::<f64>();
+        let mut light = vec![0.0f64; self.sent.len()];
+        let (leaf, above) = (tile, |tile: &usize| self.tiling.tiles[*tile].parent);
+        for tile in std::iter::successors(Some(leaf), above) {
+            let (Sight { looks, rest }, tile) = (&self.of_tile[tile], &self.tiling.tiles[tile]);
+            let [a, b] = tile.outline.linear(self.tiling.flatten(tile.patch, point.position()));
+            light
+                .iter_mut()
+                .zip(rest)
+                .for_each(|(sum, [mean, first, second])| *sum += mean + a * first + b * second);
+            for (index, end) in looks {
+                let link = &self.links[*index];
+                let other = link.ends[1 - end];
+                let among: Vec<usize> = link.among.iter().map(|id| *id as usize).collect();
+                let seen = look(self.tiling, point, &self.tiling.tiles[other], &among);
+                for (sum, sent) in light.iter_mut().zip(&self.sent) {
+                    *sum += seen.iter().zip(sent[other]).map(|(seen, sent)| seen * sent).sum::<f64>();
+                }
             }
         }
-        received.into_iter().map(|light| light.max(0.0)).collect()
+        let sum = light.pop().filter(|sum| *sum > 0.0 && self.known[leaf] == Some(1.0)).unwrap_or(1.0);
+        light.into_iter().map(|light| (light / sum).max(0.0)).collect()
     }
+}
+
+/// What a tile receives across some links.
+fn received(tiling: &Tiling<'_>, links: &[Link], some: &[(f64, (usize, usize))], sent: &[Linear]) -> Linear {
+    let mut light = [0.0; 3];
+    for (_, (index, end)) in some {
+        let (link, end) = (&links[*index], *end);
+        let (from, area) = (sent[link.ends[1 - end]], tiling.tiles[link.ends[end]].area);
+        for (k, light) in light.iter_mut().enumerate() {
+            let row = |j: usize| link.exchange[if end == 0 { 3 * k + j } else { 3 * j + k }];
+            let power = row(0) * from[0] + row(1) * from[1] + row(2) * from[2];
+            *light += power / area / if k == 0 { 1.0 } else { SQUARE };
+        }
+    }
+    light
 }

@@ -1,0 +1,84 @@
+//! Where a run stands, and how its light is shown.
+use super::equilibrium::Equilibrium;
+use super::flow::Linear;
+use super::links::Links;
+use super::output::{LeafLight, cover, solution, with_vertices};
+use super::pieces::{pieces, whole};
+use super::tiling::Tiling;
+use super::vertices::Sights;
+use crate::error::Error;
+use crate::solve::progress::{LinkedTiles, Moment, Progress};
+use crate::solve::{options::Options, solution::Solution, state::State};
+use std::{ops::ControlFlow, time::Instant};
+
+/// Whoever follows a run.
+pub(crate) type Follower<'w> = &'w mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
+
+/// Where a run stands.
+pub(super) struct Stand<'s> {
+    pub(super) options: &'s Options,
+    pub(super) start: Instant,
+    pub(super) tiling: &'s Tiling<'s>,
+    pub(super) links: &'s Links,
+    pub(super) sent: &'s [Vec<Linear>],
+    pub(super) rounds: usize,
+    pub(super) products: usize,
+    pub(super) light: &'s LeafLight,
+}
+
+impl Stand<'_> {
+    /// Shows it to the watcher; a break when that, or the time, says to stop.
+    pub(super) fn show(&self, watch: Follower<'_>, state: &State) -> ControlFlow<()> {
+        let seconds = self.start.elapsed().as_secs_f64();
+        let so_far = || {
+            let equilibrium = self.links.equilibrium(self.tiling, true);
+            let light = LeafLight::of(self.tiling, &equilibrium, self.sent);
+            Solution { seconds, ..self.solution(&equilibrium, &light) }
+        };
+        watch(&Progress {
+            moment: Moment::Round(self.rounds),
+            open: &Vec::new,
+            tiles: &|| LinkedTiles { tiles: self.tiling.outlines(), links: self.links.ends() },
+            shots: 0,
+            products: self.products,
+            unshot: self.light.unshot(),
+            bound: &self.light.bound,
+            ledger: &self.light.ledger,
+            seconds,
+            light: &so_far,
+            state,
+        })?;
+        let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
+        if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The light on the leaves.
+    pub(super) fn solution(&self, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
+        let cover = cover(self.tiling, equilibrium, &whole(self.tiling, equilibrium));
+        Solution { products: self.products, ..solution(self.tiling, equilibrium, light, cover) }
+    }
+
+    /// The light on a mesh that shows it, gathered at every vertex; nothing when the watcher, or the time, says to stop.
+    ///
+    /// # Errors
+    /// Those of form factors.
+    pub(super) fn shown(
+        &self,
+        equilibrium: &Equilibrium<'_>,
+        watch: Follower<'_>,
+        state: &State,
+    ) -> Result<Option<Solution>, Error> {
+        let Stand { tiling, links, sent, light, .. } = self;
+        let means = light.means(equilibrium);
+        let fine: Vec<f64> = means.iter().map(|mean| self.options.error * mean).collect();
+        let sights = Sights::new(tiling, links, sent, &fine);
+        let mut ask = || self.show(watch, state);
+        let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
+        let Some(pieces) = pieces else { return Ok(None) };
+        let cover = cover(tiling, equilibrium, &pieces);
+        let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
+        let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
+        let solution = solution(tiling, equilibrium, light, cover);
+        Ok(Some(Solution { products: self.products, ..with_vertices(tiling.scene, solution, vertices) }))
+    }
+}
