@@ -34,6 +34,7 @@ fn every_path_on_a_page_exists() {
         "crates/exactfloat/README.md",
         "crates/polycsg/README.md",
         "crates/polycsg/docs/benchmarks.md",
+        "crates/polycsg-cli/README.md",
         "crates/formfactor/README.md",
         "crates/formfactor/docs/benchmarks.md",
         "crates/radiosity/README.md",
@@ -61,7 +62,15 @@ fn every_path_on_a_page_exists() {
 /// What a newcomer reads first: within a screen or two.
 #[test]
 fn the_first_pages_are_short() {
-    let packages = ["exactfloat", "polycsg", "formfactor", "radiosity", "radiosity-cli", "radiosity-report"];
+    let packages = [
+        "exactfloat",
+        "polycsg",
+        "polycsg-cli",
+        "formfactor",
+        "radiosity",
+        "radiosity-cli",
+        "radiosity-report",
+    ];
     let readmes = packages.map(|package| format!("crates/{package}/README.md"));
     let root = ["CONTRIBUTING.md", "README.md", "ARCHITECTURE.md", "fuzz/README.md", "tests/peers/README.md"];
     for name in root.into_iter().map(str::to_owned).chain(readmes) {

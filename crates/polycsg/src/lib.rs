@@ -42,6 +42,7 @@
 //! | task | call |
 //! | --- | --- |
 //! | raw rings, made valid | [`Region::from_rings`] |
+//! | why polygons are not valid as they are | [`flaw`] |
 //! | two regions | [`Region::union`], [`intersection`](Region::intersection), [`difference`](Region::difference), [`symmetric_difference`](Region::symmetric_difference) |
 //! | many operands, nested expressions, raw rings as operands | [`Csg`], then [`evaluate`](Csg::evaluate) |
 //! | many small jobs | [`Csg::evaluate_with`] with one [`Scratch`]; on threads, `Csg::evaluate_all` |
@@ -97,6 +98,7 @@ mod edges;
 mod error;
 mod evaluate;
 mod expression;
+mod flaw;
 #[cfg(fuzzing)]
 #[doc(hidden)]
 pub mod fuzzing;
@@ -118,6 +120,7 @@ pub use boundary::{Boundary, BoundaryEdge};
 pub use classify::{Interval, classify};
 pub use error::Error;
 pub use expression::csg::{Csg, FillRule};
+pub use flaw::{Flaw, flaw};
 pub use limits::Limits;
 pub use pipeline::scratch::Scratch;
 pub use region::membership::Membership;

@@ -7,7 +7,7 @@ use architecture::{IMPURE, complaints, named_on_page, occurrences, shared_names,
 use std::{fs, path::Path};
 
 /// The folders and files of `src` from the top down: each imports only from itself and from those below it.
-const ORDER: [&str; 39] = [
+const ORDER: [&str; 40] = [
     "fuzzing",
     "batch",
     "relate",
@@ -15,6 +15,7 @@ const ORDER: [&str; 39] = [
     "geo",
     "affine",
     "validate",
+    "flaw",
     "classify",
     "triangulate",
     "evaluate",

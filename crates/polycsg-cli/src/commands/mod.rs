@@ -1,0 +1,9 @@
+//! The commands.
+pub(crate) mod area;
+pub(crate) mod clip;
+pub(crate) mod dissolve;
+pub(crate) mod files;
+pub(crate) mod overlay;
+pub(crate) mod pairs;
+pub(crate) mod repair;
+pub(crate) mod validate;

@@ -1,0 +1,5 @@
+//! FlatGeobuf.
+mod properties;
+pub(crate) mod reader;
+mod shapes;
+pub(crate) mod writer;

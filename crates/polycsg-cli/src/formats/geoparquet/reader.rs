@@ -1,0 +1,114 @@
+//! Reads GeoParquet, some rows at a time.
+use super::geometries::{self, Encoding};
+use super::metadata::{Geo, GeometryColumn};
+use crate::failure::Failure;
+use crate::formats::reader::{Each, Source, warn_of_flattened};
+use crate::input::Input;
+use crate::layer::batch::{Batch, Gathered, Layer, table};
+use arrow_array::RecordBatch;
+use arrow_schema::{ArrowError, Schema};
+use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::ParquetMetaData;
+use std::sync::Arc;
+
+/// So many bytes of rows, uncompressed, are read at a time, but no more rows than these.
+const MOST_BYTES: i64 = 1 << 24;
+const MOST_ROWS: i64 = 1024;
+
+/// A file whose columns are known.
+pub(crate) struct GeoParquet {
+    input: Input,
+    rows: ParquetRecordBatchReader,
+    layer: Layer,
+    encoding: Encoding,
+    /// The column of the geometries.
+    geometry: usize,
+    /// The columns of the attributes.
+    attributes: Vec<usize>,
+}
+
+impl GeoParquet {
+    pub(crate) fn open(input: &Input) -> Result<GeoParquet, Failure> {
+        let file = input.file()?;
+        let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| failed(input, error))?;
+        let data = |error: String| Failure::data(input.name(), error);
+        let (name, column) = primary(builder.metadata()).map_err(data)?;
+        let schema = Arc::clone(builder.schema());
+        let geometry = schema.index_of(&name).map_err(|error| data(error.to_string()))?;
+        let encoding = Encoding::of(&column.encoding, schema.field(geometry).data_type()).map_err(data)?;
+        let attributes: Vec<usize> = (0..schema.fields().len())
+            .filter(|&i| i != geometry && Some(schema.field(i).name().as_str()) != column.boxes())
+            .collect();
+        let projected = schema.project(&attributes).map_err(|error| data(error.to_string()))?;
+        let schema = Arc::new(projected.with_metadata(Default::default()));
+        let layer = Layer { name: input.name(), schema, crs: column.system() };
+        let size = batch_size(builder.metadata());
+        let rows = builder.with_batch_size(size).build().map_err(|error| failed(input, error))?;
+        Ok(GeoParquet { input: input.clone(), rows, layer, encoding, geometry, attributes })
+    }
+
+    fn batch(&self, rows: &RecordBatch, gathered: &mut Gathered) -> Result<Batch, Failure> {
+        for reading in geometries::read(rows.column(self.geometry), self.encoding) {
+            let number = gathered.next;
+            let wrong = |error| Failure::data(&self.layer.name, format!("feature {number}: {error}"));
+            gathered.push(reading.map_err(wrong)?);
+        }
+        let columns = self.attributes.iter().map(|&column| rows.column(column).clone()).collect();
+        let attributes = table(Arc::clone(&self.layer.schema), columns, rows.num_rows());
+        Ok(gathered.take(attributes.map_err(|error| Failure::data(&self.layer.name, error))?))
+    }
+}
+
+impl Source for GeoParquet {
+    fn layer(&self) -> &Layer {
+        &self.layer
+    }
+
+    fn read(mut self: Box<Self>, each: &mut Each<'_>) -> Result<(), Failure> {
+        let mut gathered = Gathered::default();
+        while let Some(rows) = self.rows.next() {
+            self.input.interrupt.check()?;
+            let broken = |error: ArrowError| {
+                Failure::data(&self.layer.name, format!("after feature {}: {error}", gathered.next))
+            };
+            each(self.batch(&rows.map_err(broken)?, &mut gathered)?)?;
+        }
+        warn_of_flattened(&self.layer, &gathered);
+        let empty = RecordBatch::new_empty(Arc::clone(&self.layer.schema));
+        if gathered.next == 0 { each(gathered.take(empty)) } else { Ok(()) }
+    }
+}
+
+/// The name of the column of geometries, and what is said of it.
+fn primary(metadata: &ParquetMetaData) -> Result<(String, GeometryColumn), String> {
+    let pairs = metadata.file_metadata().key_value_metadata();
+    let geo = pairs.into_iter().flatten().find(|pair| pair.key == "geo").and_then(|pair| pair.value.as_ref());
+    let geo = geo.ok_or("this is no GeoParquet: its metadata lacks the key `geo`")?;
+    let mut geo: Geo = serde_json::from_str(geo)
+        .map_err(|error| format!("this is no GeoParquet: the key `geo`: {error}"))?;
+    let column = geo.columns.remove(&geo.primary_column);
+    let column = column.ok_or_else(|| format!("the key `geo` does not describe {:?}", geo.primary_column))?;
+    Ok((geo.primary_column, column))
+}
+
+fn batch_size(metadata: &ParquetMetaData) -> usize {
+    let groups = metadata.row_groups();
+    let bytes: i64 = groups.iter().fold(0, |sum, group| sum.saturating_add(group.total_byte_size()));
+    let rows: i64 = groups.iter().fold(0, |sum, group| sum.saturating_add(group.num_rows()));
+    let fitting = MOST_BYTES.saturating_mul(rows.max(1)) / bytes.max(1);
+    usize::try_from(fitting.clamp(1, MOST_ROWS)).unwrap_or(1)
+}
+
+fn failed(input: &Input, error: ParquetError) -> Failure {
+    match error {
+        _ if input.interrupt.is_set() => Failure::Interrupted,
+        error => Failure::data(input.name(), format!("this is no Parquet, or it is damaged: {error}")),
+    }
+}
+
+/// The schema with a column behind it.
+pub(super) fn with_column(schema: &Schema, field: arrow_schema::Field) -> Schema {
+    let fields = schema.fields().iter().cloned().chain([Arc::new(field)]);
+    Schema::new(fields.collect::<Vec<_>>())
+}

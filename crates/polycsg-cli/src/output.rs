@@ -1,0 +1,116 @@
+//! Files that are written whole or not at all, and stdout.
+use crate::failure::Failure;
+use std::fs::File;
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Where a command writes. Dropped before [`commit`](Output::commit), it leaves everything as it was, but for what has gone through
+/// stdout or a pipe.
+#[derive(Debug)]
+pub(crate) struct Output {
+    path: PathBuf,
+    place: Place,
+}
+
+#[derive(Debug)]
+enum Place {
+    Stdout,
+    /// A device or a pipe, which cannot be replaced.
+    Device(File),
+    /// A new file beside the one that it replaces in the end.
+    New(NamedTempFile, PathBuf),
+}
+
+impl Output {
+    /// Opens it, so that a folder that takes no files is found before there is something to write.
+    pub(crate) fn open(path: &Path) -> Result<Output, Failure> {
+        let refused = |error| Failure::write(path.display(), error);
+        if path.as_os_str() == "-" {
+            return Ok(Output { path: "stdout".into(), place: Place::Stdout });
+        }
+        let place = match path.metadata() {
+            Ok(found) if found.is_dir() => {
+                return Err(Failure::write(path.display(), "it is a folder; name a file"));
+            }
+            Ok(found) if !found.is_file() => {
+                Place::Device(File::options().write(true).open(path).map_err(refused)?)
+            }
+            // Of a link, the target is replaced and not the link.
+            Ok(_) => beside(&path.canonicalize().map_err(refused)?).map_err(refused)?,
+            Err(_) => beside(path)
+                .map_err(|error| Failure::write(path.display(), format!("{error}; check the folder")))?,
+        };
+        Ok(Output { path: path.to_owned(), place })
+    }
+
+    /// How messages call it.
+    pub(crate) fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// Whether a person reads it.
+    pub(crate) fn is_terminal(&self) -> bool {
+        matches!(self.place, Place::Stdout) && io::stdout().is_terminal()
+    }
+
+    /// Puts what was written in its place.
+    pub(crate) fn commit(self) -> Result<(), Failure> {
+        let name = self.name();
+        let ended = match self.place {
+            Place::Stdout => kept(io::stdout().flush()),
+            Place::Device(mut file) => file.flush(),
+            Place::New(file, path) => {
+                file.as_file().sync_all().and_then(|()| Ok(file.persist(path).map(|_| ())?))
+            }
+        };
+        ended.map_err(|error| Failure::write(name, error))
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.place {
+            Place::Stdout => kept(io::stdout().write_all(bytes)).map(|()| bytes.len()),
+            Place::Device(file) => file.write(bytes),
+            Place::New(file, _) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.place {
+            Place::Stdout => kept(io::stdout().flush()),
+            Place::Device(file) => file.flush(),
+            Place::New(file, _) => file.flush(),
+        }
+    }
+}
+
+/// A reader of stdout that has gone away wants no more of it: that is no error.
+fn kept(written: io::Result<()>) -> io::Result<()> {
+    match written {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+fn beside(path: &Path) -> io::Result<Place> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Ok(Place::New(temporary().tempfile_in(folder)?, path.to_owned()))
+}
+
+/// Temporary files are private by default; results get the permissions that any new file gets.
+#[cfg(unix)]
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    use std::os::unix::fs::PermissionsExt;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".polycsg-").permissions(std::fs::Permissions::from_mode(0o666));
+    builder
+}
+
+#[cfg(not(unix))]
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".polycsg-");
+    builder
+}
