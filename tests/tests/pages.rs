@@ -29,6 +29,7 @@ fn every_path_on_a_page_exists() {
         "ARCHITECTURE.md",
         "CONTRIBUTING.md",
         "docs/certified.md",
+        "docs/cluster.md",
         "docs/glossary.md",
         "docs/releasing.md",
         "crates/exactfloat/README.md",
@@ -41,6 +42,8 @@ fn every_path_on_a_page_exists() {
         "crates/radiosity/docs/benchmarks.md",
         "crates/radiosity-cli/README.md",
         "crates/radiosity-report/README.md",
+        "engines/ballista/README.md",
+        "engines/datafusion/README.md",
         "tests/peers/README.md",
     ];
     let mut found = 0;

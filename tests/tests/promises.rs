@@ -35,6 +35,7 @@ fn tests_of(file: &str) -> BTreeSet<String> {
             text.lines().filter_map(|line| line.trim_start().strip_prefix("def ")?.split_once('('));
         return functions.map(|(name, _)| name.to_owned()).filter(|name| name.starts_with("test_")).collect();
     }
+    let text = text.replace("#[tokio::test]", "#[test]");
     let parts = text.split("#[test]").skip(1);
     let runs = parts.filter(|part| !part.split("fn ").next().is_some_and(|head| head.contains("#[ignore")));
     let name = |part: &str| {

@@ -1,0 +1,111 @@
+//! The state of a group as bytes: feature after feature, each the count of its rings, the counts of their points, and the points.
+//!
+//! Numbers are little-endian, of 32 bits for counts and 64 for coordinates. A feature of no rings is an empty one; a state of no
+//! features is that of a group in which all is NULL. To merge states is to put one behind the other.
+//!
+//! A ring starts at its lowest point from the left and runs towards the lower one of its neighbours, and rings are sorted: features
+//! that differ in where a ring starts, in its direction or in the order of rings have the same bytes.
+use crate::error::Error;
+use polycsg::DVec2;
+use std::cmp::Ordering;
+
+const COUNT: usize = 4;
+const POINT: usize = 16;
+
+/// Adds a feature of finite points.
+pub(crate) fn append<'r>(state: &mut Vec<u8>, rings: impl Iterator<Item = &'r [DVec2]>) {
+    let mut rings: Vec<Vec<DVec2>> = rings.filter(|ring| !ring.is_empty()).map(canonical).collect();
+    rings.sort_by(|a, b| by_points(a, b));
+    state.extend(count(rings.len()));
+    rings.iter().for_each(|ring| state.extend(count(ring.len())));
+    for point in rings.iter().flatten() {
+        state.extend(point.x.to_le_bytes());
+        state.extend(point.y.to_le_bytes());
+    }
+}
+
+/// Which of two points is further left, or lower if none is.
+pub(crate) fn by_point(a: &DVec2, b: &DVec2) -> Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+}
+
+fn by_points(a: &[DVec2], b: &[DVec2]) -> Ordering {
+    let different = a.iter().zip(b).map(|(a, b)| by_point(a, b)).find(|order| order.is_ne());
+    different.unwrap_or(a.len().cmp(&b.len()))
+}
+
+fn canonical(ring: &[DVec2]) -> Vec<DVec2> {
+    let mut ring: Vec<DVec2> = ring.iter().map(|point| point + DVec2::ZERO).collect(); // no -0.0
+    let first = (0..ring.len()).min_by(|&i, &j| by_point(&ring[i], &ring[j])).unwrap_or_default();
+    ring.rotate_left(first);
+    if let [_, second, .., last] = ring[..]
+        && by_point(&second, &last).is_gt()
+    {
+        ring[1..].reverse();
+    }
+    ring
+}
+
+/// More than 2^32 - 1 points take 64 GiB, which no value of a column can have.
+fn count(count: usize) -> [u8; COUNT] {
+    u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes()
+}
+
+/// The features of a state, each as its bytes.
+pub(crate) fn split(mut state: &[u8]) -> Result<Vec<&[u8]>, Error> {
+    let mut features = Vec::new();
+    while !state.is_empty() {
+        let (feature, rest) = state.split_at_checked(length(state)?).ok_or(SHORT)?;
+        features.push(feature);
+        state = rest;
+    }
+    Ok(features)
+}
+
+const SHORT: Error = Error::State("it ends within a geometry");
+
+/// How many bytes the first feature takes.
+fn length(state: &[u8]) -> Result<usize, Error> {
+    let rings = counts(state)?;
+    let points = rings.iter().try_fold(0_usize, |sum, &ring| sum.checked_add(ring)).ok_or(SHORT)?;
+    points.checked_mul(POINT).and_then(|bytes| bytes.checked_add(COUNT * (rings.len() + 1))).ok_or(SHORT)
+}
+
+/// How many points each ring of the first feature has.
+fn counts(state: &[u8]) -> Result<Vec<usize>, Error> {
+    let (words, _) = state.as_chunks::<COUNT>();
+    let (rings, rest) = words.split_first().ok_or(SHORT)?;
+    let rings = rest.get(..u32::from_le_bytes(*rings) as usize).ok_or(SHORT)?;
+    Ok(rings.iter().map(|ring| u32::from_le_bytes(*ring) as usize).collect())
+}
+
+/// The rings of a feature that [`split`] found.
+pub(crate) fn rings(feature: &[u8]) -> Result<Vec<Vec<DVec2>>, Error> {
+    let counts = counts(feature)?;
+    let (points, _) = feature[COUNT * (counts.len() + 1)..].as_chunks::<POINT>();
+    let mut points = points.iter().map(point);
+    Ok(counts.iter().map(|&count| points.by_ref().take(count).collect()).collect())
+}
+
+fn point(bytes: &[u8; POINT]) -> DVec2 {
+    let [x, y] = [0, 8].map(|at| {
+        let mut number = [0; 8];
+        number.copy_from_slice(&bytes[at..at + 8]);
+        f64::from_le_bytes(number)
+    });
+    DVec2::new(x, y)
+}
+
+/// The box around a feature's points, which must be finite: its low corner is not below its high one, if there are none.
+pub(crate) fn bounds(feature: &[u8]) -> Result<[DVec2; 2], Error> {
+    let nowhere = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (points, _) = feature[COUNT * (counts(feature)?.len() + 1)..].as_chunks::<POINT>();
+    let (mut low, mut high) = nowhere;
+    for point in points.iter().map(point) {
+        if !point.is_finite() {
+            return Err(Error::State("a coordinate is not finite"));
+        }
+        (low, high) = (low.min(point), high.max(point));
+    }
+    Ok([low, high])
+}

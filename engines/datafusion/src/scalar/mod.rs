@@ -1,0 +1,6 @@
+//! The functions of rows.
+pub(crate) mod function;
+pub(crate) mod measure;
+pub(crate) mod overlay;
+pub(crate) mod relate;
+pub(crate) mod side;

@@ -1,0 +1,68 @@
+//! Booleans of the areas of two columns, and the areas of one made valid.
+use super::side::Side;
+use crate::column::features::Features;
+use crate::column::write::Written;
+use crate::error::Error;
+use arrow_array::ArrayRef;
+use arrow_schema::Field;
+use datafusion_common::Result;
+use geo_types::MultiPolygon;
+use polycsg::{Csg, Scratch};
+
+/// A Boolean of two areas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Overlay {
+    Intersection,
+    Union,
+    Difference,
+    SymmetricDifference,
+}
+
+impl Overlay {
+    fn of<'a>(self, one: Csg<'a>, other: Csg<'a>) -> Csg<'a> {
+        match self {
+            Overlay::Intersection => one & other,
+            Overlay::Union => one | other,
+            Overlay::Difference => one - other,
+            Overlay::SymmetricDifference => one ^ other,
+        }
+    }
+
+    /// The Boolean of each row; NULL where a side is.
+    pub(crate) fn column(self, sides: [Features; 2], contacts: usize, result: &Field) -> Result<ArrayRef> {
+        let rows = sides[0].len();
+        let [one, other] = sides.map(Features::areas_only);
+        let (mut one, mut other) = (Side::new(one?), Side::new(other?));
+        let (mut written, mut scratch) = (Written::new(result)?, Scratch::default());
+        for row in 0..rows {
+            let (Some(a), Some(b)) = (one.at(row), other.at(row)) else {
+                written.push(None)?;
+                continue;
+            };
+            let a = one.operand(a, contacts, &mut scratch)?;
+            let b = other.operand(b, contacts, &mut scratch)?;
+            let found = self.of(a, b).try_evaluate_with(&mut scratch, contacts);
+            let found = found.map_err(|error| Error::row(row, error))?;
+            written.push(Some(&MultiPolygon::from(&found)))?;
+        }
+        Ok(written.finish())
+    }
+}
+
+/// Each area made valid.
+pub(crate) fn made_valid(columns: Vec<Features>, contacts: usize, result: &Field) -> Result<ArrayRef> {
+    let (mut written, mut scratch) = (Written::new(result)?, Scratch::default());
+    for features in columns {
+        let features = features.areas_only()?;
+        for row in 0..features.len() {
+            let Some(feature) = features.at(row) else {
+                written.push(None)?;
+                continue;
+            };
+            let found = features.operand(feature)?.try_evaluate_with(&mut scratch, contacts);
+            let found = found.map_err(|error| Error::row(row, error))?;
+            written.push(Some(&MultiPolygon::from(&found)))?;
+        }
+    }
+    Ok(written.finish())
+}

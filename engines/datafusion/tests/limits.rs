@@ -1,0 +1,62 @@
+//! The engine's limit on memory holds, and so does the one on contacts.
+mod common;
+
+use common::{Random, add_table, answer, polygon_wkb, session_of};
+use datafusion::execution::runtime_env::RuntimeEnvBuilder;
+use datafusion::prelude::{SessionConfig, SessionContext};
+use datafusion_common::{DataFusionError, Result};
+use polycsg_datafusion::{Error, Functions};
+
+fn limited(bytes: usize, partitions: usize) -> SessionContext {
+    let runtime = RuntimeEnvBuilder::new().with_memory_limit(bytes, 1.0).build_arc().expect("a runtime");
+    let config = SessionConfig::new().with_target_partitions(partitions);
+    let mut context = SessionContext::new_with_config_rt(config, runtime);
+    Functions::default().register(&mut context).expect("the session takes them");
+    context
+}
+
+fn octagons(count: usize, side: f64) -> Vec<(&'static str, Option<Vec<u8>>)> {
+    const KEYS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
+    let mut random = Random(5);
+    (0..count).map(|i| (KEYS[i % 8], Some(polygon_wkb(&[random.octagon(side, 1.0)])))).collect()
+}
+
+/// A dissolve that spills gives the bytes of one that does not; one that cannot be done is refused.
+#[tokio::test]
+async fn the_engines_limit_holds() -> Result<()> {
+    let rows = octagons(40_000, 400.0);
+    let sql = "SELECT key, st_union_agg(geom) FROM t GROUP BY key ORDER BY key";
+    let ask = async |bytes: usize| {
+        let context = limited(bytes, 2);
+        add_table(&context, "t", &[rows[..20_000].to_vec(), rows[20_000..].to_vec()]);
+        answer(&context, sql).await
+    };
+    let (plenty, little) = (ask(1 << 30).await?, ask(160 << 20).await);
+    if let Ok(little) = little {
+        assert_eq!(plenty, little);
+    }
+    let refused = ask(4 << 20).await.expect_err("4 MiB are too little");
+    assert!(matches!(refused.find_root(), DataFusionError::ResourcesExhausted(_)), "{refused}");
+    Ok(())
+}
+
+/// A group whose edges meet too often is named by its size and its place.
+#[tokio::test]
+async fn a_group_that_is_too_large_is_named() -> Result<()> {
+    let bars = |upright: bool| {
+        (0..200).map(move |i| {
+            let x = f64::from(i);
+            let (at, size) = if upright { ([x, -1.0], [0.5, 202.0]) } else { ([-1.0, x], [202.0, 0.5]) };
+            ("bars", Some(polygon_wkb(&[common::rectangle(at, size)])))
+        })
+    };
+    let context = session_of(SessionConfig::new(), Functions::default().contacts(10_000));
+    add_table(&context, "t", &[bars(true).chain(bars(false)).collect()]);
+    let error = answer(&context, "SELECT st_union_agg(geom) FROM t GROUP BY key")
+        .await
+        .expect_err("160 000 crossings");
+    let Some(Error::Group { features, low, high, why }) = common::own(&error) else { panic!("{error}") };
+    assert_eq!((*features, low.to_array(), high.to_array()), (400, [-1.0, -1.0], [201.0, 201.0]));
+    assert!(why.contains("10000 times"), "{why}");
+    Ok(())
+}
