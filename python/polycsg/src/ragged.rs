@@ -117,10 +117,15 @@ impl<'a> Ragged<'a> {
 
     /// A ring without the vertex that closes it.
     pub(crate) fn ring(self, ring: usize) -> &'a [[f64; 2]] {
-        match &self.vertices[self.rings.span(ring)] {
+        match self.given_ring(ring) {
             [open @ .., end] if open.first() == Some(end) => open,
             ring => ring,
         }
+    }
+
+    /// A ring's vertices as they were given: the first one may stand once more at the end.
+    pub(crate) fn given_ring(self, ring: usize) -> &'a [[f64; 2]] {
+        &self.vertices[self.rings.span(ring)]
     }
 
     /// A feature as an operand.

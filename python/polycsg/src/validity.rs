@@ -10,7 +10,7 @@ pub(crate) fn flaws(py: Python<'_>, features: Features<'_>) -> PyResult<Vec<Opti
     let features = features.read()?;
     run(py, features.vertices(), |stop| {
         each(features.len(), stop, |scratch, i| {
-            let polygons = features.polygons(i).map(|rings| rings.map(|ring| features.ring(ring)));
+            let polygons = features.polygons(i).map(|rings| rings.map(|ring| features.given_ring(ring)));
             Ok(flaw(polygons, scratch).map(|flaw| flaw.to_string()))
         })
     })
