@@ -116,6 +116,8 @@ fn a_dissolve_does_not_depend_on_the_order_of_features() {
     };
     let expected = dissolved(&first);
     assert_eq!(lines(&expected[0][0]).len(), 5);
+    let twice = printed(&["dissolve", &first, "--by", "kind", "--by", "kind", "--to", "geojson"]);
+    assert_eq!(twice, expected[0][0], "a column that is named twice stands once");
     for _ in 0..4 {
         random.shuffle(&mut features);
         assert_eq!(dissolved(&folder.put("n.geojson", document(&features))), expected);

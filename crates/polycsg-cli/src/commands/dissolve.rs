@@ -26,7 +26,7 @@ use std::sync::Arc;
 pub(crate) struct Dissolve {
     /// The file to read, - for stdin
     file: PathBuf,
-    /// AllFeatures with equal values in this column become one; may be given more than once
+    /// Features with equal values in this column become one; may be given more than once
     #[arg(long, value_name = "COLUMN")]
     by: Vec<String>,
     #[command(flatten)]
@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Dissolve, interrupt: &Interrupt) -> Result<ExitCod
     Ok(ExitCode::SUCCESS)
 }
 
-/// The places of the columns that are asked for, and their schema.
+/// The places of the columns that are asked for, each once, and their schema.
 fn keys(layer: &Layer, by: &[String]) -> Result<(Vec<usize>, Arc<Schema>), Failure> {
     let place = |name: &String| {
         layer.schema.index_of(name).map_err(|_| {
@@ -74,7 +74,13 @@ fn keys(layer: &Layer, by: &[String]) -> Result<(Vec<usize>, Arc<Schema>), Failu
             Failure::Usage(format!("{}: there is no column {name:?}; {known}", layer.name))
         })
     };
-    let columns = by.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    let mut columns = Vec::new();
+    for column in by.iter().map(place) {
+        let column = column?;
+        if !columns.contains(&column) {
+            columns.push(column);
+        }
+    }
     let fields = columns.iter().map(|&column| ordinary(&layer.schema.fields()[column]));
     let schema = Schema::new(fields.collect::<Vec<_>>());
     Ok((columns, Arc::new(schema)))

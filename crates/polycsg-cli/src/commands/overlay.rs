@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Overlay, interrupt: &Interrupt) -> Result<ExitCode
     Ok(ExitCode::SUCCESS)
 }
 
-/// A feature by feature.
+/// The intersection: A passes by, B is held.
 fn intersection(
     a: Box<dyn Source>,
     b: HeldLayer,
@@ -95,7 +95,7 @@ fn intersection(
     joint.writer.finish()
 }
 
-/// A feature by feature.
+/// The difference: A passes by, B is held.
 fn difference(
     a: Box<dyn Source>,
     b: HeldLayer,
