@@ -19,7 +19,8 @@ pub(super) fn read(feature: &Feature<'_>, of_all: GeometryType) -> Result<Readin
         }
         other => return Err(refused(other.variant_name().unwrap_or("geometry of an unknown kind"))),
     };
-    Ok(Reading::flat(areas))
+    // The format writes no geometry as one without a vertex, however many parts that is made of.
+    Ok(if areas.vertices() == 0 { Reading::default() } else { Reading::flat(areas) })
 }
 
 fn polygon(geometry: &Geometry<'_>) -> Result<Polygon<f64>, String> {
