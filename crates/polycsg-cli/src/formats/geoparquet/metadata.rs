@@ -1,8 +1,29 @@
-//! What GeoParquet says in the key `geo` of a file's metadata.
+//! What GeoParquet says in the key `geo` of a file's metadata, and what this program says of columns.
 use crate::layer::crs::{Crs, Definition};
+use arrow_schema::{Field, Schema};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
-use std::collections::BTreeMap;
+use serde_json::{Map, Value, json};
+use std::collections::{BTreeMap, HashMap};
+
+/// The key for what columns are marked as, which Parquet's types do not tell.
+pub(super) const MARKS: &str = "polycsg:columns";
+
+/// The marks of all columns that have some, as JSON.
+pub(super) fn marks(schema: &Schema) -> Value {
+    let marked = schema.fields().iter().filter(|field| !field.metadata().is_empty());
+    marked.map(|field| (field.name().clone(), json!(field.metadata()))).collect::<Map<_, _>>().into()
+}
+
+/// A schema with the marks that were written beside it. Those of columns that are not there are passed over.
+pub(super) fn marked(schema: &Schema, marks: &str) -> Result<Schema, String> {
+    let marks: BTreeMap<String, HashMap<String, String>> =
+        serde_json::from_str(marks).map_err(|error| format!("the key `{MARKS}`: {error}"))?;
+    let mark = |field: &Field| match marks.get(field.name()) {
+        Some(marks) => field.clone().with_metadata(marks.clone()),
+        None => field.clone(),
+    };
+    Ok(Schema::new(schema.fields().iter().map(|field| mark(field)).collect::<Vec<_>>()))
+}
 
 /// The key's value.
 #[derive(Debug, Deserialize, Serialize)]

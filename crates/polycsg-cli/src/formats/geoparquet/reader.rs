@@ -1,13 +1,15 @@
 //! Reads GeoParquet, some rows at a time.
 use super::geometries::{self, Encoding};
-use super::metadata::{Geo, GeometryColumn};
+use super::metadata::{Geo, GeometryColumn, MARKS, marked};
 use crate::failure::Failure;
 use crate::formats::reader::{Each, Source, warn_of_flattened};
 use crate::input::Input;
 use crate::layer::batch::{Batch, Gathered, Layer, table};
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, Schema};
-use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
+use parquet::arrow::arrow_reader::{
+    ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
+};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::ParquetMetaData;
 use std::sync::Arc;
@@ -31,7 +33,8 @@ pub(crate) struct GeoParquet {
 impl GeoParquet {
     pub(crate) fn open(input: &Input) -> Result<GeoParquet, Failure> {
         let file = input.file()?;
-        let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| failed(input, error))?;
+        let builder = ParquetRecordBatchReaderBuilder::try_new_with_options(file, options());
+        let builder = builder.map_err(|error| failed(input, error))?;
         let data = |error: String| Failure::data(input.name(), error);
         let (name, column) = primary(builder.metadata()).map_err(data)?;
         let schema = Arc::clone(builder.schema());
@@ -41,7 +44,8 @@ impl GeoParquet {
             .filter(|&i| i != geometry && Some(schema.field(i).name().as_str()) != column.boxes())
             .collect();
         let projected = schema.project(&attributes).map_err(|error| data(error.to_string()))?;
-        let schema = Arc::new(projected.with_metadata(Default::default()));
+        let marks = value(builder.metadata(), MARKS).unwrap_or("{}");
+        let schema = Arc::new(marked(&projected, marks).map_err(data)?);
         let layer = Layer { name: input.name(), schema, crs: column.system() };
         let size = batch_size(builder.metadata());
         let rows = builder.with_batch_size(size).build().map_err(|error| failed(input, error))?;
@@ -80,16 +84,25 @@ impl Source for GeoParquet {
     }
 }
 
+/// The value of a key of the file.
+fn value<'m>(metadata: &'m ParquetMetaData, key: &str) -> Option<&'m str> {
+    let pairs = metadata.file_metadata().key_value_metadata();
+    pairs.into_iter().flatten().find(|pair| pair.key == key)?.value.as_deref()
+}
+
 /// The name of the column of geometries, and what is said of it.
 fn primary(metadata: &ParquetMetaData) -> Result<(String, GeometryColumn), String> {
-    let pairs = metadata.file_metadata().key_value_metadata();
-    let geo = pairs.into_iter().flatten().find(|pair| pair.key == "geo").and_then(|pair| pair.value.as_ref());
-    let geo = geo.ok_or("this is no GeoParquet: its metadata lacks the key `geo`")?;
+    let geo = value(metadata, "geo").ok_or("this is no GeoParquet: its metadata lacks the key `geo`")?;
     let mut geo: Geo = serde_json::from_str(geo)
         .map_err(|error| format!("this is no GeoParquet: the key `geo`: {error}"))?;
     let column = geo.columns.remove(&geo.primary_column);
     let column = column.ok_or_else(|| format!("the key `geo` does not describe {:?}", geo.primary_column))?;
     Ok((geo.primary_column, column))
+}
+
+/// Types are those of Parquet. What Arrow's writers add to them is not read: the crate that does panics where it is broken.
+fn options() -> ArrowReaderOptions {
+    ArrowReaderOptions::new().with_skip_arrow_metadata(true)
 }
 
 fn batch_size(metadata: &ParquetMetaData) -> usize {

@@ -1,5 +1,5 @@
 //! Writes GeoParquet 1.1.
-use super::metadata::{Geo, GeometryColumn, stated};
+use super::metadata::{Geo, GeometryColumn, MARKS, marks, stated};
 use super::reader::with_column;
 use crate::failure::Failure;
 use crate::formats::wkb;
@@ -87,6 +87,7 @@ impl Sink for GeoParquetSink {
     fn finish(mut self: Box<Self>) -> Result<Output, Failure> {
         let geo = serde_json::to_string(&self.geo()).map_err(|error| Failure::write(&self.name, error))?;
         self.writer.append_key_value_metadata(KeyValue::new("geo".into(), geo));
+        self.writer.append_key_value_metadata(KeyValue::new(MARKS.into(), marks(&self.schema).to_string()));
         self.writer.into_inner().map_err(|error| Failure::write(&self.name, error))
     }
 }
