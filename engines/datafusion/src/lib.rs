@@ -64,9 +64,13 @@ mod aggregate;
 mod column;
 mod error;
 mod functions;
+#[cfg(feature = "join")]
+mod join;
 mod page;
 mod scalar;
 mod validity;
 
 pub use error::Error;
 pub use functions::Functions;
+#[cfg(feature = "join")]
+pub use join::rule::BoxJoin;

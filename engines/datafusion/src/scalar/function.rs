@@ -35,6 +35,16 @@ impl Function {
         Function { page, operation, signature: Signature::user_defined(Volatility::Immutable), contacts }
     }
 
+    #[cfg(feature = "join")]
+    pub(crate) fn operation(&self) -> Operation {
+        self.operation
+    }
+
+    #[cfg(feature = "join")]
+    pub(crate) fn contacts(&self) -> usize {
+        self.contacts
+    }
+
     fn arity(&self) -> usize {
         match self.operation {
             Operation::Overlay(_) | Operation::Relate(_) => 2,
