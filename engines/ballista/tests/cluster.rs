@@ -18,8 +18,9 @@ const DISSOLVE: &str =
     "SELECT substr(id, 1, 2) AS state, copy, count(*) AS counties, st_union_agg(geom) AS geom
     FROM counties GROUP BY substr(id, 1, 2), copy ORDER BY state, copy";
 
-const OVERLAY: &str = "SELECT c.id AS country, t.id AS tile, st_intersection(c.geom, t.geom) AS geom
-    FROM countries c JOIN tiles t ON st_intersects(c.geom, t.geom) ORDER BY country, tile";
+/// The same countries by coarse and by fine borders, which cross one another everywhere.
+const OVERLAY: &str = "SELECT c.id AS coarse, f.id AS fine, st_intersection(c.geom, f.geom) AS geom
+    FROM coarse c JOIN fine f ON st_intersects(c.geom, f.geom) ORDER BY coarse, fine";
 
 /// Two executors and who schedules them.
 struct Cluster {
@@ -87,7 +88,7 @@ fn config() -> SessionConfig {
 }
 
 async fn read_tables(context: &SessionContext, tables: &Path) -> Result<()> {
-    for table in ["counties", "countries", "tiles"] {
+    for table in ["counties", "coarse", "fine"] {
         let path = tables.join(table).to_string_lossy().into_owned();
         context.register_parquet(table, path, ParquetReadOptions::default()).await?;
     }
@@ -118,25 +119,14 @@ async fn write_tables(tables: &Path, copies: usize) -> Result<()> {
         let rows = counties.iter().map(|county| (county.id.clone(), copy, county.wkb.clone())).collect();
         write(&format!("counties/part-{copy}.parquet"), rows).await?;
     }
-    let countries = layer(&atlases.join("world-atlas/countries-50m.json"), "countries");
-    write(
-        "countries/all.parquet",
-        countries.into_iter().map(|country| (country.id, 0, country.wkb)).collect(),
-    )
-    .await?;
-    write("tiles/all.parquet", tiles()).await
-}
-
-/// The globe in fields of 10 degrees.
-fn tiles() -> Vec<(String, usize, Vec<u8>)> {
-    let field = |i: i32, j: i32| {
-        let (x, y) = (f64::from(10 * i), f64::from(10 * j));
-        let ring = [[x, y], [x + 10.0, y], [x + 10.0, y + 10.0], [x, y + 10.0], [x, y]];
-        let numbers = ring.into_iter().flatten().flat_map(f64::to_le_bytes);
-        let wkb = [1, 3, 0, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0].into_iter().chain(numbers).collect();
-        (format!("{i} {j}"), 0, wkb)
-    };
-    (-18..18).flat_map(|i| (-9..9).map(move |j| field(i, j))).collect()
+    for (name, file) in [("coarse", "countries-110m.json"), ("fine", "countries-50m.json")] {
+        let countries = layer(&atlases.join("world-atlas").join(file), "countries");
+        let rows = countries.into_iter().enumerate();
+        // Some countries have no id.
+        let rows = rows.map(|(i, country)| (format!("{} {i}", country.id), 0, country.wkb)).collect();
+        write(&format!("{name}/all.parquet"), rows).await?;
+    }
+    Ok(())
 }
 
 async fn answer(context: &SessionContext, sql: &str) -> Result<String> {
@@ -145,7 +135,7 @@ async fn answer(context: &SessionContext, sql: &str) -> Result<String> {
 }
 
 async fn here(tables: &Path, sql: &str) -> Result<String> {
-    let context = SessionContext::new_with_state(polycsg_ballista::session_state(config())?);
+    let context = polycsg_ballista::local(config())?;
     read_tables(&context, tables).await?;
     answer(&context, sql).await
 }

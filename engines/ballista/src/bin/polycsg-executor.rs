@@ -52,6 +52,7 @@ async fn main() -> Result<()> {
         memory_pool_size: arguments.memory,
         work_dir: arguments.work_dir.map(|path| path.to_string_lossy().into_owned()),
         executor_heartbeat_interval_seconds: arguments.heartbeat,
+        override_execution_engine: Some(Arc::new(polycsg_ballista::BoxJoinEngine::default())),
         override_function_registry: Some(Arc::new(polycsg_ballista::executor_functions())),
         ..defaults
     };

@@ -1,7 +1,7 @@
 //! What a join asks: a relation of a geometry of each side, and the rest of its filter.
 use super::sides::of_one_side;
 use crate::scalar::function::{Function, Operation};
-use crate::scalar::relate::Relation;
+use crate::scalar::pairs::Relation;
 use datafusion_common::{JoinSide, Result};
 use datafusion_physical_expr::utils::{conjunction_opt, split_conjunction};
 use datafusion_physical_expr::{PhysicalExpr, ScalarFunctionExpr};

@@ -3,7 +3,7 @@
 use super::condition::{Condition, called};
 use super::sides::of_one_side;
 use crate::scalar::function::Operation;
-use crate::scalar::overlay::Overlay;
+use crate::scalar::pairs::Overlay;
 use arrow_schema::{FieldRef, Schema};
 use datafusion_common::{JoinSide, Result};
 use datafusion_physical_expr::PhysicalExpr;

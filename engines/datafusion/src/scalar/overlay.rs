@@ -1,5 +1,5 @@
 //! Booleans of the areas of two columns, and the areas of one made valid.
-use super::pairs::Pairs;
+use super::pairs::{Overlay, Pairs};
 use crate::column::features::Features;
 use crate::column::write::Written;
 use crate::error::Error;
@@ -7,28 +7,10 @@ use arrow_array::ArrayRef;
 use arrow_schema::Field;
 use datafusion_common::Result;
 use geo_types::MultiPolygon;
-use polycsg::{Csg, Scratch};
+use polycsg::Scratch;
 use std::sync::Arc;
 
-/// A Boolean of two areas.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Overlay {
-    Intersection,
-    Union,
-    Difference,
-    SymmetricDifference,
-}
-
 impl Overlay {
-    pub(crate) fn of<'a>(self, one: Csg<'a>, other: Csg<'a>) -> Csg<'a> {
-        match self {
-            Overlay::Intersection => one & other,
-            Overlay::Union => one | other,
-            Overlay::Difference => one - other,
-            Overlay::SymmetricDifference => one ^ other,
-        }
-    }
-
     /// The Boolean of each row; NULL where a side is.
     pub(crate) fn column(self, sides: [Features; 2], contacts: usize, result: &Field) -> Result<ArrayRef> {
         let rows = sides[0].len();

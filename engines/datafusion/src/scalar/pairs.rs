@@ -1,12 +1,37 @@
 //! What is asked of a feature of one side and one of another.
-use super::overlay::Overlay;
-use super::relate::Relation;
 use super::side::Side;
 use super::touch::edges_meet;
 use crate::column::features::{Bounds, Features, common, meet};
 use crate::error::Error;
-use polycsg::{DVec2, Location, Region, Scratch};
+use polycsg::{Csg, DVec2, Location, Region, Scratch};
 use std::sync::Arc;
+
+/// A relation of two closed sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Relation {
+    Contains,
+    Intersects,
+}
+
+/// A Boolean of two areas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Overlay {
+    Intersection,
+    Union,
+    Difference,
+    SymmetricDifference,
+}
+
+impl Overlay {
+    fn of<'a>(self, one: Csg<'a>, other: Csg<'a>) -> Csg<'a> {
+        match self {
+            Overlay::Intersection => one & other,
+            Overlay::Union => one | other,
+            Overlay::Difference => one - other,
+            Overlay::SymmetricDifference => one ^ other,
+        }
+    }
+}
 
 /// Two sides of finite features, and what it takes to ask about their pairs.
 pub(crate) struct Pairs {

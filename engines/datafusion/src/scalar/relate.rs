@@ -1,17 +1,10 @@
 //! Whether the geometries of two columns contain or meet one another, as closed sets.
-use super::pairs::Pairs;
+use super::pairs::{Pairs, Relation};
 use crate::column::features::Features;
 use crate::error::Error;
 use arrow_array::{ArrayRef, BooleanArray};
 use datafusion_common::Result;
 use std::sync::Arc;
-
-/// A relation of two closed sets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Relation {
-    Contains,
-    Intersects,
-}
 
 impl Relation {
     /// Whether it holds in each row; NULL where a side is.
