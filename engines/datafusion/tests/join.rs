@@ -10,6 +10,7 @@ use datafusion::prelude::{SessionConfig, SessionContext};
 use datafusion_common::{DataFusionError, Result};
 use polycsg_datafusion::{BoxJoin, Error, Functions};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 type Rows = Vec<(&'static str, Option<Vec<u8>>)>;
 
@@ -230,4 +231,18 @@ async fn broken_geometries_name_their_row() {
             assert!(at_row, "{error}");
         }
     }
+}
+
+/// A join of two million pairs that all meet would go on for many seconds.
+#[tokio::test]
+async fn a_join_that_is_dropped_ends_soon() {
+    let mut random = Random(2);
+    let rows: Rows = (0..1500).map(|_| ("a", Some(polygon_wkb(&[random.octagon(1.0, 1.0)])))).collect();
+    let context = joined(SessionConfig::new().with_target_partitions(1), 1 << 30);
+    ["a", "b"].iter().for_each(|name| add_table(&context, name, std::slice::from_ref(&rows)));
+    let sql = "SELECT count(st_intersection(a.geom, b.geom)) FROM a JOIN b ON st_intersects(a.geom, b.geom)";
+    let start = Instant::now();
+    let found = tokio::time::timeout(Duration::from_millis(300), answer(&context, sql)).await;
+    assert!(found.is_err(), "it was over before it was dropped");
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
 }

@@ -2,6 +2,7 @@
 use super::build::Build;
 use arrow_array::RecordBatch;
 use arrow_select::concat::concat_batches;
+use datafusion_common::utils::memory::get_record_batch_memory_size;
 use datafusion_common::{DataFusionError, Result};
 use datafusion_execution::SendableRecordBatchStream;
 use datafusion_execution::memory_pool::MemoryReservation;
@@ -51,7 +52,7 @@ async fn collect(
 ) -> Result<Build> {
     let (schema, mut batches) = (left.schema(), Vec::<RecordBatch>::new());
     while let Some(batch) = left.try_next().await? {
-        memory.try_grow(batch.get_array_memory_size())?;
+        memory.try_grow(get_record_batch_memory_size(&batch))?;
         batches.push(batch);
     }
     let apart = memory.size();

@@ -219,13 +219,7 @@ impl Running {
             if self.probe.is_none() && !self.next_probe().await? {
                 return Ok(None);
             }
-            let _timer = self.metrics.elapsed_compute().timer();
-            let step = match &mut self.probe {
-                Some(probe) => probe.step(&self.condition, &self.output)?,
-                None => None,
-            };
-            drop(_timer);
-            match step {
+            match self.step()? {
                 None => self.probe = None,
                 Some(batch) if batch.num_rows() > 0 => {
                     self.metrics.record_output(batch.num_rows());
@@ -234,6 +228,12 @@ impl Running {
                 Some(_) => {}
             }
         }
+    }
+
+    fn step(&mut self) -> Result<Option<RecordBatch>> {
+        let _timed = self.metrics.elapsed_compute().timer();
+        let Some(probe) = &mut self.probe else { return Ok(None) };
+        probe.step(&self.condition, &self.output)
     }
 
     /// Starts on the next batch of the right input; false, if there is none. Where the left one is empty, the right one is not read.

@@ -1,14 +1,10 @@
 //! Whether edges of two features have a point in common, by their signs alone: far cheaper than evaluating both.
 use crate::column::features::{Bounds, meet};
+use exactfloat::orient2d;
 use polycsg::DVec2;
-use robust::{Coord, orient2d};
 
 /// So many comparisons for each edge, and the question is left open.
 const MOST_PER_EDGE: usize = 64;
-
-/// Beyond these magnitudes products of coordinates leave the range in which signs are exact.
-const SMALL: f64 = 1e-100;
-const LARGE: f64 = 1e100;
 
 struct Edge {
     bounds: Bounds,
@@ -30,7 +26,7 @@ pub(crate) fn edges_meet<'r>(
         let (edge, rest) = if is_first { (&one[i], &other[j..]) } else { (&other[j], &one[i..]) };
         for candidate in rest.iter().take_while(|it| it.bounds[0].x <= edge.bounds[1].x) {
             left = left.checked_sub(1)?;
-            if meet(&edge.bounds, &candidate.bounds) && have_a_point(edge.ends, candidate.ends)? {
+            if meet(&edge.bounds, &candidate.bounds) && have_a_point(edge.ends, candidate.ends) {
                 return Some(true);
             }
         }
@@ -50,17 +46,12 @@ fn edges_near<'r>(rings: impl Iterator<Item = &'r [DVec2]>, window: &Bounds) -> 
 }
 
 /// Whether two edges have a point in common, whose boxes do.
-fn have_a_point(s: [DVec2; 2], t: [DVec2; 2]) -> Option<bool> {
-    let is_safe = |x: f64| x == 0.0 || (SMALL..=LARGE).contains(&x.abs());
-    if ![s, t].as_flattened().iter().all(|point| is_safe(point.x) && is_safe(point.y)) {
-        return None;
-    }
-    Some(!are_apart(s, t) && !are_apart(t, s))
+fn have_a_point(s: [DVec2; 2], t: [DVec2; 2]) -> bool {
+    !are_apart(s, t) && !are_apart(t, s)
 }
 
 /// Whether both ends of an edge lie strictly to one side of a line.
 fn are_apart([a, b]: [DVec2; 2], ends: [DVec2; 2]) -> bool {
-    let corner = |point: DVec2| Coord { x: point.x, y: point.y };
-    let [one, other] = ends.map(|end| orient2d(corner(a), corner(b), corner(end)));
+    let [one, other] = ends.map(|end| orient2d(a.to_array(), b.to_array(), end.to_array()));
     (one > 0.0 && other > 0.0) || (one < 0.0 && other < 0.0)
 }
