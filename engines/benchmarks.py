@@ -5,7 +5,8 @@ run: python engines/benchmarks.py [WORD IN A TITLE ...] > engines/benchmarks.md
 Needs of the package index sedonadb 0.5, geoarrow-pyarrow, geopandas, and duckdb with duckdb-extensions and
 duckdb-extension-spatial of its version; `npm install --prefix engines/target us-atlas world-atlas`; and
 `cargo build --release --features join --example query` in engines/datafusion (QUERY names the program, ATLASES the packages).
-Times are CPU time of a process on one thread, the least of several rounds, taken by turns; the first one in a process is cold for all.
+Times are CPU time of a process on one thread, the least of several rounds, taken by turns. Each library has warm rounds, in which its process has
+answered the query before.
 """
 
 import json

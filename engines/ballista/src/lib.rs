@@ -6,7 +6,7 @@ use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_core::utils::default_session_builder;
 use ballista_executor::execution_engine::{DefaultExecutionEngine, ExecutionEngine, QueryStageExecutor};
 use datafusion::error::Result;
-use datafusion::execution::{SessionState, SessionStateBuilder};
+use datafusion::execution::SessionState;
 use datafusion::physical_optimizer::PhysicalOptimizerRule;
 use datafusion::physical_plan::ExecutionPlan;
 use datafusion::prelude::{SessionConfig, SessionContext};
@@ -50,16 +50,7 @@ pub fn executor_functions() -> BallistaFunctionRegistry {
     registry
 }
 
-/// A session of this process alone, with polycsg's functions and joins by boxes.
-///
-/// # Errors
-/// Those of the registry.
-pub fn local(config: SessionConfig) -> Result<SessionContext> {
-    let state = SessionStateBuilder::new_from_existing(session_state(config)?);
-    Ok(SessionContext::new_with_state(state.with_physical_optimizer_rule(Arc::new(BoxJoin)).build()))
-}
-
-/// A session of the scheduler, with polycsg's functions beside DataFusion's own.
+/// A session of the scheduler, or of this process, with polycsg's functions beside DataFusion's own.
 ///
 /// # Errors
 /// Those of the registry.

@@ -6,7 +6,7 @@ use common::{Process, files, free_port, layer};
 use datafusion::arrow::array::{ArrayRef, BinaryArray, RecordBatch, StringArray};
 use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::dataframe::DataFrameWriteOptions;
-use datafusion::error::Result;
+use datafusion::error::{DataFusionError, Result};
 use datafusion::prelude::{ParquetReadOptions, SessionConfig, SessionContext};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -32,6 +32,11 @@ struct Cluster {
 
 impl Cluster {
     fn start(folder: &Path) -> Cluster {
+        Cluster::start_with(folder, folder)
+    }
+
+    /// The executors' shuffles go to a folder of their own.
+    fn start_with(folder: &Path, shuffles: &Path) -> Cluster {
         let port = free_port();
         let log = |name: &str| folder.join(format!("{name}.log"));
         let scheduler = [format!("--port={port}"), "--executor-timeout=10".into()];
@@ -42,7 +47,7 @@ impl Cluster {
             while own == u16::MAX || std::net::TcpListener::bind(("127.0.0.1", own + 1)).is_err() {
                 own = free_port();
             }
-            let work = folder.join(name);
+            let work = shuffles.join(name);
             std::fs::create_dir(&work).expect("a new folder");
             let arguments = [
                 format!("--port={own}"),
@@ -134,8 +139,9 @@ async fn answer(context: &SessionContext, sql: &str) -> Result<String> {
     Ok(pretty_format_batches(&batches)?.to_string())
 }
 
+/// In one process, with nested loops.
 async fn here(tables: &Path, sql: &str) -> Result<String> {
-    let context = polycsg_ballista::local(config())?;
+    let context = SessionContext::new_with_state(polycsg_ballista::session_state(config())?);
     read_tables(&context, tables).await?;
     answer(&context, sql).await
 }
@@ -155,6 +161,8 @@ async fn two_executors_give_the_bytes_of_one_process() -> Result<()> {
         assert_eq!(there, here(&tables, sql).await?);
         println!("{} lines in {took:?}, the same bytes as in one process", there.lines().count());
     }
+    let joined_by_boxes = |executor: &&str| cluster.log(executor).contains("BoxJoinExec");
+    assert!(["executor-0", "executor-1"].iter().any(joined_by_boxes), "a nested loop ran");
     for executor in 0..2 {
         assert!(
             !files(&folder.path().join(format!("executor-{executor}"))).is_empty(),
@@ -204,5 +212,24 @@ async fn an_executor_that_dies_with_its_shuffle_changes_no_byte() -> Result<()> 
         killed.elapsed()
     );
     told.iter().for_each(|line| println!("  {line}"));
+    Ok(())
+}
+
+/// What a disk of 1 MB cannot take is an error at the client, and no rows.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs ATLASES, and FULL_DISK: an empty folder on a file system of 1 MB"]
+async fn a_full_disk_is_an_error_at_the_client() -> Result<()> {
+    let folder = tempfile::tempdir()?;
+    let tables = folder.path().join("tables");
+    write_tables(&tables, 4).await?;
+    let disk = PathBuf::from(std::env::var("FULL_DISK").expect("FULL_DISK names a folder"));
+    let cluster = Cluster::start_with(folder.path(), &disk);
+    let client = cluster.client(&tables).await?;
+    let start = Instant::now();
+    let error = answer(&client, DISSOLVE).await.expect_err("the shuffle takes several MB");
+    println!("after {:?}: {error}", start.elapsed());
+    // Ballista's errors come to the client as texts.
+    assert!(matches!(error.find_root(), DataFusionError::Execution(_)), "{error:?}");
+    assert!(error.to_string().contains("No space left on device"), "{error}");
     Ok(())
 }

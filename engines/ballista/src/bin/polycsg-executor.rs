@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// A Ballista executor with polycsg's functions.
 #[derive(Parser)]
-struct Arguments {
+struct ExecutorArguments {
     /// The address to listen on.
     #[arg(long, default_value = "127.0.0.1")]
     host: IpAddr,
@@ -37,7 +37,7 @@ struct Arguments {
 
 #[tokio::main]
 async fn main() -> Result<()> {
-    let arguments = Arguments::parse();
+    let arguments = ExecutorArguments::parse();
     env_logger::init_from_env(env_logger::Env::default().default_filter_or("info"));
     let defaults = ExecutorProcessConfig::default();
     let config = ExecutorProcessConfig {
