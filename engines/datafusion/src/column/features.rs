@@ -131,6 +131,7 @@ impl Features {
     }
 
     /// The memory that they take.
+    #[cfg(feature = "join")]
     pub(crate) fn size(&self) -> usize {
         let rings = size_of::<usize>() + size_of::<Bounds>() + size_of::<bool>();
         self.points.capacity() * size_of::<DVec2>()

@@ -109,8 +109,8 @@ impl Pairs {
         found.map_err(|error| Error::row(row, error))
     }
 
-    #[cfg(feature = "join")]
     /// What two areas have in common, where they meet at all; empty, if they only touch.
+    #[cfg(feature = "join")]
     pub(crate) fn common(&mut self, pair: [usize; 2], row: usize) -> Result<Option<Region>, Error> {
         if !self.boxes_meet(pair) {
             return Ok(None);
