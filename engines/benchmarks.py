@@ -4,8 +4,9 @@ run: python engines/benchmarks.py [WORD IN A TITLE ...] > engines/benchmarks.md
 
 Needs of the package index sedonadb 0.5, geoarrow-pyarrow, geopandas, and duckdb with duckdb-extensions and
 duckdb-extension-spatial of its version; `npm install --prefix engines/target us-atlas world-atlas`; and
-`cargo build --release --example query` in engines/datafusion (QUERY names the program, ATLASES the packages).
-Times are CPU time of a process on one thread, the least of several rounds, taken by turns.
+`cargo build --release --features join --example query` in engines/datafusion (QUERY names the program, ATLASES the packages).
+Times are CPU time of a process on one thread, the least of several rounds, taken by turns. Each library has warm rounds, in which its process has
+answered the query before.
 """
 
 import json
@@ -99,7 +100,7 @@ def ours(tables, sql, folder):
             writer.write_table(rows, max_chunksize=8192)
         files.append(f"{name}={file}")
     result = folder / "result.arrow"
-    done = subprocess.run([QUERY, sql, result, "1", *files], check=True, stderr=subprocess.PIPE, text=True)
+    done = subprocess.run([QUERY, sql, result, str(ROUNDS), *files], check=True, stderr=subprocess.PIPE, text=True)
     return float(done.stderr), read(pa.ipc.open_file(result).read_all())
 
 
@@ -174,9 +175,15 @@ def overlays():
         numbers = np.arange(len(countries))
         tables = {"a": table(numbers, countries), "b": table(numbers, shifted)}
         yield f"countries (1:{scale}) and themselves, shifted", f"countries {scale}", tables
-    a, b = parcels(1024), parcels(1024, seed=2)
-    tables = {"a": table(np.arange(len(a)), a), "b": table(np.arange(len(b)), shapely.transform(b, lambda p: p + 0.5))}
-    yield "1024 parcels and 1024 others", "parcels", tables
+    layers = [atlas(f"world-atlas/countries-{scale}.json", "countries") for scale in ("110m", "50m")]
+    tables = {name: table(*layer) for name, layer in zip("ab", layers)}
+    yield "countries (1:110m) and countries (1:50m)", "countries of two scales", tables
+    tables = {name: table(*atlas("us-atlas/counties-10m.json", layer)) for name, layer in zip("ab", ("states", "counties"))}
+    yield "states and counties of the US", "states and counties", tables
+    for count in (1024, 10_000):
+        a, b = parcels(count), shapely.transform(parcels(count, seed=2), lambda p: p + 0.5)
+        tables = {"a": table(np.arange(len(a)), a), "b": table(np.arange(len(b)), b)}
+        yield f"{len(a)} parcels and as many others", "parcels", tables
 
 
 def measured(geometries):

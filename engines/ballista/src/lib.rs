@@ -1,13 +1,40 @@
 //! What a Ballista cluster needs to know polycsg's functions. They travel by name, so client, scheduler and every executor
 //! register them.
 use ballista::prelude::{SessionConfigExt, SessionContextExt};
+use ballista_core::JobId;
 use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_core::utils::default_session_builder;
+use ballista_executor::execution_engine::{DefaultExecutionEngine, ExecutionEngine, QueryStageExecutor};
 use datafusion::error::Result;
 use datafusion::execution::SessionState;
+use datafusion::physical_optimizer::PhysicalOptimizerRule;
+use datafusion::physical_plan::ExecutionPlan;
 use datafusion::prelude::{SessionConfig, SessionContext};
-use polycsg_datafusion::Functions;
+use polycsg_datafusion::{BoxJoin, Functions};
 use std::sync::Arc;
+
+/// How an executor carries out a stage: as Ballista does, with joins by boxes.
+///
+/// Plans travel with nested loops, which scheduler and client know; each executor replaces those of its stage. So no codec is needed,
+/// and nothing changes for whoever plans.
+#[derive(Default)]
+pub struct BoxJoinEngine(DefaultExecutionEngine);
+
+impl ExecutionEngine for BoxJoinEngine {
+    fn create_query_stage_exec(
+        &self,
+        job: JobId,
+        stage: usize,
+        task: usize,
+        partitions: Vec<usize>,
+        plan: Arc<dyn ExecutionPlan>,
+        folder: &str,
+        config: &SessionConfig,
+    ) -> Result<Arc<dyn QueryStageExecutor>> {
+        let plan = BoxJoin.optimize(plan, config.options())?;
+        self.0.create_query_stage_exec(job, stage, task, partitions, plan, folder, config)
+    }
+}
 
 /// An executor's functions: DataFusion's own and polycsg's.
 #[must_use]

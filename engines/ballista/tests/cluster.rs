@@ -6,7 +6,7 @@ use common::{Process, files, free_port, layer};
 use datafusion::arrow::array::{ArrayRef, BinaryArray, RecordBatch, StringArray};
 use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::dataframe::DataFrameWriteOptions;
-use datafusion::error::Result;
+use datafusion::error::{DataFusionError, Result};
 use datafusion::prelude::{ParquetReadOptions, SessionConfig, SessionContext};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,8 +18,9 @@ const DISSOLVE: &str =
     "SELECT substr(id, 1, 2) AS state, copy, count(*) AS counties, st_union_agg(geom) AS geom
     FROM counties GROUP BY substr(id, 1, 2), copy ORDER BY state, copy";
 
-const OVERLAY: &str = "SELECT c.id AS country, t.id AS tile, st_intersection(c.geom, t.geom) AS geom
-    FROM countries c JOIN tiles t ON st_intersects(c.geom, t.geom) ORDER BY country, tile";
+/// The same countries by coarse and by fine borders, which cross one another everywhere.
+const OVERLAY: &str = "SELECT c.id AS coarse, f.id AS fine, st_intersection(c.geom, f.geom) AS geom
+    FROM coarse c JOIN fine f ON st_intersects(c.geom, f.geom) ORDER BY coarse, fine";
 
 /// Two executors and who schedules them.
 struct Cluster {
@@ -31,6 +32,11 @@ struct Cluster {
 
 impl Cluster {
     fn start(folder: &Path) -> Cluster {
+        Cluster::start_with(folder, folder)
+    }
+
+    /// The executors' shuffles go to a folder of their own.
+    fn start_with(folder: &Path, shuffles: &Path) -> Cluster {
         let port = free_port();
         let log = |name: &str| folder.join(format!("{name}.log"));
         let scheduler = [format!("--port={port}"), "--executor-timeout=10".into()];
@@ -41,7 +47,7 @@ impl Cluster {
             while own == u16::MAX || std::net::TcpListener::bind(("127.0.0.1", own + 1)).is_err() {
                 own = free_port();
             }
-            let work = folder.join(name);
+            let work = shuffles.join(name);
             std::fs::create_dir(&work).expect("a new folder");
             let arguments = [
                 format!("--port={own}"),
@@ -87,7 +93,7 @@ fn config() -> SessionConfig {
 }
 
 async fn read_tables(context: &SessionContext, tables: &Path) -> Result<()> {
-    for table in ["counties", "countries", "tiles"] {
+    for table in ["counties", "coarse", "fine"] {
         let path = tables.join(table).to_string_lossy().into_owned();
         context.register_parquet(table, path, ParquetReadOptions::default()).await?;
     }
@@ -118,25 +124,14 @@ async fn write_tables(tables: &Path, copies: usize) -> Result<()> {
         let rows = counties.iter().map(|county| (county.id.clone(), copy, county.wkb.clone())).collect();
         write(&format!("counties/part-{copy}.parquet"), rows).await?;
     }
-    let countries = layer(&atlases.join("world-atlas/countries-50m.json"), "countries");
-    write(
-        "countries/all.parquet",
-        countries.into_iter().map(|country| (country.id, 0, country.wkb)).collect(),
-    )
-    .await?;
-    write("tiles/all.parquet", tiles()).await
-}
-
-/// The globe in fields of 10 degrees.
-fn tiles() -> Vec<(String, usize, Vec<u8>)> {
-    let field = |i: i32, j: i32| {
-        let (x, y) = (f64::from(10 * i), f64::from(10 * j));
-        let ring = [[x, y], [x + 10.0, y], [x + 10.0, y + 10.0], [x, y + 10.0], [x, y]];
-        let numbers = ring.into_iter().flatten().flat_map(f64::to_le_bytes);
-        let wkb = [1, 3, 0, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0].into_iter().chain(numbers).collect();
-        (format!("{i} {j}"), 0, wkb)
-    };
-    (-18..18).flat_map(|i| (-9..9).map(move |j| field(i, j))).collect()
+    for (name, file) in [("coarse", "countries-110m.json"), ("fine", "countries-50m.json")] {
+        let countries = layer(&atlases.join("world-atlas").join(file), "countries");
+        let rows = countries.into_iter().enumerate();
+        // Some countries have no id.
+        let rows = rows.map(|(i, country)| (format!("{} {i}", country.id), 0, country.wkb)).collect();
+        write(&format!("{name}/all.parquet"), rows).await?;
+    }
+    Ok(())
 }
 
 async fn answer(context: &SessionContext, sql: &str) -> Result<String> {
@@ -144,6 +139,7 @@ async fn answer(context: &SessionContext, sql: &str) -> Result<String> {
     Ok(pretty_format_batches(&batches)?.to_string())
 }
 
+/// In one process, with nested loops.
 async fn here(tables: &Path, sql: &str) -> Result<String> {
     let context = SessionContext::new_with_state(polycsg_ballista::session_state(config())?);
     read_tables(&context, tables).await?;
@@ -165,6 +161,8 @@ async fn two_executors_give_the_bytes_of_one_process() -> Result<()> {
         assert_eq!(there, here(&tables, sql).await?);
         println!("{} lines in {took:?}, the same bytes as in one process", there.lines().count());
     }
+    let joined_by_boxes = |executor: &&str| cluster.log(executor).contains("BoxJoinExec");
+    assert!(["executor-0", "executor-1"].iter().any(joined_by_boxes), "a nested loop ran");
     for executor in 0..2 {
         assert!(
             !files(&folder.path().join(format!("executor-{executor}"))).is_empty(),
@@ -214,5 +212,24 @@ async fn an_executor_that_dies_with_its_shuffle_changes_no_byte() -> Result<()> 
         killed.elapsed()
     );
     told.iter().for_each(|line| println!("  {line}"));
+    Ok(())
+}
+
+/// What a disk of 1 MB cannot take is an error at the client, and no rows.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs ATLASES, and FULL_DISK: an empty folder on a file system of 1 MB"]
+async fn a_full_disk_is_an_error_at_the_client() -> Result<()> {
+    let folder = tempfile::tempdir()?;
+    let tables = folder.path().join("tables");
+    write_tables(&tables, 4).await?;
+    let disk = PathBuf::from(std::env::var("FULL_DISK").expect("FULL_DISK names a folder"));
+    let cluster = Cluster::start_with(folder.path(), &disk);
+    let client = cluster.client(&tables).await?;
+    let start = Instant::now();
+    let error = answer(&client, DISSOLVE).await.expect_err("the shuffle takes several MB");
+    println!("after {:?}: {error}", start.elapsed());
+    // Ballista's errors come to the client as texts.
+    assert!(matches!(error.find_root(), DataFusionError::Execution(_)), "{error:?}");
+    assert!(error.to_string().contains("No space left on device"), "{error}");
     Ok(())
 }

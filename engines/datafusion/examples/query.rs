@@ -5,8 +5,9 @@ use arrow_array::RecordBatch;
 use arrow_ipc::{reader::FileReader, writer::FileWriter};
 use cpu_time::ProcessTime;
 use datafusion::datasource::MemTable;
+use datafusion::execution::SessionStateBuilder;
 use datafusion::prelude::{SessionConfig, SessionContext};
-use polycsg_datafusion::Functions;
+use polycsg_datafusion::{BoxJoin, Functions};
 use std::error::Error;
 use std::fs::File;
 use std::sync::Arc;
@@ -25,7 +26,9 @@ async fn main() -> Result<(), Box<dyn Error>> {
     let [sql, result, rounds, tables @ ..] = &arguments[..] else {
         return Err("give SQL RESULT ROUNDS NAME=FILE...".into());
     };
-    let mut context = SessionContext::new_with_config(SessionConfig::new().with_target_partitions(1));
+    let state = SessionStateBuilder::new().with_config(SessionConfig::new().with_target_partitions(1));
+    let state = state.with_default_features().with_physical_optimizer_rule(Arc::new(BoxJoin));
+    let mut context = SessionContext::new_with_state(state.build());
     Functions::default().register(&mut context)?;
     tables.iter().try_for_each(|table| add_table(&context, table))?;
     let (mut least, mut found) = (f64::INFINITY, vec![]);

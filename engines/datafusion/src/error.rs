@@ -4,7 +4,8 @@ use polycsg::DVec2;
 
 /// Why a query was refused while it ran. It travels as [`DataFusionError::External`]: `error.find_root()` leads to it.
 ///
-/// Rows are counted from 0 in the batch that the engine handed over, which has 8 192 rows unless its `batch_size` says otherwise.
+/// Rows are counted from 0 in the batch that the engine handed over, which has 8 192 rows unless its `batch_size` says otherwise. The left
+/// side of a join by boxes is one batch.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -28,7 +28,13 @@
 //!
 //! All decisions are exact and every vertex is rounded once. Results are *regularised*, the closure of their interior: areas that
 //! only touch have an empty intersection. Equal rows that follow one another, as a constant or one side of a nested-loop join gives
-//! them, are read and prepared once.
+//! them, are read once, and prepared once where they are many.
+//!
+//! # Joins
+//!
+//! DataFusion has no spatial join: it asks `ST_Intersects` for every pair, in a nested loop. With the feature `join` the rule
+//! `BoxJoin` replaces the nested loop by a join by boxes. The feature takes the engine's crates of physical plans, which the
+//! functions do without.
 //!
 //! # Errors
 //!
@@ -64,9 +70,13 @@ mod aggregate;
 mod column;
 mod error;
 mod functions;
+#[cfg(feature = "join")]
+mod join;
 mod page;
 mod scalar;
 mod validity;
 
 pub use error::Error;
 pub use functions::Functions;
+#[cfg(feature = "join")]
+pub use join::rule::BoxJoin;

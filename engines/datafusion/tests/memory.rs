@@ -34,10 +34,12 @@ fn accumulator(function: &AggregateUDF) -> Result<Box<dyn datafusion_expr::Group
     })
 }
 
+type Shapes = Box<dyn FnMut(&mut Random) -> Vec<u8>>;
+
 /// Batches of shapes, and how many groups they are dealt out to.
 fn inputs() -> Vec<(&'static str, usize, Vec<ArrayRef>)> {
     let mut random = Random(11);
-    let mut batches = |count: usize, mut shape: Box<dyn FnMut(&mut Random) -> Vec<u8>>| -> Vec<ArrayRef> {
+    let mut batches = |count: usize, mut shape: Shapes| -> Vec<ArrayRef> {
         let mut batch =
             || -> ArrayRef { Arc::new(BinaryArray::from_iter_values((0..1000).map(|_| shape(&mut random)))) };
         (0..count).map(|_| batch()).collect()
@@ -46,7 +48,8 @@ fn inputs() -> Vec<(&'static str, usize, Vec<ArrayRef>)> {
     let star = |random: &mut Random| {
         let [x, y] = [random.number() * 2000.0, random.number() * 2000.0];
         let corner = |i: u32| {
-            let (angle, radius) = (f64::from(i) * 0.031_415_926, if i % 2 == 0 { 20.0 } else { 12.0 });
+            let (angle, radius) =
+                (f64::from(i) * 0.031_415_926, if i.is_multiple_of(2) { 20.0 } else { 12.0 });
             [x + radius * angle.cos(), y + radius * angle.sin()]
         };
         polygon_wkb(&[(0..200).map(corner).collect()])

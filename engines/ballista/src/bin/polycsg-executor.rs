@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// A Ballista executor with polycsg's functions.
 #[derive(Parser)]
-struct Arguments {
+struct ExecutorArguments {
     /// The address to listen on.
     #[arg(long, default_value = "127.0.0.1")]
     host: IpAddr,
@@ -37,7 +37,7 @@ struct Arguments {
 
 #[tokio::main]
 async fn main() -> Result<()> {
-    let arguments = Arguments::parse();
+    let arguments = ExecutorArguments::parse();
     env_logger::init_from_env(env_logger::Env::default().default_filter_or("info"));
     let defaults = ExecutorProcessConfig::default();
     let config = ExecutorProcessConfig {
@@ -52,6 +52,7 @@ async fn main() -> Result<()> {
         memory_pool_size: arguments.memory,
         work_dir: arguments.work_dir.map(|path| path.to_string_lossy().into_owned()),
         executor_heartbeat_interval_seconds: arguments.heartbeat,
+        override_execution_engine: Some(Arc::new(polycsg_ballista::BoxJoinEngine::default())),
         override_function_registry: Some(Arc::new(polycsg_ballista::executor_functions())),
         ..defaults
     };

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// A Ballista scheduler with polycsg's functions.
 #[derive(Parser)]
-struct Arguments {
+struct SchedulerArguments {
     /// The address to listen on.
     #[arg(long, default_value = "127.0.0.1")]
     host: IpAddr,
@@ -23,7 +23,7 @@ struct Arguments {
 
 #[tokio::main]
 async fn main() -> Result<()> {
-    let arguments = Arguments::parse();
+    let arguments = SchedulerArguments::parse();
     env_logger::init_from_env(env_logger::Env::default().default_filter_or("info"));
     let config = SchedulerConfig {
         bind_host: arguments.host.to_string(),

@@ -82,8 +82,14 @@ impl Process {
     /// Starts one of the two programs; what it says goes to a file.
     pub fn start(program: &str, arguments: &[String], log: &Path) -> Process {
         let log = File::create(log).expect("a log");
-        let started =
-            Command::new(program).args(arguments).stdout(log.try_clone().expect("a log")).stderr(log).spawn();
+        // So executors tell the plans that they run.
+        let level = "info,ballista_executor::execution_engine=debug";
+        let started = Command::new(program)
+            .env("RUST_LOG", level)
+            .args(arguments)
+            .stdout(log.try_clone().expect("a log"))
+            .stderr(log)
+            .spawn();
         Process(started.expect("the program starts"))
     }
 

@@ -2,6 +2,27 @@
 use crate::error::Error;
 use polycsg::{Csg, DVec2, FillRule};
 use std::ops::Range;
+use std::sync::OnceLock;
+
+/// A box, by its low and its high corner; the low one is not below the high one, if it is around nothing.
+pub(crate) type Bounds = [DVec2; 2];
+
+const NOWHERE: Bounds = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+
+/// What two boxes have in common.
+pub(crate) fn common(one: &Bounds, other: &Bounds) -> Bounds {
+    [one[0].max(other[0]), one[1].min(other[1])]
+}
+
+/// Whether two boxes have a point in common.
+pub(crate) fn meet(one: &Bounds, other: &Bounds) -> bool {
+    let [low, high] = common(one, other);
+    low.cmple(high).all()
+}
+
+fn around([low, high]: Bounds, point: DVec2) -> Bounds {
+    [low.min(point), high.max(point)]
+}
 
 /// Features and the rows that hold them. Rows that follow one another and are equal share a feature, so that what a join or a
 /// constant repeats is read once and prepared once.
@@ -10,6 +31,8 @@ pub(crate) struct Features {
     points: Vec<DVec2>,
     /// Where each ring ends in the points.
     ring_ends: Vec<usize>,
+    /// The box around each ring.
+    ring_bounds: Vec<Bounds>,
     /// Which rings are the first of their polygon.
     is_outer: Vec<bool>,
     features: Vec<Feature>,
@@ -29,7 +52,10 @@ enum Shape {
 struct Feature {
     shape: Shape,
     /// The box around it.
-    bounds: [DVec2; 2],
+    bounds: Bounds,
+    is_finite: bool,
+    /// Whether each of its edges bounds it, once that is known.
+    is_plain: OnceLock<bool>,
     /// The row where it was read, for messages.
     row: usize,
     /// How many rows hold it.
@@ -74,7 +100,7 @@ impl Features {
 
     /// Whether all of a feature's coordinates are finite.
     pub(crate) fn is_finite(&self, feature: usize) -> bool {
-        self.rings(feature).flatten().all(|point| point.is_finite())
+        self.features[feature].is_finite
     }
 
     /// A feature as an operand.
@@ -83,8 +109,44 @@ impl Features {
         read.map_err(|error| self.at_row_of(feature, error))
     }
 
+    /// What a window sees of a feature, as an operand: the rings whose boxes meet it. A ring that misses the window encloses nothing of
+    /// it, so within the window the set is the same.
+    pub(crate) fn operand_near(&self, feature: usize, window: &Bounds) -> Result<Csg<'static>, Error> {
+        if !self.features[feature].is_finite {
+            return self.operand(feature); // which names the ring
+        }
+        let read = Csg::from_rings(self.rings_near(feature, window), FillRule::EvenOdd);
+        read.map_err(|error| self.at_row_of(feature, error))
+    }
+
+    /// The rings of a feature whose boxes meet a window.
+    pub(crate) fn rings_near(&self, feature: usize, window: &Bounds) -> impl Iterator<Item = &[DVec2]> {
+        let near = self.ring_numbers(feature).filter(|&ring| meet(&self.ring_bounds[ring], window));
+        near.map(|ring| self.ring(ring))
+    }
+
+    /// Where it is kept whether each edge of a feature bounds it.
+    pub(crate) fn plain(&self, feature: usize) -> &OnceLock<bool> {
+        &self.features[feature].is_plain
+    }
+
+    /// The memory that they take.
+    #[cfg(feature = "join")]
+    pub(crate) fn size(&self) -> usize {
+        let rings = size_of::<usize>() + size_of::<Bounds>() + size_of::<bool>();
+        self.points.capacity() * size_of::<DVec2>()
+            + self.ring_ends.capacity() * rings
+            + self.features.capacity() * size_of::<Feature>()
+            + self.rows.capacity() * size_of::<Option<usize>>()
+    }
+
+    /// How many points a feature has.
+    pub(crate) fn point_count(&self, feature: usize) -> usize {
+        self.rings(feature).map(<[DVec2]>::len).sum()
+    }
+
     /// The box around a feature: its low corner is not below its high one, if it is empty.
-    pub(crate) fn bounds(&self, feature: usize) -> [DVec2; 2] {
+    pub(crate) fn bounds(&self, feature: usize) -> Bounds {
         self.features[feature].bounds
     }
 
@@ -143,6 +205,7 @@ impl Features {
         if self.points.len() > start + 1 && self.points.last() == Some(&self.points[start]) {
             self.points.pop();
         }
+        self.ring_bounds.push(self.points[start..].iter().copied().fold(NOWHERE, around));
         self.ring_ends.push(self.points.len());
         self.is_outer.push(is_outer);
     }
@@ -159,16 +222,16 @@ impl Features {
 
     fn push(&mut self, shape: Shape) {
         let row = self.rows.len();
-        let nowhere = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-        let around = |[low, high]: [DVec2; 2], p: DVec2| [low.min(p), high.max(p)];
-        let bounds = match &shape {
+        let (bounds, is_finite) = match &shape {
             Shape::Area(rings) => {
-                rings.clone().flat_map(|ring| self.ring(ring)).copied().fold(nowhere, around)
+                let corners = self.ring_bounds[rings.clone()].as_flattened();
+                let mut points = rings.clone().flat_map(|ring| self.ring(ring));
+                (corners.iter().copied().fold(NOWHERE, around), points.all(|point| point.is_finite()))
             }
-            Shape::Point(point) => point.iter().copied().fold(nowhere, around),
+            Shape::Point(point) => (point.iter().copied().fold(NOWHERE, around), true),
         };
         self.rows.push(Some(self.features.len()));
-        self.features.push(Feature { shape, bounds, row, uses: 1 });
+        self.features.push(Feature { shape, bounds, is_finite, is_plain: OnceLock::new(), row, uses: 1 });
     }
 
     fn ring_numbers(&self, feature: usize) -> Range<usize> {

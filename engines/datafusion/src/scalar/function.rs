@@ -1,5 +1,5 @@
 //! What the engine sees of a function of rows: its name, its types, and how a batch goes through it.
-use super::{measure, overlay, relate};
+use super::{measure, overlay, pairs};
 use crate::column::encoding::{Encoding, common, leading, may_be_geometry};
 use crate::column::features::Features;
 use crate::column::read;
@@ -15,10 +15,10 @@ use std::sync::Arc;
 /// What a function does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Operation {
-    Overlay(overlay::Overlay),
+    Overlay(pairs::Overlay),
     MakeValid,
     Measure(measure::Measure),
-    Relate(relate::Relation),
+    Relate(pairs::Relation),
 }
 
 /// A function of rows.
@@ -33,6 +33,16 @@ pub(crate) struct Function {
 impl Function {
     pub(crate) fn new(page: Page, operation: Operation, contacts: usize) -> Function {
         Function { page, operation, signature: Signature::user_defined(Volatility::Immutable), contacts }
+    }
+
+    #[cfg(feature = "join")]
+    pub(crate) fn operation(&self) -> Operation {
+        self.operation
+    }
+
+    #[cfg(feature = "join")]
+    pub(crate) fn contacts(&self) -> usize {
+        self.contacts
     }
 
     fn arity(&self) -> usize {

@@ -2,5 +2,7 @@
 pub(crate) mod function;
 pub(crate) mod measure;
 pub(crate) mod overlay;
+pub(crate) mod pairs;
 pub(crate) mod relate;
 pub(crate) mod side;
+pub(crate) mod touch;

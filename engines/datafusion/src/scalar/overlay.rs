@@ -1,5 +1,5 @@
 //! Booleans of the areas of two columns, and the areas of one made valid.
-use super::side::Side;
+use super::pairs::{Overlay, Pairs};
 use crate::column::features::Features;
 use crate::column::write::Written;
 use crate::error::Error;
@@ -7,43 +7,19 @@ use arrow_array::ArrayRef;
 use arrow_schema::Field;
 use datafusion_common::Result;
 use geo_types::MultiPolygon;
-use polycsg::{Csg, Scratch};
-
-/// A Boolean of two areas.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Overlay {
-    Intersection,
-    Union,
-    Difference,
-    SymmetricDifference,
-}
+use polycsg::Scratch;
+use std::sync::Arc;
 
 impl Overlay {
-    fn of<'a>(self, one: Csg<'a>, other: Csg<'a>) -> Csg<'a> {
-        match self {
-            Overlay::Intersection => one & other,
-            Overlay::Union => one | other,
-            Overlay::Difference => one - other,
-            Overlay::SymmetricDifference => one ^ other,
-        }
-    }
-
     /// The Boolean of each row; NULL where a side is.
     pub(crate) fn column(self, sides: [Features; 2], contacts: usize, result: &Field) -> Result<ArrayRef> {
         let rows = sides[0].len();
         let [one, other] = sides.map(Features::areas_only);
-        let (mut one, mut other) = (Side::new(one?), Side::new(other?));
-        let (mut written, mut scratch) = (Written::new(result)?, Scratch::default());
+        let mut pairs = Pairs::new([Arc::new(one?), Arc::new(other?)], contacts);
+        let mut written = Written::new(result)?;
         for row in 0..rows {
-            let (Some(a), Some(b)) = (one.at(row), other.at(row)) else {
-                written.push(None)?;
-                continue;
-            };
-            let a = one.operand(a, contacts, &mut scratch)?;
-            let b = other.operand(b, contacts, &mut scratch)?;
-            let found = self.of(a, b).try_evaluate_with(&mut scratch, contacts);
-            let found = found.map_err(|error| Error::row(row, error))?;
-            written.push(Some(&MultiPolygon::from(&found)))?;
+            let found = pairs.at(row).map(|pair| pairs.overlay(self, pair, row)).transpose()?;
+            written.push(found.as_ref().map(MultiPolygon::from).as_ref())?;
         }
         Ok(written.finish())
     }

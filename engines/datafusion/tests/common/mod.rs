@@ -1,5 +1,6 @@
 //! Sessions, shapes and answers that the tests share.
 #![allow(dead_code, unreachable_pub, reason = "each test uses its part")]
+#![allow(clippy::cast_possible_truncation, reason = "numbers in tests are small")]
 use arrow_array::cast::AsArray;
 use arrow_array::{ArrayRef, BinaryArray, RecordBatch, StringArray};
 use datafusion::datasource::MemTable;
@@ -56,9 +57,12 @@ pub fn session_of(config: SessionConfig, functions: Functions) -> SessionContext
     context
 }
 
+/// A key and a geometry.
+pub type Row<'k> = (&'k str, Option<Vec<u8>>);
+
 /// A table of a key and a geometry, in partitions.
-pub fn add_table(context: &SessionContext, name: &str, partitions: &[Vec<(&str, Option<Vec<u8>>)>]) {
-    let batch = |rows: &Vec<(&str, Option<Vec<u8>>)>| {
+pub fn add_table(context: &SessionContext, name: &str, partitions: &[Vec<Row<'_>>]) {
+    let batch = |rows: &Vec<Row<'_>>| {
         let keys: StringArray = rows.iter().map(|(key, _)| Some(*key)).collect();
         let geometries: BinaryArray = rows.iter().map(|(_, geometry)| geometry.as_deref()).collect();
         let columns: [(&str, ArrayRef, bool); 2] =
