@@ -184,7 +184,7 @@ mod tests {
             let task = |elements: usize| Task {
                 series: "shooting",
                 setting: String::new(),
-                options: Options { elements, ..Options::default() },
+                options: Options::mesh(elements),
             };
             let [coarse, fine] = [150, 1200].map(|elements| subject.solved(&task(elements)).unwrap());
             let [few, many] = [64, 16_384].map(|paths| subject.traced(paths));

@@ -36,5 +36,6 @@ pub(super) fn estimate(
                 equilibrium.area(leaf) * (of(leaf) + light[0].max(0.0));
         }
     }
-    sums.iter().enumerate().map(|(at, sum)| sum / areas[at / bands]).collect()
+    let share = |(at, sum): (usize, &f64)| tiling.units()[at % bands] * sum / areas[at / bands];
+    sums.iter().enumerate().map(share).collect()
 }

@@ -109,13 +109,14 @@ impl Links {
         known.chain(std::iter::repeat(None)).take(tiling.tiles.len()).collect()
     }
 
-    /// Finds which of the tiles since the last time are in closed rooms: those of which a part is are looked at again when they are cut.
+    /// Finds which of the tiles since the last time are in closed rooms: those of which a part is,
+    /// or may be covered, are looked at again when they are cut.
     pub(super) fn enclose(&mut self, tiling: &Tiling<'_>) {
         for tile in &tiling.tiles[self.enclosed.len()..] {
             let parent = tile.parent.map(|parent| (self.enclosed[parent], tiling.tiles[parent].is_crossed));
             self.enclosed.push(match parent {
-                None | Some((Enclosed::Nowhere, _)) => Enclosed::Nowhere,
-                Some((enclosed @ (Enclosed::Wholly | Enclosed::Covered), false)) => enclosed,
+                None => Enclosed::Nowhere,
+                Some((enclosed, false)) if enclosed != Enclosed::Partly => enclosed,
                 Some(_) => {
                     let sums: Vec<f64> = tile.points.par_iter().map(|point| sum(tiling, point)).collect();
                     Enclosed::by(&sums)

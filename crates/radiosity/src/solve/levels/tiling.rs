@@ -2,7 +2,11 @@
 use super::tile::{Outline, SQUARE};
 use crate::error::Error;
 use crate::extent::Extent;
-use crate::mesh::{contacts::contacts, convex::convex_parts, frame::Frame};
+use crate::mesh::{
+    contacts::contacts,
+    convex::convex_parts,
+    frame::{Frame, power_of_two},
+};
 use crate::scene::Scene;
 use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
@@ -11,8 +15,8 @@ use std::{f64::consts::PI, sync::Arc};
 
 /// Edges of other patches are contacts within this share of the scene's size.
 const NEAR: f64 = 1e-9;
-/// Tiles of less than this share of the scene's area are not cut.
-const LEAST: f64 = 1e-8;
+/// Tiles that reach less than this share of the scene's size are not cut.
+const LEAST: f64 = 1e-4;
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
 /// quicker where no two edges are in line.
 const WITHIN: f64 = 1e-7;
@@ -60,7 +64,8 @@ pub(super) struct Tiling<'s> {
     pub(super) size: f64,
     bases: Vec<Base>,
     surface_of: Vec<usize>,
-    least: f64,
+    /// Radiosity is counted in these: band by band a power of two near the largest that is emitted, so that its squares are in range.
+    units: Vec<f64>,
 }
 
 impl<'s> Tiling<'s> {
@@ -79,7 +84,6 @@ impl<'s> Tiling<'s> {
                 contacts: lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect(),
             }
         };
-        let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
         let mut tiling = Tiling {
             scene,
             extents: polygons.iter().map(Extent::around).collect(),
@@ -88,7 +92,7 @@ impl<'s> Tiling<'s> {
             size,
             bases: scene.patches.iter().map(|patch| &patch.polygon).enumerate().map(base).collect(),
             surface_of: of_patch,
-            least: LEAST * area,
+            units: (0..scene.bands).map(|band| unit(scene, band)).collect(),
         };
         for patch in 0..scene.patches.len() {
             tiling.add_patch(patch)?;
@@ -140,7 +144,7 @@ impl<'s> Tiling<'s> {
         Ok(Tile {
             patch,
             surface: self.surface_of[patch],
-            reflectance: reflectance(source, &places),
+            reflectance: source.reflectance_within(&places),
             polygon: PlanarPolygon::new([within.collect::<Vec<_>>()]).map_err(refused)?,
             area: self.area(patch, &outline),
             points,
@@ -185,7 +189,7 @@ impl<'s> Tiling<'s> {
     /// The halves of a tile: see [`cut`](Tiling::cut). Nothing when it is too small.
     pub(super) fn halve(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
         let parent = &self.tiles[tile];
-        if parent.halves.is_some() || parent.area < self.least {
+        if parent.halves.is_some() || self.reach(parent) < LEAST * self.size {
             return Ok(parent.halves);
         }
         let (patch, key) = (parent.patch, parent.key);
@@ -238,9 +242,19 @@ impl<'s> Tiling<'s> {
         self.tiles.iter().map(corners).collect()
     }
 
-    /// The emitted radiosity of a tile.
+    /// How far a tile reaches from its centroid.
+    fn reach(&self, tile: &Tile) -> f64 {
+        tile.outline.axes[0].length() * self.bases[tile.patch].frame.unit()
+    }
+
+    /// The emitted radiosity of a tile, in the unit of the band.
     pub(super) fn emittance(&self, tile: usize, band: usize) -> f64 {
-        PI * self.scene.patches[self.tiles[tile].patch].emission[band]
+        PI * self.scene.patches[self.tiles[tile].patch].emission[band] / self.units[band]
+    }
+
+    /// The unit of radiosity of each band, in the scene's.
+    pub(super) fn units(&self) -> &[f64] {
+        &self.units
     }
 
     /// The whole tile that each tile is a part of.
@@ -258,20 +272,9 @@ impl<'s> Tiling<'s> {
     }
 }
 
-/// The mean reflectance of a polygon.
-fn reflectance(patch: &crate::scene::patch::Patch, places: &[DVec3]) -> Vec<f64> {
-    if patch.texture.is_none() {
-        return patch.reflectance.clone();
-    }
-    let mut mean = vec![0.0; patch.reflectance.len()];
-    let fan = places.windows(2).skip(1).map(|ends| [places[0], ends[0], ends[1]]);
-    let areas: Vec<f64> = fan.clone().map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
-    let whole: f64 = areas.iter().sum();
-    for (corners, area) in fan.zip(areas) {
-        let share = patch.reflectance_over(corners);
-        mean.iter_mut().zip(share).for_each(|(mean, rho)| *mean += rho * area / whole);
-    }
-    mean
+/// A power of two near the largest radiosity that is emitted.
+fn unit(scene: &Scene, band: usize) -> f64 {
+    power_of_two(scene.patches.iter().map(|patch| PI * patch.emission[band]).fold(0.0, f64::max))
 }
 
 impl Tile {
