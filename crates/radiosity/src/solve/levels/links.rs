@@ -26,7 +26,7 @@ enum Enclosed {
 
 impl Enclosed {
     fn by(sums: &[f64]) -> Enclosed {
-        let is_covered = sums.iter().all(|sum| *sum <= CLOSED);
+        let is_covered = sums.iter().all(|sum| *sum == 0.0);
         match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
             5 => Enclosed::Wholly,
             0 if is_covered => Enclosed::Covered,
@@ -152,7 +152,7 @@ impl Links {
     /// The link of a candidate; nothing where no light can pass.
     fn link(&self, tiling: &Tiling<'_>, candidate: &Candidate, known: &State) -> Result<Option<Link>, Error> {
         let tiles = candidate.ends.map(|end| &tiling.tiles[end]);
-        if !faces(tiling, tiles) {
+        if !faces(tiles) {
             return Ok(None);
         }
         let among: Arc<[u32]> = between(tiling, tiles, &candidate.among).into();

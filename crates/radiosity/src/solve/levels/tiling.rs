@@ -13,9 +13,11 @@ use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::{f64::consts::PI, sync::Arc};
 
-/// Edges of other patches are contacts within this share of the scene's size.
+/// What is small beside a patch is small beside the scene or, where that is less, beside so many times the patch.
+const WIDE: f64 = 100.0;
+/// Edges of other patches are contacts within this share of that.
 const NEAR: f64 = 1e-9;
-/// Tiles that reach less than this share of the scene's size are not cut.
+/// Tiles that reach less than this share of that are not cut.
 const LEAST: f64 = 1e-4;
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
 /// quicker where no two edges are in line.
@@ -49,6 +51,8 @@ pub(super) struct Tile {
 #[derive(Debug)]
 struct Base {
     frame: Frame,
+    /// What lengths on it are small beside.
+    scale: f64,
     contacts: Vec<[DVec2; 2]>,
 }
 
@@ -60,8 +64,6 @@ pub(super) struct Tiling<'s> {
     /// The boxes around the polygons of the enclosure.
     pub(super) extents: Vec<Extent>,
     pub(super) tiles: Vec<Tile>,
-    /// The size of the scene.
-    pub(super) size: f64,
     bases: Vec<Base>,
     surface_of: Vec<usize>,
     /// Radiosity is counted in these: band by band a power of two near the largest that is emitted, so that its squares are in range.
@@ -76,11 +78,13 @@ impl<'s> Tiling<'s> {
         let size = (high - low).length();
         let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
         let base = |(patch, polygon): (usize, &PlanarPolygon)| {
-            let frame = Frame::new(polygon);
+            let (frame, Extent { low, high }) = (Frame::new(polygon), extents[patch]);
+            let scale = size.min(WIDE * (high - low).length());
             // A thousandth of this is near.
-            let lines = contacts(scene, &extents, patch, 1e3 * NEAR * size);
+            let lines = contacts(scene, &extents, patch, 1e3 * NEAR * scale);
             Base {
                 frame,
+                scale,
                 contacts: lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect(),
             }
         };
@@ -89,7 +93,6 @@ impl<'s> Tiling<'s> {
             extents: polygons.iter().map(Extent::around).collect(),
             enclosure: Enclosure::new(polygons),
             tiles: Vec::new(),
-            size,
             bases: scene.patches.iter().map(|patch| &patch.polygon).enumerate().map(base).collect(),
             surface_of: of_patch,
             units: (0..scene.bands).map(|band| unit(scene, band)).collect(),
@@ -134,7 +137,7 @@ impl<'s> Tiling<'s> {
     fn tile(&self, patch: usize, outline: Outline, parent: Option<usize>, key: u64) -> Result<Tile, Error> {
         let (source, frame) = (&self.scene.patches[patch], self.bases[patch].frame);
         let refused = |error| Error::Shape { patch: source.name.clone(), source: error };
-        let places: Vec<DVec3> = outline.corners.iter().map(|corner| corner.1).collect();
+        let places: Vec<DVec3> = outline.places().collect();
         let middle = frame.lift(outline.centroid);
         let within = places
             .iter()
@@ -189,7 +192,7 @@ impl<'s> Tiling<'s> {
     /// The halves of a tile: see [`cut`](Tiling::cut). Nothing when it is too small.
     pub(super) fn halve(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
         let parent = &self.tiles[tile];
-        if parent.halves.is_some() || self.reach(parent) < LEAST * self.size {
+        if parent.halves.is_some() || self.reach(parent) < LEAST * self.scale(parent.patch) {
             return Ok(parent.halves);
         }
         let (patch, key) = (parent.patch, parent.key);
@@ -238,13 +241,17 @@ impl<'s> Tiling<'s> {
 
     /// The corners of all tiles.
     pub(super) fn outlines(&self) -> Vec<Vec<DVec3>> {
-        let corners = |tile: &Tile| tile.outline.corners.iter().map(|corner| corner.1).collect();
-        self.tiles.iter().map(corners).collect()
+        self.tiles.iter().map(|tile| tile.outline.places().collect()).collect()
     }
 
     /// How far a tile reaches from its centroid.
     fn reach(&self, tile: &Tile) -> f64 {
         tile.outline.axes[0].length() * self.bases[tile.patch].frame.unit()
+    }
+
+    /// What lengths on a patch are small beside.
+    pub(super) fn scale(&self, patch: usize) -> f64 {
+        self.bases[patch].scale
     }
 
     /// The emitted radiosity of a tile, in the unit of the band.
