@@ -95,7 +95,7 @@ impl BandLight {
         Flaw {
             // Where the total is known only how it is shared can be wrong: no matter where the sender is even.
             of_mean: link.error() * if link.of_total.is_some() { self.stray(sender) } else { bright },
-            of_total: link.of_total.map_or(0.0, |share| share * link.exchange[0] * bright),
+            of_total: link.of_total.map_or(0.0, |error| error * bright),
             within: (WITHIN + OTHERS * for_others) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
@@ -179,19 +179,22 @@ fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-/// What the mean irradiance of every patch may be off by for the errors of its links, added up; patches × `count` bands.
+/// What the irradiance of every tile may be off by for the errors of all that it, and what it is a part of, receives, added up;
+/// tiles × `count` bands.
 pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], count: usize) -> Vec<f64> {
-    let patches = &tiling.scene.patches;
-    let mut sums = vec![0.0; patches.len() * count];
+    let mut sums = vec![0.0; tiling.tiles.len() * count];
     for link in links {
         for end in [0, 1] {
-            let patch = tiling.tiles[link.ends[end]].patch;
             for light in bands {
                 let flaw = light.flaw(tiling, link, end);
-                sums[patch * count + light.band] +=
-                    (flaw.of_mean + flaw.of_sender + flaw.of_total) / patches[patch].polygon.area();
+                sums[link.ends[end] * count + light.band] +=
+                    (flaw.of_mean + flaw.of_sender + flaw.of_total) / tiling.tiles[link.ends[end]].area;
             }
         }
+    }
+    for (index, tile) in tiling.tiles.iter().enumerate() {
+        let Some(parent) = tile.parent else { continue };
+        (0..count).for_each(|band| sums[index * count + band] += sums[parent * count + band]);
     }
     sums
 }

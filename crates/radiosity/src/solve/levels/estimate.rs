@@ -9,7 +9,7 @@ use super::tiling::Tiling;
 /// Products that an estimate takes at most: it need not be exact.
 const MOST: usize = 60;
 
-/// The errors of the links of every patch, added up as if all had one sign, with what comes of them by reflection; patches × bands.
+/// The errors of the links of every leaf, added up as if all had one sign, with what comes of them by reflection; patches × bands.
 ///
 /// An error δ of the irradiance is light of its own: x = ρ(δ + T x) is what the patches send of it, and δ + T x what they receive.
 pub(super) fn estimate(
@@ -21,10 +21,10 @@ pub(super) fn estimate(
 ) -> Vec<f64> {
     let wrong = errors(tiling, links, lights, bands);
     let patches = tiling.scene.patches.len();
-    let (mut sums, mut areas) = (vec![0.0; wrong.len()], vec![0.0; patches]);
+    let (mut sums, mut areas) = (vec![0.0; patches * bands], vec![0.0; patches]);
     (0..equilibrium.leaves().len()).for_each(|leaf| areas[equilibrium.patch(leaf)] += equilibrium.area(leaf));
     for band in 0..bands {
-        let of = |leaf: usize| wrong[equilibrium.patch(leaf) * bands + band];
+        let of = |leaf: usize| wrong[equilibrium.leaves()[leaf] * bands + band];
         let reflectance = equilibrium.reflectance(band);
         let first: Vec<Linear> =
             reflectance.iter().enumerate().map(|(leaf, rho)| [rho * of(leaf), 0.0, 0.0]).collect();

@@ -82,6 +82,7 @@ impl Links {
         self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.totals = Totals::of(tiling, &links, error);
+        links.retain(|link| !self.totals.is_hidden(link.pair));
         self.totals.share(&mut links);
         self.all = links;
     }

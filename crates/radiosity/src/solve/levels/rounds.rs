@@ -69,7 +69,7 @@ impl Levels<'_> {
         let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
         let all = self.tiling.surfaces();
         let candidates: Vec<Candidate> =
-            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0 }).collect();
+            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0, most: f64::INFINITY }).collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
         self.links.open(&self.tiling, links, self.options.error);
         self.links.refuse_endless(&self.tiling)?;
