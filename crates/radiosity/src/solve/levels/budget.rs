@@ -26,7 +26,7 @@ pub(super) const DARK: f64 = 0.01;
 /// The light of a band, as errors depend on it.
 #[derive(Debug)]
 pub(super) struct BandLight {
-    band: usize,
+    pub(super) band: usize,
     /// What each tile sends, and how far that is from linear.
     pub(super) sent: Vec<Linear>,
     pub(super) deviation: Vec<f64>,
@@ -179,22 +179,15 @@ fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-/// What the irradiance of every tile may be off by for the errors of all that it, and what it is a part of, receives, added up;
-/// tiles × `count` bands.
-pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], count: usize) -> Vec<f64> {
-    let mut sums = vec![0.0; tiling.tiles.len() * count];
+/// The errors of all that every whole tile receives, as powers, each raised to `exponent`, added up.
+pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], light: &BandLight, exponent: f64) -> Vec<f64> {
+    let root_of = tiling.roots();
+    let mut sums = vec![0.0; tiling.tiles.len()];
     for link in links {
         for end in [0, 1] {
-            for light in bands {
-                let flaw = light.flaw(tiling, link, end);
-                sums[link.ends[end] * count + light.band] +=
-                    (flaw.of_mean + flaw.of_sender + flaw.of_total) / tiling.tiles[link.ends[end]].area;
-            }
+            let flaw = light.flaw(tiling, link, end);
+            sums[root_of[link.ends[end]]] += (flaw.of_mean + flaw.of_sender + flaw.of_total).powf(exponent);
         }
-    }
-    for (index, tile) in tiling.tiles.iter().enumerate() {
-        let Some(parent) = tile.parent else { continue };
-        (0..count).for_each(|band| sums[index * count + band] += sums[parent * count + band]);
     }
     sums
 }
