@@ -4,7 +4,7 @@
 //! cargo run --release -p tests --example light_errors -- [draft|normal|high] [SEEDS] [PATHS] [METHOD]...
 //! ```
 //!
-//! A method is `auto` or `hierarchical`; the latter's estimates are set beside the true errors, or beside the standard error where that is more:
+//! A method is `mesh` or `hierarchical`; the latter's estimates are set beside the true errors, or beside the standard error where that is more:
 //! the median ratio, and how many estimates are below what is certain of the error.
 //!
 //! Errors are in shares of a face's own mean or, where that is more, 1 % of the scene's mean; three standard errors of the path tracer
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let number = |index: usize, default: u32| arguments.get(index).map_or(Ok(default), |text| text.parse());
     let (seeds, paths) = (number(1, 1)?, number(2, 100_000)?);
     let methods = match arguments.get(3..) {
-        None | Some([]) => vec![Method::Auto],
+        None | Some([]) => vec![Method::Hierarchical],
         Some(names) => names.iter().map(|name| method(name)).collect::<Result<_, _>>()?,
     };
     let mut out = io::stdout().lock();
@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn method(name: &str) -> Result<Method, String> {
     match name {
-        "auto" => Ok(Method::Auto),
+        "mesh" => Ok(Method::Mesh),
         "hierarchical" => Ok(Method::Hierarchical),
         other => Err(format!("{other}: no method")),
     }

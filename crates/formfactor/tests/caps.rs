@@ -186,3 +186,47 @@ fn a_thing_in_an_open_box_sees_out() {
     let thing = sides([1.8, 1.2, 0.5], [1.9, 1.3, 0.75]);
     assert_alike(&[room(), [&open[..8], &open[9..]].concat(), thing[8..9].to_vec()].concat(), 100);
 }
+
+/// A wall of two sides without thickness parts a room into two: each closes, and sees nothing of the other one.
+#[test]
+fn a_sheet_of_two_sides_is_no_solid() {
+    let ring = [[1.5, 0.0, 0.0], [1.5, 3.0, 0.0], [1.5, 3.0, 2.0], [1.5, 0.0, 2.0]];
+    let side = |corners: &[usize]| polygon(&corners.iter().map(|k| ring[*k]).collect::<Vec<_>>());
+    let quads = vec![side(&[0, 1, 2, 3]), side(&[3, 2, 1, 0])];
+    let triangles = vec![side(&[0, 1, 2]), side(&[0, 2, 3]), side(&[2, 1, 0]), side(&[3, 2, 0])];
+    let crossed = vec![side(&[0, 1, 2]), side(&[0, 2, 3]), side(&[1, 0, 3]), side(&[3, 2, 1])];
+    for sheet in [quads, triangles, crossed] {
+        let polygons = [room(), sheet].concat();
+        let scene = Enclosure::new(polygons.clone());
+        let factor = |i, j| scene.area_form_factor(i, j, 1e-6, &Limits::default()).unwrap().unwrap();
+        for i in 0..polygons.len() {
+            let row: Vec<AreaFormFactor> = (0..polygons.len()).map(|j| factor(i, j)).collect();
+            let sum: f64 = row.iter().map(|factor| factor.value).sum();
+            assert!((sum - 1.0).abs() < 1e-4, "row {i}: {sum}");
+        }
+        let [west, east] = [0.0, 4.0].map(|x| {
+            let at = |i: &usize| polygons[*i].loops().flatten().all(|p| p.x == x);
+            (0..polygons.len()).find(at).expect("a wall")
+        });
+        assert_eq!(factor(west, east).value, 0.0);
+    }
+}
+
+/// Sheets of two sides that float in a room, upright, level and tilted, hide what sheets of one polygon each do.
+#[test]
+fn floating_sheets_of_two_sides_hide_what_their_sides_hide_one_by_one() {
+    let sheet = |ring: [[f64; 3]; 4]| [polygon(&ring), polygon(&[ring[3], ring[2], ring[1], ring[0]])];
+    let sheets = [
+        sheet([[1.0, 0.5, 0.5], [1.0, 2.5, 0.5], [1.0, 2.5, 1.5], [1.0, 0.5, 1.5]]),
+        sheet([[2.0, 1.0, 1.0], [3.0, 1.0, 1.0], [3.0, 2.0, 1.0], [2.0, 2.0, 1.0]]),
+        sheet([[3.25, 0.5, 0.25], [3.75, 0.5, 1.25], [3.75, 2.5, 1.25], [3.25, 2.5, 0.25]]),
+    ];
+    let scene = [room(), sheets.concat()].concat();
+    let count = scene.len();
+    let [joined, split] = [scene.clone(), one_by_one(&scene)].map(|it| all(&Enclosure::new(it), count, 1e-4));
+    for (pair, (joined, split)) in joined.iter().zip(&split).enumerate() {
+        let most = joined.error_estimate + split.error_estimate + 1e-9;
+        let [i, j] = [pair / count, pair % count];
+        assert!((joined.value - split.value).abs() <= most, "{i} {j}: {joined:?} {split:?}");
+    }
+}

@@ -69,9 +69,29 @@ fn options_that_the_method_would_ignore_are_refused() {
         assert_eq!(code(&output), 2);
         assert!(stderr(&output).contains(unused[0]), "{}", stderr(&output));
     }
-    let output = radiosity(&[&solve[..], &["--error", "1%"]].concat());
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("--method hierarchical"), "{}", stderr(&output));
+    let shoot = radiosity(&[&solve[..], &["--error", "1%", "--method", "shoot"]].concat());
+    assert_eq!(code(&shoot), 2);
+    assert!(stderr(&shoot).contains("--method hierarchical"), "{}", stderr(&shoot));
+    let both = radiosity(&[&solve[..], &["--error", "1%", "--elements", "300"]].concat());
+    assert_eq!(code(&both), 2);
+    assert!(stderr(&both).contains("--elements and --error"), "{}", stderr(&both));
+}
+
+#[test]
+fn a_scene_is_solved_by_levels_but_where_a_mesh_is_asked_for() {
+    let cases: [(&[&str], bool); 4] = [
+        (&["--quality", "draft"], true),
+        (&["--error", "10%"], true),
+        (&["--elements", "100"], false),
+        (&["--method", "mesh", "--quality", "draft", "--tolerance", "0.5"], false),
+    ];
+    for (options, is_by_levels) in cases {
+        let output = radiosity(&[&["solve", "scenes/cornell-box.dae", "--json"], options].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert_eq!(stderr(&output).contains("light within"), is_by_levels, "{options:?}");
+        let floor = &json(&output)["patches"][0];
+        assert_eq!(floor["estimate"].is_array(), is_by_levels, "{options:?}: {floor}");
+    }
 }
 
 #[test]

@@ -62,8 +62,9 @@ fn deviation(scene: &radiosity::Scene, solution: &Solution) -> (f64, f64) {
 }
 
 #[test]
-fn every_face_receives_what_path_tracing_finds() {
-    let [draft, normal] = [Quality::Draft, Quality::Normal].map(|quality| cornell(&quality.options()));
+fn on_a_mesh_every_face_receives_about_what_path_tracing_finds() {
+    let [draft, normal] = [Quality::Draft, Quality::Normal]
+        .map(|quality| cornell(&Options { method: Method::Mesh, ..quality.options() }));
     let (worst_draft, draft_error) = deviation(&draft.0, &draft.1);
     let (worst, error) = deviation(&normal.0, &normal.1);
     // The dark front of the short block, which elements next to the floor see too coarsely.
@@ -79,7 +80,7 @@ fn every_face_receives_what_path_tracing_finds() {
 
 #[test]
 fn by_levels_every_face_is_within_1_percent_by_default() {
-    let by_levels = |error| cornell(&Options { method: Method::Hierarchical, error, ..Options::default() });
+    let by_levels = |error| cornell(&Options { error, ..Options::default() });
     // At 3 % the dark side of the short block is further off than was asked for.
     let [draft, normal] = [(3e-2, 7e-2), (1e-2, 1e-2)].map(|(error, most)| {
         let (scene, solution) = by_levels(error);
@@ -92,8 +93,9 @@ fn by_levels_every_face_is_within_1_percent_by_default() {
 
 #[test]
 #[ignore = "takes minutes: cargo test --release -p radiosity --test cornell -- --ignored"]
-fn at_high_quality_every_face_is_within_half_a_percent() {
-    let [normal, high] = [Quality::Normal, Quality::High].map(|quality| cornell(&quality.options()));
+fn on_a_mesh_of_high_quality_every_face_is_within_half_a_percent() {
+    let [normal, high] = [Quality::Normal, Quality::High]
+        .map(|quality| cornell(&Options { method: Method::Mesh, ..quality.options() }));
     let (_, normal) = deviation(&normal.0, &normal.1);
     let (worst, error) = deviation(&high.0, &high.1);
     println!("normal {normal:.5}, high {error:.5}, worst beyond the noise {worst:.5}");
@@ -103,7 +105,14 @@ fn at_high_quality_every_face_is_within_half_a_percent() {
 
 #[test]
 fn nothing_shines_under_the_blocks() {
-    let (scene, solution) = cornell(&Options { elements: 1500, tolerance: 1e-3, ..Options::default() });
+    let [mesh, levels] = [Options::mesh(1500), Options { error: 3e-2, ..Options::default() }];
+    for options in [mesh, levels] {
+        assert_dark_under_the_short_block(&options);
+    }
+}
+
+fn assert_dark_under_the_short_block(options: &Options) {
+    let (scene, solution) = cornell(options);
     // Well inside the short block's footprint: 130 65, 82 225, 240 272, 290 114 in x and z.
     let dark = (0..solution.mesh.elements.len()).filter(|&element| {
         let c = solution.mesh.centroid(element);

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 /// A solution of a built-in scene, of so many elements.
 fn solved(name: &str, elements: usize) -> Record {
     let scene = scenes::scene(name).unwrap();
-    let options = Options { elements, ..Options::default() };
+    let options = Options::mesh(elements);
     let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).unwrap();
     Record::new(name, &scene, &solution)
 }

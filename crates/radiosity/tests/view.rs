@@ -174,7 +174,7 @@ fn a_recorded_run_is_walked_through_by_keys_slider_and_buttons() {
 fn the_page_draws_and_its_controls_change_the_picture() {
     let Some(browser) = browser() else { return };
     let scene = scenes::scene("chessboard").unwrap();
-    let options = Options { elements: 600, max_shots: 100, ..Options::default() };
+    let options = Options { max_shots: 100, ..Options::mesh(600) };
     let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).unwrap();
     let record = Record::new("chessboard", &scene, &solution);
     let folder = tempfile::tempdir().unwrap();

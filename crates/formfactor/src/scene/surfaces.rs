@@ -227,10 +227,12 @@ pub(crate) fn area(corners: &[DVec3]) -> f64 {
     spokes.sum::<DVec3>().length() / 2.0
 }
 
-/// Closed bodies, then other caps.
+/// Closed bodies, then other caps. The two sides of a sheet close around nothing: they are no solid.
 fn caps(polygons: &[PlanarPolygon], adjacency: &Adjacency, slabs: &[Slab]) -> Vec<Cap> {
+    let is_sheet = |faces: &[usize]| faces.iter().all(|face| slabs[faces[0]].has(&polygons[*face]));
     let shells = shells(polygons, adjacency, |id, point| slabs[id].side_of(point)).into_iter();
-    let mut caps: Vec<Cap> = shells.filter_map(|faces| Cap::of(polygons, faces, adjacency)).collect();
+    let solid = |faces: Vec<usize>| if is_sheet(&faces) { None } else { Cap::of(polygons, faces, adjacency) };
+    let mut caps: Vec<Cap> = shells.filter_map(solid).collect();
     caps.sort_by_key(|cap| !cap.lids.is_empty());
     caps
 }

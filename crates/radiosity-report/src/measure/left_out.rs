@@ -133,8 +133,7 @@ fn unlit(test_scene: &TestScene<'_>) -> Result<Option<LeftOut>, Error> {
     if test_scene.scene.patches.len() > 250 {
         return Ok(None);
     }
-    let options =
-        Options { elements: test_scene.points.len(), tolerance: 1e-2, spread: 1e-3, ..Options::default() };
+    let options = Options { tolerance: 1e-2, spread: 1e-3, ..Options::mesh(test_scene.points.len()) };
     let job: Job<'_, _> = Box::new(|| solve(test_scene.scene, &options, |_| ControlFlow::Continue(())));
     let (solution, time) = interleaved(&[job], Rounds::ONCE).remove(0);
     let solution = solution?;

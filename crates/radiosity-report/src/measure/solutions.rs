@@ -95,13 +95,13 @@ fn levels(plan: &Plan) -> impl Iterator<Item = Task> {
     errors.into_iter().take(if plan.quick { 3 } else { 4 }).map(task)
 }
 
-/// As `--quality` names them; high takes minutes.
+/// Meshes as `--quality` names them; high takes minutes.
 fn qualities(plan: &Plan) -> impl Iterator<Item = Task> {
     let all = [("draft", Quality::Draft), ("normal", Quality::Normal), ("high", Quality::High)];
     let task = |(name, quality): (&str, Quality)| Task {
         series: QUALITIES,
         setting: name.to_owned(),
-        options: quality.options(),
+        options: Options { method: Method::Mesh, ..quality.options() },
     };
     all.into_iter().take(if plan.quick { 2 } else { 3 }).map(task)
 }
@@ -184,7 +184,7 @@ mod tests {
             let task = |elements: usize| Task {
                 series: "shooting",
                 setting: String::new(),
-                options: Options { elements, ..Options::default() },
+                options: Options::mesh(elements),
             };
             let [coarse, fine] = [150, 1200].map(|elements| subject.solved(&task(elements)).unwrap());
             let [few, many] = [64, 16_384].map(|paths| subject.traced(paths));

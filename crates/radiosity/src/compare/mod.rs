@@ -101,7 +101,7 @@ const UNCOVERED: f64 = 1e-6;
 ///
 /// let scene = scenes::scene("furnace").expect("a built-in scene");
 /// let solved = |elements| {
-///     let options = Options { elements, ..Options::default() };
+///     let options = Options::mesh(elements);
 ///     Ok::<_, radiosity::Error>(Record::new("furnace", &scene, &solve(&scene, &options, |_| ControlFlow::Continue(()))?))
 /// };
 /// let difference = compare(&solved(24)?, &solved(60)?)?;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 fn record(scene: &str, elements: usize) -> Record {
     let scene = scenes::scene(scene).unwrap();
-    let options = Options { elements, ..Options::default() };
+    let options = Options::mesh(elements);
     Record::new("scene", &scene, &solve(&scene, &options, |_| ControlFlow::Continue(())).unwrap())
 }
 

@@ -51,6 +51,6 @@ fn longest_edge(points: &[DVec3]) -> (DVec3, DVec3) {
 }
 
 /// The power of two at or below a positive length; 1 for what has none.
-fn power_of_two(length: f64) -> f64 {
+pub(crate) fn power_of_two(length: f64) -> f64 {
     if length.is_normal() { length.log2().floor().exp2() } else { 1.0 }
 }

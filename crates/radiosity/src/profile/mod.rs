@@ -36,7 +36,7 @@ use line::Stretch;
 /// use std::ops::ControlFlow;
 ///
 /// let scene = scenes::scene("furnace").expect("a built-in scene");
-/// let solution = solve(&scene, &Options { elements: 60, ..Options::default() }, |_| ControlFlow::Continue(()))?;
+/// let solution = solve(&scene, &Options::mesh(60), |_| ControlFlow::Continue(()))?;
 /// let record = Record::new("furnace", &scene, &solution);
 /// // Across the floor of the unit cube, in which radiosity is 1 everywhere.
 /// let profile = profile(&record, [DVec3::new(0.1, 0.2, 0.0), DVec3::new(0.9, 0.7, 0.0)], None)?;

@@ -60,6 +60,22 @@ impl Patch {
         }
     }
 
+    /// The mean reflectance per band of a convex polygon on the patch.
+    pub(crate) fn reflectance_within(&self, corners: &[DVec3]) -> Vec<f64> {
+        if self.texture.is_none() {
+            return self.reflectance.clone();
+        }
+        let mut mean = vec![0.0; self.reflectance.len()];
+        let fan = corners.windows(2).skip(1).map(|ends| [corners[0], ends[0], ends[1]]);
+        let areas: Vec<f64> = fan.clone().map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
+        let whole: f64 = areas.iter().sum();
+        for (triangle, area) in fan.zip(areas) {
+            let share = self.reflectance_over(triangle);
+            mean.iter_mut().zip(share).for_each(|(mean, rho)| *mean += rho * area / whole);
+        }
+        mean
+    }
+
     /// Whether the patch emits light in some band.
     #[must_use]
     pub fn emits(&self) -> bool {

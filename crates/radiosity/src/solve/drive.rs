@@ -22,7 +22,7 @@ impl Run<'_> {
         let choice = if self.sample(scene)? { self.choose(scene)? } else { None };
         match choice {
             None => Ok(false),
-            Some(Method::Auto | Method::Shoot) => shoot(self),
+            Some(Method::Shoot) => shoot(self),
             Some(method) => relax(self, method),
         }
     }
@@ -43,8 +43,8 @@ impl Run<'_> {
         let asked = self.options.method;
         let largest = (0..self.light.areas.len()).map(|element| self.light.largest_reflectance(element));
         let largest = largest.fold(0.0, f64::max);
-        let auto = asked == Method::Auto;
-        if largest < 1.0 && (asked == Method::Shoot || (auto && largest < STIFF)) {
+        let is_free = asked == Method::Mesh;
+        if largest < 1.0 && (asked == Method::Shoot || (is_free && largest < STIFF)) {
             return Ok(Some(Method::Shoot));
         }
         let Some(rooms) = follow(scene, self)? else { return Ok(None) };
@@ -56,7 +56,7 @@ impl Run<'_> {
             self.shooters = Shooters::new(lit, self.factors.subdivision, &self.light);
         }
         self.rooms = Some(rooms);
-        Ok(Some(match (auto, stiff) {
+        Ok(Some(match (is_free, stiff) {
             (true, true) => Method::Cg,
             (true, false) => Method::Shoot,
             (false, _) => asked,

@@ -65,7 +65,7 @@ mod workers;
 use crate::error::Error;
 use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::shadows, subdivide::Subdivision};
 use crate::scene::Scene;
-use options::Options;
+use options::{Method, Options};
 use progress::Progress;
 use run::Run;
 use solution::Solution;
@@ -103,7 +103,9 @@ pub fn solve_from(
     let start = Instant::now();
     check::check(scene)?;
     overlap::check(scene)?;
-    if options.method == options::Method::Hierarchical {
+    let options =
+        &Options { method: options.method.choose(scene.patches.len(), options.hemicube), ..*options };
+    if options.method == Method::Hierarchical {
         return levels::rounds::solve(scene, options, start, state, &mut watch);
     }
     // Each pass has twice the elements of the one before.

@@ -4,9 +4,14 @@ use super::norm::Norm;
 /// The method of solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// [`Method::Cg`] where a closed room reflects at least 0.9 of its light, else [`Method::Shoot`].
+    /// [`Method::Hierarchical`] for scenes of at most 300 patches, else, and with [`Options::hemicube`], [`Method::Mesh`].
     #[default]
     Auto,
+    /// By levels: light goes between parts of patches as large as [`Options::error`] allows; the mesh follows from that.
+    Hierarchical,
+    /// On a mesh of [`Options::elements`]: [`Method::Cg`] where a closed room reflects at least 0.9 of its light, else
+    /// [`Method::Shoot`].
+    Mesh,
     /// Progressive refinement: the piece with the most unshot light shoots it, again and again. Early results are already good
     /// to look at; the number of rounds is about 1 / (1 − ρ) for reflectance ρ.
     Shoot,
@@ -17,8 +22,20 @@ pub enum Method {
     Cg,
     /// GMRES on the unscaled form factors.
     Gmres,
-    /// By levels: light goes between parts of patches as large as [`Options::error`] allows; the mesh follows from that.
-    Hierarchical,
+}
+
+impl Method {
+    /// Links begin between all pairs of patches: with more patches than this a mesh is quicker.
+    const FEW_PATCHES: usize = 300;
+
+    /// What takes the place of [`Method::Auto`].
+    pub(super) fn choose(self, patches: usize, hemicube: Option<u32>) -> Method {
+        match self {
+            Method::Auto if patches <= Method::FEW_PATCHES && hemicube.is_none() => Method::Hierarchical,
+            Method::Auto => Method::Mesh,
+            method => method,
+        }
+    }
 }
 
 /// The options of [`solve`](crate::solve()): how fine the mesh is, how exact the light, and when to stop.
@@ -26,7 +43,8 @@ pub enum Method {
 pub struct Options {
     /// The method of solution.
     pub method: Method,
-    /// About how many elements to cut the scene into.
+    /// About how many elements to cut the scene into. [`Method::Hierarchical`] has no use for this, nor for `passes`, `norm`, `shadows`,
+    /// `hemicube` and `spread`.
     pub elements: usize,
     /// How often to solve and then refine the mesh where the light is not resolved.
     pub passes: usize,
@@ -42,7 +60,7 @@ pub struct Options {
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
     /// What the mean irradiance of a patch may be off by, as a share of itself or, where that is more, of 1 % of the scene's mean. Only
-    /// [`Method::Hierarchical`] knows its errors.
+    /// [`Method::Hierarchical`] knows its errors, and it cuts patches by this alone.
     pub error: f64,
     /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
     /// pieces send.
@@ -56,8 +74,16 @@ pub struct Options {
     pub max_seconds: Option<f64>,
 }
 
+impl Options {
+    /// The default for about so many equal elements, by [`Method::Mesh`].
+    #[must_use]
+    pub fn mesh(elements: usize) -> Options {
+        Options { method: Method::Mesh, elements, ..Options::default() }
+    }
+}
+
 impl Default for Options {
-    /// About 6000 equal elements; the algebraic error is far below the error of a mesh of that size.
+    /// By levels to 1 %, or about 6000 equal elements; the algebraic error is far below the error of a mesh of that size.
     fn default() -> Options {
         Options {
             method: Method::Auto,

@@ -4,13 +4,13 @@ use super::{norm::Norm, options::Options};
 /// A choice of [`Options`] by one word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// A first look: 1500 equal elements, a bound of 1 %.
+    /// A first look: an error of 3 %; on a mesh 1500 equal elements, a bound of 1 %.
     Draft,
-    /// For pictures: 6000 elements, half of them where the light changes most, a bound of 0.1 %.
+    /// For pictures: an error of 1 %; on a mesh 6000 elements, half of them where the light changes most, a bound of 0.1 %.
     #[default]
     Normal,
-    /// For figures and close views: 20 000 elements after two refinements, element edges along the shadow edges of the four
-    /// strongest emitters, exact direct light at every vertex, a bound of 0.1 %.
+    /// For figures and close views: an error of 0.3 %; on a mesh 20 000 elements after two refinements, element edges along the
+    /// shadow edges of the four strongest emitters, exact direct light at every vertex, a bound of 0.1 %.
     High,
 }
 

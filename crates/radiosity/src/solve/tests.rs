@@ -28,7 +28,7 @@ fn quick(scene: &Scene, options: Options) -> Solution {
 }
 
 fn options(elements: usize, tolerance: f64) -> Options {
-    Options { elements, tolerance, ..Options::default() }
+    Options { tolerance, ..Options::mesh(elements) }
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn a_scene_without_patches_is_still_a_file() {
 #[test]
 fn a_textured_patch_shows_its_picture_under_what_falls_on_it() {
     let scene = radiosity::scenes::scene("chessboard").unwrap();
-    let options = radiosity::Options { elements: 300, max_shots: 3, ..Default::default() };
+    let options = radiosity::Options { max_shots: 3, ..radiosity::Options::mesh(300) };
     let solution = radiosity::solve(&scene, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
     let record = radiosity::Record::new("chessboard", &scene, &solution);
     record.check().unwrap();
@@ -189,7 +189,7 @@ fn the_validator_has_nothing_to_say() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["cornell-box", "chessboard"] {
         let scene = radiosity::scenes::scene(name).unwrap();
-        let options = radiosity::Options { elements: 300, max_shots: 3, ..Default::default() };
+        let options = radiosity::Options { max_shots: 3, ..radiosity::Options::mesh(300) };
         let solution = radiosity::solve(&scene, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
         let record = radiosity::Record::new(name, &scene, &solution);
         let path = folder.path().join("light.glb");

@@ -215,8 +215,9 @@ fn a_damaged_container_is_refused() {
 #[test]
 fn a_written_file_has_the_same_areas() {
     let before = scenes::scene("cornell-box").unwrap();
-    let options = radiosity::Options { elements: 100, max_shots: 1, ..Default::default() };
-    let solution = radiosity::solve(&before, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
+    let solution =
+        radiosity::solve(&before, &radiosity::Options::default(), |_| std::ops::ControlFlow::Continue(()))
+            .unwrap();
     let record = radiosity::Record::new("box", &before, &solution);
     let bytes = radiosity::io::gltf::glb(&record, record.exposure()).unwrap();
     let after = Gltf::from_bytes("box.glb", bytes).scene().unwrap();

@@ -198,7 +198,7 @@ fn writing_what_was_written_changes_nothing_but_ids() {
 fn the_cornell_box_lit_keeps_its_names_and_areas() {
     let text = scenes::write_scene("cornell-box").unwrap();
     let before = scene(&text);
-    let options = radiosity::Options { elements: 300, max_shots: 1, ..Default::default() };
+    let options = radiosity::Options { max_shots: 1, ..radiosity::Options::mesh(300) };
     let solution = radiosity::solve(&before, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
     let radiosity = radiosity::expose::rgb(&solution.vertex_radiosity(), solution.bands, &[]);
     let lit = Collada::from_text("test.dae", text).with_light(&before, &solution.mesh, &radiosity).unwrap();

@@ -5,8 +5,15 @@ use radiosity::glam::DVec3;
 use radiosity::{Error, Method, Options, Scene, Solution, solve};
 use std::ops::ControlFlow;
 
+/// The ways that [`Method::Auto`] chooses from.
+const METHODS: [Method; 2] = [Method::Hierarchical, Method::Mesh];
+
 fn options(elements: usize) -> Options {
-    Options { elements, tolerance: 1e-6, ..Options::default() }
+    Options { tolerance: 1e-6, ..Options::mesh(elements) }
+}
+
+fn by_levels() -> Options {
+    Options { method: Method::Hierarchical, ..options(1) }
 }
 
 /// A floor of side 4 at z = 0 that looks up, and a lamp of side 1 at z = 2 that looks down.
@@ -59,11 +66,14 @@ fn sizes_from_1e_minus_9_to_1e9_live_in_one_scene() {
 
 #[test]
 fn a_scene_far_from_the_origin_looks_as_at_the_origin() {
-    let near = solved(&floor_and_lamp(), &options(300));
-    let far = solved(&moved(&floor_and_lamp(), |p| p + DVec3::new(1e6, -1e6, 1e6)), &options(300));
-    assert_eq!(near.mesh.elements.len(), far.mesh.elements.len());
-    for (a, b) in near.irradiance.iter().zip(&far.irradiance) {
-        assert!((a - b).abs() < 1e-8 * 10.0, "{a} {b}");
+    let away = moved(&floor_and_lamp(), |p| p + DVec3::new(1e6, -1e6, 1e6));
+    for method in METHODS {
+        let [near, far] =
+            [&floor_and_lamp(), &away].map(|scene| solved(scene, &Options { method, ..options(300) }));
+        assert_eq!(near.mesh.elements.len(), far.mesh.elements.len());
+        for (a, b) in near.irradiance.iter().zip(&far.irradiance) {
+            assert!((a - b).abs() < 1e-8 * 10.0, "{method:?}: {a} {b}");
+        }
     }
 }
 
@@ -75,14 +85,18 @@ fn slivers_of_aspect_1e8_receive_and_send() {
         let corners = [[x, -1., 1.], [x + 2e-8, -1., 1.], [x + 2e-8, 1., 1.], [x, 1., 1.]];
         slivers.patches.push(patch(format!("sliver-{k}"), &corners, 0.5, 0.0));
     }
-    let (with, without) = (solved(&slivers, &options(300)), solved(&floor_and_lamp(), &options(300)));
-    assert!((2..6).all(|sliver| mean(&with, sliver) > 0.0));
-    assert!((mean(&with, 0) / mean(&without, 0) - 1.0).abs() < 1e-6, "they hide next to nothing");
+    for method in METHODS {
+        let [with, without] =
+            [&slivers, &floor_and_lamp()].map(|scene| solved(scene, &Options { method, ..options(300) }));
+        assert!((2..6).all(|sliver| mean(&with, sliver) > 0.0));
+        let change = (mean(&with, 0) / mean(&without, 0) - 1.0).abs();
+        assert!(change < 1e-6, "{method:?}: they hide next to nothing: {change}");
+    }
 }
 
 #[test]
 fn duplicated_and_overlapping_faces_are_refused_by_name() {
-    let refused = |scene: &Scene| solve(scene, &options(50), |_| ControlFlow::Continue(())).unwrap_err();
+    let refused = |scene: &Scene| solve(scene, &by_levels(), |_| ControlFlow::Continue(())).unwrap_err();
     let overlapping = |corners: &[[f64; 3]]| {
         let mut scene = floor_and_lamp();
         scene.patches.push(patch("other", corners, 0.5, 0.0));
@@ -99,8 +113,10 @@ fn duplicated_and_overlapping_faces_are_refused_by_name() {
     }
     let beside = overlapping(&[[2., 2., 0.], [3., 2., 0.], [3., 3., 0.], [2., 3., 0.]]);
     let back = overlapping(&[[-2., 2., 0.], [2., 2., 0.], [2., -2., 0.], [-2., -2., 0.]]);
-    for scene in [beside, back] {
-        assert!(solve(&scene, &options(50), |_| ControlFlow::Continue(())).is_ok());
+    for (scene, options) in
+        [(&beside, options(50)), (&beside, by_levels()), (&back, options(50)), (&back, by_levels())]
+    {
+        assert!(solve(scene, &options, |_| ControlFlow::Continue(())).is_ok());
     }
 }
 
@@ -113,24 +129,29 @@ fn t_junctions_and_touching_edges_let_no_light_through() {
     patches
         .extend(room([0.0; 3], [1.0; 3], 2, 0.5, 1.0).into_iter().filter(|p| p.name.starts_with("lower2")));
     patches.extend(whole.patches.iter().filter(|p| !p.name.contains("r2-")).cloned());
-    let solution = solved(&scene(patches), &options(200));
+    let closed = scene(patches);
+    let solution = solved(&closed, &options(200));
     assert!(solution.closure.unwrap() < 1e-12, "{:?}", solution.closure);
+    assert!(solution.radiosity.iter().all(|b| (b - 2.0).abs() < 1e-4));
+    let solution = solved(&closed, &by_levels());
     assert!(solution.radiosity.iter().all(|b| (b - 2.0).abs() < 1e-4));
 }
 
 #[test]
 fn emission_may_be_1e_minus_30_or_1e30() {
-    let shine = |emission: f64| {
+    let shine = |method: Method, emission: f64| {
         let mut scene = floor_and_lamp();
         scene.patches[1].emission[0] = emission;
-        solved(&scene, &options(200))
+        solved(&scene, &Options { method, ..options(200) })
     };
-    let one = shine(1.0);
-    for power in [1e-30, 1e30] {
-        let other = shine(power);
-        assert!(other.converged);
-        for (a, b) in one.irradiance.iter().zip(&other.irradiance) {
-            assert!((a * power - b).abs() <= 1e-5 * b.abs(), "{a} {b}");
+    for method in METHODS {
+        let one = shine(method, 1.0);
+        for power in [1e-30, 1e30] {
+            let other = shine(method, power);
+            assert!(other.converged);
+            for (a, b) in one.irradiance.iter().zip(&other.irradiance) {
+                assert!((a * power - b).abs() <= 1e-5 * b.abs(), "{method:?}: {a} {b}");
+            }
         }
     }
 }
@@ -144,7 +165,7 @@ fn the_unit_of_power_changes_no_bit() {
         assert!(solution.converged, "{method:?} {emission}");
         solution.radiosity
     };
-    for method in [Method::Shoot, Method::Matrix, Method::Cg, Method::Gmres] {
+    for method in [Method::Shoot, Method::Matrix, Method::Cg, Method::Gmres, Method::Hierarchical] {
         let one = shine(method, 1.0);
         // Their squares are beyond the range of doubles.
         for unit in [2f64.powi(-700), 2f64.powi(700)] {
@@ -164,8 +185,11 @@ fn light_beyond_the_range_is_refused_by_name() {
     wide.patches[1].emission[0] = 1e200;
     assert!(matches!(refused(&wide), Error::Bright { .. }));
     wide.patches[1].emission[0] = 1e180;
-    let solution = solved(&wide, &options(50));
-    assert!(solution.ledger.emitted[0].is_finite() && solution.radiosity.iter().all(|b| b.is_finite()));
+    for method in METHODS {
+        let solution = solved(&wide, &Options { method, ..options(50) });
+        assert!(solution.converged && solution.ledger.emitted[0].is_finite());
+        assert!(solution.radiosity.iter().all(|b| b.is_finite()));
+    }
 }
 
 #[test]
@@ -176,14 +200,15 @@ fn a_faint_band_is_solved_beside_a_strong_one() {
         patch.reflectance = vec![0.5; 2];
         patch.emission = vec![1e30 * patch.emission[0], patch.emission[0]];
     }
-    let (both, faint) = (solved(&mixed, &options(200)), solved(&floor_and_lamp(), &options(200)));
-    assert!(both.converged);
-    for (bands, alone) in both.irradiance.chunks(2).zip(&faint.irradiance) {
-        assert!((bands[1] - alone).abs() <= both.bound[1] + faint.bound[0] + 1e-12, "{bands:?} {alone}");
-        assert!(
-            (bands[0] / 1e30 - alone).abs() <= both.bound[1] + faint.bound[0] + 1e-12,
-            "{bands:?} {alone}"
-        );
+    for method in METHODS {
+        let [both, faint] =
+            [&mixed, &floor_and_lamp()].map(|scene| solved(scene, &Options { method, ..options(200) }));
+        assert!(both.converged);
+        let enough = both.bound[1] + faint.bound[0] + 1e-12;
+        for (bands, alone) in both.irradiance.chunks(2).zip(&faint.irradiance) {
+            assert!((bands[1] - alone).abs() <= enough, "{method:?}: {bands:?} {alone}");
+            assert!((bands[0] / 1e30 - alone).abs() <= enough, "{method:?}: {bands:?} {alone}");
+        }
     }
 }
 
@@ -210,9 +235,12 @@ fn a_flipped_patch_receives_nothing_and_still_hides() {
     let mut flipped = floor_and_lamp();
     let down = [[-2., 2., 1.], [2., 2., 1.], [2., -2., 1.], [-2., -2., 1.]];
     flipped.patches.push(patch("flipped", &down, 0.5, 0.0));
-    let solution = solved(&flipped, &options(200));
-    assert_eq!(mean(&solution, 2), 0.0);
-    assert!(mean(&solution, 0) < mean(&solved(&floor_and_lamp(), &options(200)), 0));
+    for method in METHODS {
+        let [with, without] =
+            [&flipped, &floor_and_lamp()].map(|scene| solved(scene, &Options { method, ..options(200) }));
+        assert_eq!(mean(&with, 2), 0.0);
+        assert!(mean(&with, 0) < mean(&without, 0));
+    }
 }
 
 #[test]

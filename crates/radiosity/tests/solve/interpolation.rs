@@ -23,7 +23,7 @@ fn soft_shadow(height: f64) -> Scene {
 fn gathered_light_is_exact_at_the_vertices() {
     let scene = soft_shadow(0.9);
     // Nothing but the lamp sends light to the floor, so that all its light is direct.
-    let options = Options { elements: 300, gather: true, ..Options::default() };
+    let options = Options { gather: true, ..Options::mesh(300) };
     let solution = solved(&scene, &options);
     let [irradiance, radiosity] = [solution.vertex_irradiance(), solution.vertex_radiosity()];
     let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
@@ -52,7 +52,7 @@ fn ridge() -> Scene {
 
 /// The irradiances at the vertices on the ridge, of each slope, by y.
 fn on_ridge(scene: &Scene) -> [Vec<f64>; 2] {
-    let solution = solved(scene, &Options { elements: 400, ..Options::default() });
+    let solution = solved(scene, &Options::mesh(400));
     let light = solution.vertex_irradiance();
     [0, 1].map(|slope| {
         let elements = solution.mesh.elements.iter().filter(|element| element.patch == slope);
@@ -98,7 +98,7 @@ fn the_estimate_is_zero_where_light_is_even_and_falls_with_the_mesh() {
     use radiosity::Norm;
     for norm in [Norm::Gradient, Norm::L1, Norm::L2, Norm::LInfinity] {
         let worst = |scene: &Scene, elements: usize| {
-            let options = Options { elements, tolerance: 1e-9, ..Options::default() };
+            let options = Options { tolerance: 1e-9, ..Options::mesh(elements) };
             solved(scene, &options).error_estimate(norm).into_iter().fold(0.0, f64::max)
         };
         assert!(worst(&cube(1, 0.5, 0.5 * PI), 200) < 1e-6, "{norm:?}");
@@ -110,7 +110,7 @@ fn the_estimate_is_zero_where_light_is_even_and_falls_with_the_mesh() {
 #[test]
 fn finer_cells_go_where_the_shadow_is() {
     let scene = soft_shadow(0.1);
-    let options = Options { elements: 1500, passes: 2, ..Options::default() };
+    let options = Options { passes: 2, ..Options::mesh(1500) };
     let even = solved(&scene, &Options { passes: 0, ..options });
     let adapted = solved(&scene, &options);
     assert!(

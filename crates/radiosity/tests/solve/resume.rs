@@ -34,7 +34,7 @@ fn a_run_that_was_stopped_anywhere_ends_with_the_same_bits() {
 
 #[test]
 fn a_state_of_another_scene_or_mesh_is_refused() {
-    let options = Options { elements: 100, ..Options::default() };
+    let options = Options::mesh(100);
     let mut state = State::default();
     let go = |scene: &radiosity::Scene, options: &Options, state: &mut State| {
         solve_from(scene, options, state, |_| ControlFlow::Continue(()))
@@ -108,8 +108,8 @@ fn the_bound_holds_at_every_shot() {
 fn the_ambient_term_is_what_is_missing_of_a_furnace() {
     // In a closed room of one reflectance all unshot power ends as absorbed, evenly: Σ A (1 − ρ) H.
     let scene = cube(1, 0.8, 1.0);
-    let whole = solved(&scene, &Options { elements: 100, tolerance: 1e-9, ..Options::default() });
-    let stopped = solve(&scene, &Options { elements: 100, ..Options::default() }, |progress| {
+    let whole = solved(&scene, &Options { tolerance: 1e-9, ..Options::mesh(100) });
+    let stopped = solve(&scene, &Options::mesh(100), |progress| {
         if progress.shots >= 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let stopped = stopped.expect("light");

@@ -1,5 +1,5 @@
 //! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
-use super::{options::options, progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
+use super::{progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
 use crate::failure::Failure;
 use radiosity::{Progress, Recorder, Recording, Solution, State, io};
 use std::path::{Path, PathBuf};
@@ -35,8 +35,8 @@ pub(super) struct Follower<'o> {
 }
 
 impl<'o> Follower<'o> {
-    /// Follows from now on; takes over Ctrl-C.
-    pub(super) fn new(outputs: &'o SolveOutputs<'o>) -> Result<Follower<'o>, Failure> {
+    /// Follows from now on, until `tolerance` is reached; takes over Ctrl-C.
+    pub(super) fn new(outputs: &'o SolveOutputs<'o>, tolerance: f64) -> Result<Follower<'o>, Failure> {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&interrupted);
         let stop = move || {
@@ -49,7 +49,7 @@ impl<'o> Follower<'o> {
             .map_err(|error| Failure::internal(format!("Ctrl-C cannot be handled: {error}")))?;
         Ok(Follower {
             outputs,
-            bar: Bar::new(options(outputs.arguments).tolerance),
+            bar: Bar::new(tolerance),
             steps: Steps::new(outputs.arguments.steps.as_deref()),
             recorder: outputs.arguments.record.then(|| Recorder::new(outputs.scene)),
             state: outputs.arguments.output.first().map(|path| {

@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{Output, print};
 use interrupt::{Follower, resume};
-use options::{Solve, check, options};
+use options::{Solve, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
 use std::process::ExitCode;
@@ -29,15 +29,14 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("there is no output; give -o FILE or --json"));
     }
-    check(arguments)?;
+    let options = options(arguments)?;
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     let (scene, source) = input::read(&arguments.scene)?;
     warn_of_darkness(&scene);
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, source: &source, scene: &scene };
-    let mut follower = Follower::new(&writer)?;
-    let solution =
-        radiosity::solve_from(&scene, &options(arguments), &mut state, |progress| follower.follow(progress));
+    let mut follower = Follower::new(&writer, options.tolerance)?;
+    let solution = radiosity::solve_from(&scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.

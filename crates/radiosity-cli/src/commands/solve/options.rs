@@ -21,15 +21,15 @@ pub(crate) struct Solve {
     /// How fine and how exact the result is
     #[arg(long, value_enum, default_value_t = Quality::Normal)]
     pub(super) quality: Quality,
-    /// About how many elements to cut the scene into [default: by quality]
+    /// About how many elements to cut the scene into; a mesh is solved for then [default: by quality]
     #[arg(long, value_name = "N", value_parser = count)]
     pub(super) elements: Option<usize>,
     /// How often to refine the mesh where the light is not resolved; 0: equal elements [default: by quality]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=4))]
     pub(super) passes: Option<u8>,
-    /// The norm that tells where the light is not resolved
-    #[arg(long, value_enum, default_value_t = Norm::L2)]
-    pub(super) norm: Norm,
+    /// The norm that tells where the light is not resolved [default: l2]
+    #[arg(long, value_enum)]
+    pub(super) norm: Option<Norm>,
     /// How many of the strongest emitters get element edges along the edges of their shadows [default: by quality]
     #[arg(long, value_name = "EMITTERS")]
     pub(super) shadows: Option<u8>,
@@ -40,8 +40,8 @@ pub(crate) struct Solve {
     /// light's brightness [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) tolerance: Option<f64>,
-    /// What the mean irradiance of each patch may be off by, as a share like 0.01 or 1% of itself or of 1 % of the scene's mean, with
-    /// `--method hierarchical` [default: by quality]
+    /// What the mean irradiance of each patch may be off by, as a share like 0.01 or 1% of itself or of 1 % of the scene's mean; the scene
+    /// is solved by levels then [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(super) error: Option<f64>,
     /// Split a piece while its power deviates from a uniform piece by more than this share of all power [default: by quality]
@@ -50,9 +50,9 @@ pub(crate) struct Solve {
     /// Take form factors from hemicubes of N × N cells instead of exact ones, to compare
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=4096))]
     pub(super) hemicube: Option<u32>,
-    /// Stop after this many shots
-    #[arg(long, value_name = "N", default_value_t = radiosity::Options::default().max_shots)]
-    pub(super) max_shots: usize,
+    /// Stop shooting after this many shots [default: 1000000]
+    #[arg(long, value_name = "N")]
+    pub(super) max_shots: Option<usize>,
     /// Stop after this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub(super) time: Option<f64>,
@@ -75,12 +75,12 @@ pub(crate) struct Solve {
 /// `--quality`
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Quality {
-    /// A first look: 1500 equal elements, a bound of 1 %
+    /// A first look: an error of 3 %; on a mesh 1500 equal elements and a bound of 1 %
     Draft,
-    /// For pictures: 6000 elements, half of them where the light changes most, a bound of 0.1 %
+    /// For pictures: an error of 1 %; on a mesh 6000 elements, half of them where the light changes most, a bound of 0.1 %
     Normal,
-    /// For figures and close views: 20 000 elements, shadow edges along element edges, exact direct light at every
-    /// vertex, a bound of 0.1 %
+    /// For figures and close views: an error of 0.3 %; on a mesh 20 000 elements, shadow edges along element edges, exact
+    /// direct light at every vertex, a bound of 0.1 %
     High,
 }
 
@@ -100,8 +100,12 @@ pub(super) enum Norm {
 /// `--method`
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Method {
-    /// `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
+    /// `hierarchical` for scenes of at most 300 patches and with `--error`; else `mesh`, and with an option of meshes
     Auto,
+    /// By levels: light goes between parts of patches as large as `--error` allows, and each patch gets an estimate of its error
+    Hierarchical,
+    /// On a mesh of `--elements`: `cg` where a closed room reflects 0.9 of its light or more, else `shoot`
+    Mesh,
     /// Progressive refinement: the piece with the most unshot light shoots it, again and again
     Shoot,
     /// Gaussian elimination on the full matrix, for checks with up to a few thousand elements
@@ -110,54 +114,63 @@ pub(super) enum Method {
     Cg,
     /// GMRES on unscaled form factors
     Gmres,
-    /// By levels: light goes between parts of patches as large as `--error` allows, and each patch gets an estimate of its error
-    Hierarchical,
 }
 
-/// Refuses options that the method would have to ignore.
-pub(super) fn check(arguments: &Solve) -> Result<(), Failure> {
-    let is_by_levels = matches!(arguments.method, Method::Hierarchical);
-    let others = [
+/// The first of the given options that only meshes have.
+fn of_meshes(arguments: &Solve) -> Option<&'static str> {
+    let options = [
         ("--elements", arguments.elements.is_some()),
         ("--passes", arguments.passes.is_some()),
+        ("--norm", arguments.norm.is_some()),
         ("--shadows", arguments.shadows.is_some()),
         ("--spread", arguments.spread.is_some()),
         ("--hemicube", arguments.hemicube.is_some()),
+        ("--max-shots", arguments.max_shots.is_some()),
     ];
-    match others.iter().find(|(_, is_given)| *is_given && is_by_levels) {
-        Some((name, _)) => Err(Failure::usage(format!(
+    options.into_iter().find_map(|(name, is_given)| is_given.then_some(name))
+}
+
+/// The method that the options ask for; refuses those that it would have to ignore.
+fn method(arguments: &Solve) -> Result<radiosity::Method, Failure> {
+    match (arguments.method, of_meshes(arguments), arguments.error.is_some()) {
+        (Method::Hierarchical, Some(name), _) => Err(Failure::usage(format!(
             "{name} has no meaning with --method hierarchical, which cuts patches by --error"
         ))),
-        None if arguments.error.is_some() && !is_by_levels => {
+        (Method::Auto, Some(name), true) => Err(Failure::usage(format!(
+            "{name} and --error do not go together: {name} is of meshes, whose error is not known; leave out one of them"
+        ))),
+        (Method::Mesh | Method::Shoot | Method::Matrix | Method::Cg | Method::Gmres, _, true) => {
             Err(Failure::usage("--error needs --method hierarchical: the other methods do not know theirs"))
         }
-        None => Ok(()),
+        (Method::Auto, None, true) | (Method::Hierarchical, None, _) => Ok(radiosity::Method::Hierarchical),
+        (Method::Auto, None, false) => Ok(radiosity::Method::Auto),
+        (Method::Auto, Some(_), _) | (Method::Mesh, ..) => Ok(radiosity::Method::Mesh),
+        (Method::Shoot, ..) => Ok(radiosity::Method::Shoot),
+        (Method::Matrix, ..) => Ok(radiosity::Method::Matrix),
+        (Method::Cg, ..) => Ok(radiosity::Method::Cg),
+        (Method::Gmres, ..) => Ok(radiosity::Method::Gmres),
     }
 }
 
 /// The options of the solver.
-pub(super) fn options(arguments: &Solve) -> Options {
+///
+/// # Errors
+/// Options that the method would have to ignore.
+pub(super) fn options(arguments: &Solve) -> Result<Options, Failure> {
+    let method = method(arguments)?;
     let by_quality = match arguments.quality {
         Quality::Draft => radiosity::Quality::Draft,
         Quality::Normal => radiosity::Quality::Normal,
         Quality::High => radiosity::Quality::High,
     };
-    let method = match arguments.method {
-        Method::Auto => radiosity::Method::Auto,
-        Method::Shoot => radiosity::Method::Shoot,
-        Method::Matrix => radiosity::Method::Matrix,
-        Method::Cg => radiosity::Method::Cg,
-        Method::Gmres => radiosity::Method::Gmres,
-        Method::Hierarchical => radiosity::Method::Hierarchical,
-    };
-    let norm = match arguments.norm {
+    let norm = match arguments.norm.unwrap_or(Norm::L2) {
         Norm::Gradient => radiosity::Norm::Gradient,
         Norm::L1 => radiosity::Norm::L1,
         Norm::L2 => radiosity::Norm::L2,
         Norm::Linf => radiosity::Norm::LInfinity,
     };
     let given = by_quality.options();
-    Options {
+    Ok(Options {
         method,
         norm,
         elements: arguments.elements.unwrap_or(given.elements),
@@ -169,7 +182,7 @@ pub(super) fn options(arguments: &Solve) -> Options {
         hemicube: arguments.hemicube,
         gather: given.gather,
         record: arguments.record,
-        max_shots: arguments.max_shots,
+        max_shots: arguments.max_shots.unwrap_or(given.max_shots),
         max_seconds: arguments.time,
-    }
+    })
 }

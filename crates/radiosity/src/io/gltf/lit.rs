@@ -1,5 +1,5 @@
 //! The lit mesh's primitives: one of all plain patches, one for each picture.
-use super::buffer::Buffer;
+use super::buffer::{Buffer, single};
 use crate::expose::Exposure;
 use crate::image_file::bytes;
 use crate::record::Record;
@@ -15,8 +15,11 @@ pub(super) fn primitives(
     exposure: Exposure,
 ) -> Vec<Value> {
     let mut groups: BTreeMap<Option<usize>, Vec<[usize; 3]>> = BTreeMap::new();
+    let place = |vertex: usize| rounded(record.vertices[vertex] - middle);
     for &[patch, a, b, c] in &record.elements {
-        groups.entry(record.patches[patch].picture).or_default().push([a, b, c]);
+        if has_area([a, b, c].map(place)) {
+            groups.entry(record.patches[patch].picture).or_default().push([a, b, c]);
+        }
     }
     let light = record.colours();
     let received = record.under_pictures();
@@ -41,6 +44,16 @@ pub(super) fn primitives(
         primitives.push(json!({"attributes": attributes, "indices": indices, "material": material}));
     }
     primitives
+}
+
+/// A point as it is written, in single precision.
+fn rounded(point: DVec3) -> DVec3 {
+    DVec3::from(point.to_array().map(|number| f64::from(single(number))))
+}
+
+/// Whether something is left of a triangle when it is written.
+fn has_area([a, b, c]: [DVec3; 3]) -> bool {
+    (b - a).cross(c - a) != DVec3::ZERO
 }
 
 /// The vertices that some triangles use, in order, and the triangles' corners counted among them.

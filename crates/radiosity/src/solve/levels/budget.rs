@@ -26,7 +26,7 @@ pub(super) const DARK: f64 = 0.01;
 /// The light of a band, as errors depend on it.
 #[derive(Debug)]
 pub(super) struct BandLight {
-    band: usize,
+    pub(super) band: usize,
     /// What each tile sends, and how far that is from linear.
     pub(super) sent: Vec<Linear>,
     pub(super) deviation: Vec<f64>,
@@ -95,7 +95,7 @@ impl BandLight {
         Flaw {
             // Where the total is known only how it is shared can be wrong: no matter where the sender is even.
             of_mean: link.error() * if link.of_total.is_some() { self.stray(sender) } else { bright },
-            of_total: link.of_total.map_or(0.0, |share| share * link.exchange[0] * bright),
+            of_total: link.of_total.map_or(0.0, |error| error * bright),
             within: (WITHIN + OTHERS * for_others) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
@@ -179,18 +179,14 @@ fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-/// What the mean irradiance of every patch may be off by for the errors of its links, added up; patches × `count` bands.
-pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], count: usize) -> Vec<f64> {
-    let patches = &tiling.scene.patches;
-    let mut sums = vec![0.0; patches.len() * count];
+/// The errors of all that every whole tile receives, as powers, each raised to `exponent`, added up.
+pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], light: &BandLight, exponent: f64) -> Vec<f64> {
+    let root_of = tiling.roots();
+    let mut sums = vec![0.0; tiling.tiles.len()];
     for link in links {
         for end in [0, 1] {
-            let patch = tiling.tiles[link.ends[end]].patch;
-            for light in bands {
-                let flaw = light.flaw(tiling, link, end);
-                sums[patch * count + light.band] +=
-                    (flaw.of_mean + flaw.of_sender + flaw.of_total) / patches[patch].polygon.area();
-            }
+            let flaw = light.flaw(tiling, link, end);
+            sums[root_of[link.ends[end]]] += (flaw.of_mean + flaw.of_sender + flaw.of_total).powf(exponent);
         }
     }
     sums

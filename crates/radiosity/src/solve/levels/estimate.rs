@@ -1,40 +1,82 @@
 //! What the irradiance of every patch may be off by.
 use super::budget::{BandLight, errors};
-use super::equilibrium::{Equilibrium, largest};
-use super::flow::Linear;
-use super::gradients::Gradients;
 use super::link::Link;
 use super::tiling::Tiling;
 
-/// Products that an estimate takes at most: it need not be exact.
+/// Errors add up as this power of them does: between those of one sign, of which it is the first, and independent ones, of which it is the
+/// second. So are those of the rooms of seven kinds of which the benchmarks tell.
+const EXPONENT: f64 = 1.2;
+/// Reflections that are followed.
 const MOST: usize = 60;
 
-/// The errors of the links of every patch, added up as if all had one sign, with what comes of them by reflection; patches × bands.
-///
-/// An error δ of the irradiance is light of its own: x = ρ(δ + T x) is what the patches send of it, and δ + T x what they receive.
-pub(super) fn estimate(
-    tiling: &Tiling<'_>,
-    links: &[Link],
-    equilibrium: &Equilibrium<'_>,
-    lights: &[BandLight],
-    bands: usize,
-) -> Vec<f64> {
-    let wrong = errors(tiling, links, lights, bands);
-    let patches = tiling.scene.patches.len();
-    let (mut sums, mut areas) = (vec![0.0; wrong.len()], vec![0.0; patches]);
-    (0..equilibrium.leaves().len()).for_each(|leaf| areas[equilibrium.patch(leaf)] += equilibrium.area(leaf));
-    for band in 0..bands {
-        let of = |leaf: usize| wrong[equilibrium.patch(leaf) * bands + band];
-        let reflectance = equilibrium.reflectance(band);
-        let first: Vec<Linear> =
-            reflectance.iter().enumerate().map(|(leaf, rho)| [rho * of(leaf), 0.0, 0.0]).collect();
-        let mut sent = first.clone();
-        let enough = 1e-3 * largest(&first) * equilibrium.gap(&reflectance);
-        Gradients::new(equilibrium, &first, &reflectance).better(&mut sent, enough, MOST);
-        for (leaf, light) in equilibrium.receive(&sent).into_iter().enumerate() {
-            sums[equilibrium.patch(leaf) * bands + band] +=
-                equilibrium.area(leaf) * (of(leaf) + light[0].max(0.0));
+/// The mean error of the irradiance of every patch; patches × `bands`.
+pub(super) fn estimate(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight], bands: usize) -> Vec<f64> {
+    let exchanges = exchanges(tiling, links);
+    let mut found = vec![0.0; tiling.scene.patches.len() * bands];
+    for light in lights {
+        let unit = tiling.units()[light.band];
+        for (patch, power) in powers(tiling, links, &exchanges, light).into_iter().enumerate() {
+            found[patch * bands + light.band] = unit * power / tiling.scene.patches[patch].polygon.area();
         }
     }
-    sums.iter().enumerate().map(|(at, sum)| sum / areas[at / bands]).collect()
+    found
+}
+
+/// The pairs of whole tiles that are linked, and what they exchange.
+fn exchanges(tiling: &Tiling<'_>, links: &[Link]) -> Vec<([usize; 2], f64)> {
+    let root_of = tiling.roots();
+    let pairs = links.iter().map(|link| link.pair + 1).max().unwrap_or(0);
+    let mut found = vec![([0, 0], 0.0); pairs];
+    for link in links {
+        let (ends, sum) = &mut found[link.pair];
+        *ends = link.ends.map(|end| root_of[end]);
+        *sum += link.exchange[0];
+    }
+    found
+}
+
+/// What the light that every patch receives may be off by in a band, by reflection as well.
+///
+/// An error δ of the irradiance of a tile is light of its own, of which others receive ρ F: ε = δ + F ρ ε, each term raised to the exponent.
+fn powers(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    exchanges: &[([usize; 2], f64)],
+    light: &BandLight,
+) -> Vec<f64> {
+    let area = |tile: usize| tiling.tiles[tile].area;
+    let direct: Vec<f64> = errors(tiling, links, light, EXPONENT)
+        .into_iter()
+        .enumerate()
+        .map(|(tile, sum)| sum / area(tile).powf(EXPONENT))
+        .collect();
+    let carried = |to: usize, from: usize, exchange: f64| {
+        (exchange / area(to) * tiling.tiles[from].reflectance[light.band]).powf(EXPONENT)
+    };
+    let ways: Vec<([usize; 2], [f64; 2])> = exchanges
+        .iter()
+        .map(|&([one, other], exchange)| {
+            ([one, other], [carried(one, other, exchange), carried(other, one, exchange)])
+        })
+        .collect();
+    let mut sums = vec![0.0; tiling.scene.patches.len()];
+    let all = reflected(&direct, &ways);
+    for (tile, error) in tiling.tiles.iter().zip(all).filter(|(tile, _)| tile.parent.is_none()) {
+        sums[tile.patch] += tile.area * error.powf(1.0 / EXPONENT);
+    }
+    sums
+}
+
+/// What is there at once with what comes of it by reflection: pairs, and what each carries to the one and to the other.
+fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])]) -> Vec<f64> {
+    let mut all = direct.to_vec();
+    for _ in 0..MOST {
+        let mut next = direct.to_vec();
+        for ([one, other], [here, there]) in ways {
+            next[*one] += here * all[*other];
+            next[*other] += there * all[*one];
+        }
+        all = next;
+    }
+    all
 }

@@ -15,6 +15,8 @@ pub(super) struct Candidate {
     pub(super) unseen: f64,
     /// Which pair of whole tiles they are parts of.
     pub(super) pair: usize,
+    /// No more than this passes between these.
+    pub(super) most: f64,
 }
 
 /// Two tiles that exchange light as a whole, both ways.
@@ -30,16 +32,18 @@ pub(super) struct Link {
     pub(super) transfer: Arc<Transfer>,
     /// What passes: as measured, or by what all links of the pair are known to exchange.
     pub(super) exchange: [f64; 9],
-    /// What all links of the pair may be off by together, as a share of what they carry, where that is known.
+    /// Its share of what all links of the pair may be off by together, where that is known.
     pub(super) of_total: Option<f64>,
+    /// No more than this passes between all of the pair.
+    pub(super) most: f64,
 }
 
 impl Link {
     /// The link of a candidate; nothing where no light can pass.
     pub(super) fn new(candidate: &Candidate, among: Arc<[u32]>, transfer: Arc<Transfer>) -> Option<Link> {
-        let Candidate { ends, unseen, pair, .. } = *candidate;
+        let Candidate { ends, unseen, pair, most, .. } = *candidate;
         let exchange = transfer.exchange;
-        let link = Link { ends, among, unseen, pair, transfer, exchange, of_total: None };
+        let link = Link { ends, among, unseen, pair, transfer, exchange, of_total: None, most };
         (link.transfer.exchange[0] > 0.0 || link.error() > 0.0).then_some(link)
     }
 
@@ -55,7 +59,7 @@ impl Link {
 
     /// The estimated error of the light that passes, for a radiosity of 1.
     pub(super) fn error(&self) -> f64 {
-        self.transfer.error + self.unseen * self.transfer.open
+        (self.transfer.error + self.unseen * self.transfer.open).min(self.most)
     }
 
     /// See [`Transfer::curvature`].
@@ -69,7 +73,7 @@ impl Link {
         halves.map(|half| {
             let mut ends = self.ends;
             ends[end] = half;
-            Candidate { ends, among: self.among.clone(), unseen, pair: self.pair }
+            Candidate { ends, among: self.among.clone(), unseen, pair: self.pair, most: self.most }
         })
     }
 }

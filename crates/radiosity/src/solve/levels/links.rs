@@ -26,7 +26,7 @@ enum Enclosed {
 
 impl Enclosed {
     fn by(sums: &[f64]) -> Enclosed {
-        let is_covered = sums.iter().all(|sum| *sum <= CLOSED);
+        let is_covered = sums.iter().all(|sum| *sum == 0.0);
         match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
             5 => Enclosed::Wholly,
             0 if is_covered => Enclosed::Covered,
@@ -82,6 +82,7 @@ impl Links {
         self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.totals = Totals::of(tiling, &links, error);
+        links.retain(|link| !self.totals.is_hidden(link.pair));
         self.totals.share(&mut links);
         self.all = links;
     }
@@ -109,13 +110,14 @@ impl Links {
         known.chain(std::iter::repeat(None)).take(tiling.tiles.len()).collect()
     }
 
-    /// Finds which of the tiles since the last time are in closed rooms: those of which a part is are looked at again when they are cut.
+    /// Finds which of the tiles since the last time are in closed rooms: those of which a part is,
+    /// or may be covered, are looked at again when they are cut.
     pub(super) fn enclose(&mut self, tiling: &Tiling<'_>) {
         for tile in &tiling.tiles[self.enclosed.len()..] {
             let parent = tile.parent.map(|parent| (self.enclosed[parent], tiling.tiles[parent].is_crossed));
             self.enclosed.push(match parent {
-                None | Some((Enclosed::Nowhere, _)) => Enclosed::Nowhere,
-                Some((enclosed @ (Enclosed::Wholly | Enclosed::Covered), false)) => enclosed,
+                None => Enclosed::Nowhere,
+                Some((enclosed, false)) if enclosed != Enclosed::Partly => enclosed,
                 Some(_) => {
                     let sums: Vec<f64> = tile.points.par_iter().map(|point| sum(tiling, point)).collect();
                     Enclosed::by(&sums)
@@ -151,7 +153,7 @@ impl Links {
     /// The link of a candidate; nothing where no light can pass.
     fn link(&self, tiling: &Tiling<'_>, candidate: &Candidate, known: &State) -> Result<Option<Link>, Error> {
         let tiles = candidate.ends.map(|end| &tiling.tiles[end]);
-        if !faces(tiling, tiles) {
+        if !faces(tiles) {
             return Ok(None);
         }
         let among: Arc<[u32]> = between(tiling, tiles, &candidate.among).into();

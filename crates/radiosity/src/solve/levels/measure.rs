@@ -13,9 +13,9 @@ const CUBATURE: f64 = 0.3;
 /// What share of that is left when the mean is exact, and only how it climbs is not.
 const SLOPES: f64 = 0.2;
 
-/// What reaches less than this share of the scene's size into a shaft hides nothing that counts.
+/// What reaches less far into a shaft, beside the smaller of its ends, hides nothing that counts.
 const SLIGHT: f64 = 1e-9;
-/// What rises less than this share of the scene's size above a plane is in it.
+/// What rises above a plane by less than this share of how far away it is, is in it.
 const NEAR: f64 = 1e-12;
 
 /// What one end sees of the other.
@@ -27,7 +27,8 @@ struct View {
 
 /// Those of the surfaces that can stand between two tiles.
 pub(super) fn between(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u32]) -> Vec<u32> {
-    let shaft = Shaft::between([one, other], SLIGHT * tiling.size);
+    let scale = tiling.scale(one.patch).min(tiling.scale(other.patch));
+    let shaft = Shaft::between([one, other], SLIGHT * scale);
     let polygons = tiling.enclosure.polygons();
     let stands = |id: &&u32| {
         let id = **id as usize;
@@ -37,11 +38,9 @@ pub(super) fn between(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u3
 }
 
 /// Whether two tiles may see each other as far as their planes say.
-pub(super) fn faces(tiling: &Tiling<'_>, [one, other]: [&Tile; 2]) -> bool {
-    let before = |tile: &Tile, of: &Tile| {
-        let height = of.normal.dot(of.points[0].position());
-        tile.outline.corners.iter().any(|(_, place)| of.normal.dot(*place) > height + NEAR * tiling.size)
-    };
+pub(super) fn faces([one, other]: [&Tile; 2]) -> bool {
+    let before =
+        |tile: &Tile, of: &Tile| tile.outline.corners.iter().any(|(_, place)| rises(*place, &of.points[0]));
     one.surface != other.surface && before(one, other) && before(other, one)
 }
 
@@ -93,14 +92,19 @@ impl View {
 
 /// What a point sees of a tile: the integrals over it of the kernel times each function.
 pub(super) fn look(tiling: &Tiling<'_>, point: &DifferentialArea, to: &Tile, among: &[usize]) -> [f64; 3] {
-    let rises = |place: &DVec3| point.normal().dot(*place - point.position()) > NEAR * tiling.size;
-    if !to.outline.corners.iter().any(|(_, place)| rises(place)) {
+    if !to.outline.corners.iter().any(|(_, place)| rises(*place, point)) {
         return [0.0; 3];
     }
     let (factor, centroid) = tiling.enclosure.form_factor_and_centroid(point, to.surface, &to.polygon, among);
     // Where hardly anything is seen the centroid is not known.
     let linear = to.outline.linear(tiling.flatten(to.patch, centroid)).map(|value| value.clamp(-2.0, 2.0));
     [factor.value, factor.value * linear[0], factor.value * linear[1]]
+}
+
+/// Whether a place is above the plane of a point.
+fn rises(place: DVec3, point: &DifferentialArea) -> bool {
+    let way = place - point.position();
+    point.normal().dot(way) > NEAR * way.length()
 }
 
 fn transposed(g: [f64; 9]) -> [f64; 9] {

@@ -5,12 +5,11 @@ use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use crate::mesh::cover::Cover;
-use crate::scene::Scene;
 use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
 use crate::solve::solution::{Gathered, Solution};
 
-/// What the leaves receive, and what is known of it.
+/// What the leaves receive, in the units of the bands, and what is known of it, in those of the scene.
 #[derive(Debug)]
 pub(super) struct LeafLight {
     /// What each leaf receives, band by band.
@@ -58,20 +57,20 @@ impl LeafLight {
             squares += area * (rho * h[0]).powi(2);
             residual.push(rest);
         }
-        let ledger = &mut self.ledger;
-        ledger.emitted.push(emitted);
-        ledger.absorbed.push(absorbed);
-        ledger.escaped.push(escaped);
-        ledger.unshot.push(unshot);
+        let (unit, ledger) = (tiling.units()[band], &mut self.ledger);
+        ledger.emitted.push(unit * emitted);
+        ledger.absorbed.push(unit * absorbed);
+        ledger.escaped.push(unit * escaped);
+        ledger.unshot.push(unit * unshot);
         ledger.defect.push(ledger.remainder(band));
         let residual = largest(&residual);
-        self.bound.push(if residual == 0.0 { 0.0 } else { residual / equilibrium.gap(&reflectance) });
-        self.unshot.push(open);
-        self.brightness.push(if reflected > 0.0 { squares / reflected } else { 0.0 });
+        self.bound.push(if residual == 0.0 { 0.0 } else { unit * residual / equilibrium.gap(&reflectance) });
+        self.unshot.push(unit * open);
+        self.brightness.push(if reflected > 0.0 { unit * squares / reflected } else { 0.0 });
         self.received.push(received);
     }
 
-    /// The mean irradiance in each band.
+    /// The mean irradiance in each band, in its unit.
     pub(super) fn means(&self, equilibrium: &Equilibrium<'_>) -> Vec<f64> {
         let areas: Vec<f64> = (0..equilibrium.leaves().len()).map(|leaf| equilibrium.area(leaf)).collect();
         let mean = |received: &Vec<Linear>| {
@@ -135,10 +134,10 @@ pub(super) fn solution(
         let [a, b] = tile.outline.linear(tiling.flatten(tile.patch, mesh.centroid(element)));
         for (band, received) in light.received.iter().enumerate() {
             let [mean, first, second] = positive(tile, received[leaf]);
-            let here = mean + a * first + b * second;
-            irradiance.push(here);
+            let (here, unit) = (mean + a * first + b * second, tiling.units()[band]);
+            irradiance.push(unit * here);
             reflectance.push(tile.reflectance[band]);
-            radiosity.push(tiling.emittance(index, band) + tile.reflectance[band] * here);
+            radiosity.push(unit * (tiling.emittance(index, band) + tile.reflectance[band] * here));
         }
     }
     Solution {
@@ -162,9 +161,10 @@ pub(super) fn solution(
     }
 }
 
-/// The solution with what its vertices receive: elements are as bright as their vertices, and patches as bright as they were.
-pub(super) fn with_vertices(scene: &Scene, mut solution: Solution, vertices: Vec<f64>) -> Solution {
+/// The solution with what its vertices receive, in the units of the bands: elements are as bright as their vertices, and patches as bright as they were.
+pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut vertices: Vec<f64>) -> Solution {
     let bands = solution.bands;
+    vertices.iter_mut().enumerate().for_each(|(at, light)| *light *= tiling.units()[at % bands]);
     let mean = |element: usize, band: usize| {
         let corners = solution.mesh.elements[element].corners;
         corners.map(|corner| vertices[corner * bands + band]).iter().sum::<f64>() / 3.0
@@ -172,7 +172,7 @@ pub(super) fn with_vertices(scene: &Scene, mut solution: Solution, vertices: Vec
     let count = solution.mesh.elements.len();
     let shown: Vec<f64> = (0..count * bands).map(|at| mean(at / bands, at % bands)).collect();
     let [before, after] =
-        [&solution.irradiance, &shown].map(|light| solution.patch_means(light, scene.patches.len()));
+        [&solution.irradiance, &shown].map(|light| solution.patch_means(light, tiling.scene.patches.len()));
     for (at, shown) in shown.into_iter().enumerate() {
         let (patch, band) = (solution.mesh.elements[at / bands].patch, at % bands);
         // Where no vertex sees what the patch receives it is even.

@@ -68,8 +68,9 @@ impl Levels<'_> {
         let roots = self.tiling.tiles.len();
         let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
         let all = self.tiling.surfaces();
-        let candidates: Vec<Candidate> =
-            pairs.map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0 }).collect();
+        let candidates: Vec<Candidate> = pairs
+            .map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0, most: f64::INFINITY })
+            .collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
         self.links.open(&self.tiling, links, self.options.error);
         self.links.refuse_endless(&self.tiling)?;
@@ -233,7 +234,7 @@ impl Levels<'_> {
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = estimate(tiling, &links.all, &equilibrium, &lights, sent.len());
+        let estimate = estimate(tiling, &links.all, &lights, sent.len());
         let shown = match converged.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);

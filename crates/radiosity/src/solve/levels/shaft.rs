@@ -25,8 +25,7 @@ pub(super) struct Shaft {
 impl Shaft {
     /// The shaft between tiles; `near` is a length that does not count.
     pub(super) fn between(tiles: [&Tile; 2], near: f64) -> Shaft {
-        let [first, second] =
-            tiles.map(|tile| tile.outline.corners.iter().map(|corner| corner.1).collect::<Vec<DVec3>>());
+        let [first, second] = tiles.map(|tile| tile.outline.places().collect::<Vec<DVec3>>());
         let all = || first.iter().chain(&second);
         let mut shaft = Shaft {
             low: all().copied().fold(DVec3::INFINITY, DVec3::min),

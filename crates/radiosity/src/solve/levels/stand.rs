@@ -79,6 +79,6 @@ impl Stand<'_> {
         let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
         let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
         let solution = solution(tiling, equilibrium, light, cover);
-        Ok(Some(Solution { products: self.products, ..with_vertices(tiling.scene, solution, vertices) }))
+        Ok(Some(Solution { products: self.products, ..with_vertices(tiling, solution, vertices) }))
     }
 }

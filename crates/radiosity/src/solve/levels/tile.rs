@@ -63,6 +63,11 @@ impl Outline {
         is_sound.then_some(Outline { corners, area, centroid: origin + middle, axes })
     }
 
+    /// The places of the corners.
+    pub(super) fn places(&self) -> impl Iterator<Item = DVec3> {
+        self.corners.iter().map(|corner| corner.1)
+    }
+
     /// The centroid and the tips of the axes: the first, its opposite, the second, its opposite.
     pub(super) fn points(&self) -> [DVec2; 5] {
         let [a, b] = self.axes;

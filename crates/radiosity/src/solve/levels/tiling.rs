@@ -2,17 +2,23 @@
 use super::tile::{Outline, SQUARE};
 use crate::error::Error;
 use crate::extent::Extent;
-use crate::mesh::{contacts::contacts, convex::convex_parts, frame::Frame};
+use crate::mesh::{
+    contacts::contacts,
+    convex::convex_parts,
+    frame::{Frame, power_of_two},
+};
 use crate::scene::Scene;
 use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::{f64::consts::PI, sync::Arc};
 
-/// Edges of other patches are contacts within this share of the scene's size.
+/// What is small beside a patch is small beside the scene or, where that is less, beside so many times the patch.
+const WIDE: f64 = 100.0;
+/// Edges of other patches are contacts within this share of that.
 const NEAR: f64 = 1e-9;
-/// Tiles of less than this share of the scene's area are not cut.
-const LEAST: f64 = 1e-8;
+/// Tiles that reach less than this share of that are not cut.
+const LEAST: f64 = 1e-4;
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
 /// quicker where no two edges are in line.
 const WITHIN: f64 = 1e-7;
@@ -45,6 +51,8 @@ pub(super) struct Tile {
 #[derive(Debug)]
 struct Base {
     frame: Frame,
+    /// What lengths on it are small beside.
+    scale: f64,
     contacts: Vec<[DVec2; 2]>,
 }
 
@@ -56,11 +64,10 @@ pub(super) struct Tiling<'s> {
     /// The boxes around the polygons of the enclosure.
     pub(super) extents: Vec<Extent>,
     pub(super) tiles: Vec<Tile>,
-    /// The size of the scene.
-    pub(super) size: f64,
     bases: Vec<Base>,
     surface_of: Vec<usize>,
-    least: f64,
+    /// Radiosity is counted in these: band by band a power of two near the largest that is emitted, so that its squares are in range.
+    units: Vec<f64>,
 }
 
 impl<'s> Tiling<'s> {
@@ -71,24 +78,24 @@ impl<'s> Tiling<'s> {
         let size = (high - low).length();
         let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
         let base = |(patch, polygon): (usize, &PlanarPolygon)| {
-            let frame = Frame::new(polygon);
+            let (frame, Extent { low, high }) = (Frame::new(polygon), extents[patch]);
+            let scale = size.min(WIDE * (high - low).length());
             // A thousandth of this is near.
-            let lines = contacts(scene, &extents, patch, 1e3 * NEAR * size);
+            let lines = contacts(scene, &extents, patch, 1e3 * NEAR * scale);
             Base {
                 frame,
+                scale,
                 contacts: lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect(),
             }
         };
-        let area: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
         let mut tiling = Tiling {
             scene,
             extents: polygons.iter().map(Extent::around).collect(),
             enclosure: Enclosure::new(polygons),
             tiles: Vec::new(),
-            size,
             bases: scene.patches.iter().map(|patch| &patch.polygon).enumerate().map(base).collect(),
             surface_of: of_patch,
-            least: LEAST * area,
+            units: (0..scene.bands).map(|band| unit(scene, band)).collect(),
         };
         for patch in 0..scene.patches.len() {
             tiling.add_patch(patch)?;
@@ -130,7 +137,7 @@ impl<'s> Tiling<'s> {
     fn tile(&self, patch: usize, outline: Outline, parent: Option<usize>, key: u64) -> Result<Tile, Error> {
         let (source, frame) = (&self.scene.patches[patch], self.bases[patch].frame);
         let refused = |error| Error::Shape { patch: source.name.clone(), source: error };
-        let places: Vec<DVec3> = outline.corners.iter().map(|corner| corner.1).collect();
+        let places: Vec<DVec3> = outline.places().collect();
         let middle = frame.lift(outline.centroid);
         let within = places
             .iter()
@@ -140,7 +147,7 @@ impl<'s> Tiling<'s> {
         Ok(Tile {
             patch,
             surface: self.surface_of[patch],
-            reflectance: reflectance(source, &places),
+            reflectance: source.reflectance_within(&places),
             polygon: PlanarPolygon::new([within.collect::<Vec<_>>()]).map_err(refused)?,
             area: self.area(patch, &outline),
             points,
@@ -185,7 +192,7 @@ impl<'s> Tiling<'s> {
     /// The halves of a tile: see [`cut`](Tiling::cut). Nothing when it is too small.
     pub(super) fn halve(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
         let parent = &self.tiles[tile];
-        if parent.halves.is_some() || parent.area < self.least {
+        if parent.halves.is_some() || self.reach(parent) < LEAST * self.scale(parent.patch) {
             return Ok(parent.halves);
         }
         let (patch, key) = (parent.patch, parent.key);
@@ -234,13 +241,27 @@ impl<'s> Tiling<'s> {
 
     /// The corners of all tiles.
     pub(super) fn outlines(&self) -> Vec<Vec<DVec3>> {
-        let corners = |tile: &Tile| tile.outline.corners.iter().map(|corner| corner.1).collect();
-        self.tiles.iter().map(corners).collect()
+        self.tiles.iter().map(|tile| tile.outline.places().collect()).collect()
     }
 
-    /// The emitted radiosity of a tile.
+    /// How far a tile reaches from its centroid.
+    fn reach(&self, tile: &Tile) -> f64 {
+        tile.outline.axes[0].length() * self.bases[tile.patch].frame.unit()
+    }
+
+    /// What lengths on a patch are small beside.
+    pub(super) fn scale(&self, patch: usize) -> f64 {
+        self.bases[patch].scale
+    }
+
+    /// The emitted radiosity of a tile, in the unit of the band.
     pub(super) fn emittance(&self, tile: usize, band: usize) -> f64 {
-        PI * self.scene.patches[self.tiles[tile].patch].emission[band]
+        PI * self.scene.patches[self.tiles[tile].patch].emission[band] / self.units[band]
+    }
+
+    /// The unit of radiosity of each band, in the scene's.
+    pub(super) fn units(&self) -> &[f64] {
+        &self.units
     }
 
     /// The whole tile that each tile is a part of.
@@ -258,20 +279,9 @@ impl<'s> Tiling<'s> {
     }
 }
 
-/// The mean reflectance of a polygon.
-fn reflectance(patch: &crate::scene::patch::Patch, places: &[DVec3]) -> Vec<f64> {
-    if patch.texture.is_none() {
-        return patch.reflectance.clone();
-    }
-    let mut mean = vec![0.0; patch.reflectance.len()];
-    let fan = places.windows(2).skip(1).map(|ends| [places[0], ends[0], ends[1]]);
-    let areas: Vec<f64> = fan.clone().map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
-    let whole: f64 = areas.iter().sum();
-    for (corners, area) in fan.zip(areas) {
-        let share = patch.reflectance_over(corners);
-        mean.iter_mut().zip(share).for_each(|(mean, rho)| *mean += rho * area / whole);
-    }
-    mean
+/// A power of two near the largest radiosity that is emitted.
+fn unit(scene: &Scene, band: usize) -> f64 {
+    power_of_two(scene.patches.iter().map(|patch| PI * patch.emission[band]).fold(0.0, f64::max))
 }
 
 impl Tile {

@@ -36,6 +36,11 @@ impl Totals {
         Totals(links.par_iter().map(|link| total(tiling, link, EXACT * error)).collect())
     }
 
+    /// Whether it is known that all that a pair could exchange is hidden.
+    pub(super) fn is_hidden(&self, pair: usize) -> bool {
+        self.0.get(pair).copied().flatten().is_some_and(|total| total.power + total.error == 0.0)
+    }
+
     /// Makes the links add up to the totals though what each tile sends and receives is scaled.
     pub(super) fn restore(&self, links: &mut [Link], scales: &[f64]) {
         let mut found = vec![0.0; self.0.len()];
@@ -67,7 +72,10 @@ impl Totals {
             let is_better = total.error < errors.max(GOOD * total.power);
             let change = if is_better { (total.power - sum) * weight(link) / weights } else { 0.0 };
             link.carry(link.transfer.exchange[0] + change);
-            link.of_total = is_better.then_some(total.error / total.power);
+            let share =
+                if total.power > 0.0 { link.exchange[0] / total.power } else { weight(link) / weights };
+            link.of_total = is_better.then_some(total.error * share);
+            link.most = if is_better { total.power + total.error } else { f64::INFINITY };
         }
     }
 }
@@ -78,8 +86,12 @@ fn total(tiling: &Tiling<'_>, link: &Link, relative: f64) -> Option<Total> {
     let tolerance = Tolerance { absolute: LEAST, relative, row: f64::INFINITY };
     let limits = Limits { per_pair: MOST, ..Limits::default() };
     let parts = [one, other].map(|tile| (tile.surface, &tile.polygon));
-    let AreaFormFactor { value, error_estimate, .. } =
+    let AreaFormFactor { value, error_estimate, evaluations, .. } =
         tiling.enclosure.area_form_factor(parts[0], parts[1], tolerance, &limits).ok()??;
-    // What may be nothing is not known.
-    (value > error_estimate).then_some(Total { power: one.area * value, error: one.area * error_estimate })
+    // Points that see nothing do not tell that there is nothing; one occluder that hides all does.
+    let is_known = value > 0.0 || error_estimate > 0.0 || evaluations == 0;
+    // What may be nothing counts as nothing.
+    let [power, error] =
+        if value > error_estimate { [value, error_estimate] } else { [0.0, value + error_estimate] };
+    is_known.then_some(Total { power: one.area * power, error: one.area * error })
 }

@@ -128,9 +128,13 @@ impl<'s> Sights<'s> {
         Ok(Some(all))
     }
 
-    /// What a point of a tile receives, of even light 1 where ΣF is 1.
+    /// What a point of a tile receives: of even light 1 where ΣF is 1, nothing where something stands on the tile.
     fn at(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
         let mut light = vec![0.0f64; self.sent.len()];
+        if self.known[tile] == Some(0.0) {
+            light.pop();
+            return light;
+        }
         let (leaf, above) = (tile, |tile: &usize| self.tiling.tiles[*tile].parent);
         for tile in std::iter::successors(Some(leaf), above) {
             let (Sight { looks, rest }, tile) = (&self.of_tile[tile], &self.tiling.tiles[tile]);
