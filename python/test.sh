@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 step() { printf '\n-- %s (%s s)\n' "$1" "$SECONDS"; }
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-export CARGO_TARGET_DIR=$PWD/target
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target}
 export CARGO_INCREMENTAL=0
 
 step "environment"
