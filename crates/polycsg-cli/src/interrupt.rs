@@ -1,19 +1,25 @@
 //! Ctrl-C: the first one ends the command before anything is put in place, the second one ends it at once.
 use crate::failure::Failure;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Whether somebody pressed Ctrl-C.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub(crate) struct Interrupt {
+    is_set: Arc<AtomicBool>,
+    /// A file in the making, which nobody drops where the second Ctrl-C ends the command.
+    unfinished: Arc<Mutex<Option<PathBuf>>>,
+}
 
 impl Interrupt {
     /// Takes over Ctrl-C.
     pub(crate) fn listen() -> Result<Interrupt, Failure> {
         let interrupt = Interrupt::default();
-        let flag = Arc::clone(&interrupt.0);
+        let pressed = interrupt.clone();
         let stop = move || {
-            if flag.swap(true, Ordering::SeqCst) {
+            if pressed.is_set.swap(true, Ordering::SeqCst) {
+                pressed.remove_unfinished();
                 std::process::exit(130);
             }
         };
@@ -24,11 +30,22 @@ impl Interrupt {
 
     /// Whether to stop.
     pub(crate) fn is_set(&self) -> bool {
-        self.0.load(Ordering::SeqCst)
+        self.is_set.load(Ordering::SeqCst)
     }
 
     /// Ends the command where somebody asked for it.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if self.is_set() { Err(Failure::Interrupted) } else { Ok(()) }
+    }
+
+    /// Names the file in the making.
+    pub(crate) fn leave_nothing_of(&self, path: &Path) {
+        *self.unfinished.lock().unwrap_or_else(PoisonError::into_inner) = Some(path.to_owned());
+    }
+
+    /// A file that is in its place has another name by now, so that nothing is found to be removed.
+    fn remove_unfinished(&self) {
+        let unfinished = self.unfinished.lock().unwrap_or_else(PoisonError::into_inner);
+        let _ = unfinished.as_ref().map(std::fs::remove_file);
     }
 }
