@@ -1,14 +1,18 @@
-//! Ctrl-C: the first one ends the command before anything is put in place, the second one ends it at once.
+//! Ctrl-C, or another signal that ends programs: the command ends before anything is put in place.
 use crate::failure::Failure;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// A command that has not ended so long after Ctrl-C waits for a pipe or a disk.
+const LONGEST: Duration = Duration::from_secs(2);
 
 /// Whether somebody pressed Ctrl-C.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interrupt {
     is_set: Arc<AtomicBool>,
-    /// A file in the making, which nobody drops where the second Ctrl-C ends the command.
+    /// A file in the making, which nobody drops where the process is ended from here.
     unfinished: Arc<Mutex<Option<PathBuf>>>,
 }
 
@@ -19,9 +23,13 @@ impl Interrupt {
         let pressed = interrupt.clone();
         let stop = move || {
             if pressed.is_set.swap(true, Ordering::SeqCst) {
-                pressed.remove_unfinished();
-                std::process::exit(130);
+                pressed.end();
             }
+            let pressed = pressed.clone();
+            std::thread::spawn(move || {
+                std::thread::sleep(LONGEST);
+                pressed.end();
+            });
         };
         ctrlc::set_handler(stop)
             .map_err(|error| Failure::File(format!("Ctrl-C cannot be handled: {error}")))?;
@@ -43,9 +51,11 @@ impl Interrupt {
         *self.unfinished.lock().unwrap_or_else(PoisonError::into_inner) = Some(path.to_owned());
     }
 
-    /// A file that is in its place has another name by now, so that nothing is found to be removed.
-    fn remove_unfinished(&self) {
+    /// Ends the process. A file that is in its place has another name by now, so that nothing is found to be removed.
+    fn end(&self) -> ! {
         let unfinished = self.unfinished.lock().unwrap_or_else(PoisonError::into_inner);
         let _ = unfinished.as_ref().map(std::fs::remove_file);
+        Failure::Interrupted.report();
+        std::process::exit(130);
     }
 }

@@ -260,28 +260,26 @@ fn begun(out: &str) -> (Child, ChildStdin) {
 }
 
 #[cfg(unix)]
-fn press_ctrl_c(child: &Child) {
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(killed.expect("kill").success());
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    assert!(sent.expect("kill").success());
 }
 
-/// While it waits for a pipe that says nothing, the first one is not seen; the second one ends it.
+/// While it waits for a pipe that says nothing, it sees no signal.
 #[cfg(unix)]
 #[test]
-fn a_second_ctrl_c_ends_it_at_once_and_leaves_nothing() {
-    let folder = Folder::new();
-    let (mut child, pipe) = begun(&folder.path("out.wkt"));
-    while folder.names().is_empty() {
-        std::thread::sleep(Duration::from_millis(10));
+fn signals_end_it_while_it_waits_and_leave_nothing() {
+    for signal in ["-INT", "-TERM"] {
+        let folder = Folder::new();
+        let (mut child, pipe) = begun(&folder.path("out.wkt"));
+        while folder.names().is_empty() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        send(signal, &child);
+        assert_eq!(child.wait().expect("it ends").code(), Some(130), "{signal}");
+        assert_eq!(folder.names(), Vec::<String>::new(), "{signal}");
+        drop(pipe);
     }
-    let ended = (0..1000).find_map(|_| {
-        press_ctrl_c(&child);
-        std::thread::sleep(Duration::from_millis(10));
-        child.try_wait().expect("a child")
-    });
-    assert_eq!(ended.expect("it ends").code(), Some(130));
-    assert_eq!(folder.names(), Vec::<String>::new());
-    drop(pipe);
 }
 
 #[cfg(unix)]
@@ -293,7 +291,7 @@ fn ctrl_c_ends_it_and_leaves_nothing() {
     let line = b"POLYGON((0 0,1 0,1 1,0 0))\n".repeat(1000);
     // It has begun when it has made its file and taken more than a pipe holds.
     (0..20).for_each(|_| pipe.write_all(&line).expect("it reads"));
-    press_ctrl_c(&child);
+    send("-INT", &child);
     while pipe.write_all(&line).is_ok() {}
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(code(&output), 130, "{}", stderr(&output));
