@@ -61,9 +61,7 @@ impl Group {
     /// Edges that neighbours share in opposite directions stay. On which side of an edge a feature lies is known only where its rings
     /// do not cross, and to find that out takes as long as the evaluation, which cancels such edges itself.
     pub(crate) fn reduce(&mut self, aggregate: Aggregate) -> Result<(), Error> {
-        let mut features = state::split(&self.state)?;
-        features.sort_unstable();
-        features.dedup();
+        let mut features = state::sorted(&self.state)?;
         if aggregate == Aggregate::Union {
             features = without_covered(features)?;
         }
