@@ -21,6 +21,7 @@ mod patches;
 mod primitive;
 mod spectra;
 mod transform;
+mod unread;
 mod walk;
 mod write;
 
@@ -87,6 +88,7 @@ impl Collada {
     pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
             let walk::Walk { instances, camera_instances, mut warnings } = walk::walk(file)?;
+            unread::tell(file, &mut warnings);
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
             let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
