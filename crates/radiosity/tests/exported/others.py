@@ -1,4 +1,5 @@
 """Files that trimesh, meshio, pycollada, pygltflib and Assimp write. Run by make.py."""
+import re
 import subprocess
 import tempfile
 from importlib.metadata import version
@@ -145,14 +146,15 @@ def pygltflib_files():
 
 def assimp_files():
     """What Assimp makes of Blender's OBJ file."""
-    exporter = subprocess.run(["assimp", "version"], capture_output=True, text=True).stdout.strip().split("\n")[0]
+    exporter = subprocess.run(["assimp", "version"], capture_output=True, text=True).stdout
+    exporter = "Assimp " + re.search(r"Version ([0-9.]+)", exporter)[1]
     with tempfile.TemporaryDirectory() as folder:
         for kind, name, lit, notes, error in [
             ("collada", "assimp-room.dae", None, [], None),
             ("obj", "assimp-room.obj", None, [], None),
             ("ply", "assimp-room.ply", 0, [], None),
             ("stl", "assimp-room.stl", 0, ["no materials"], None),
-            ("glb2", "assimp-room.glb", None, [], None),
+            ("glb2", "assimp-room.glb", None, ["KHR_materials_pbrSpecularGlossiness"], None),
             ("gltf", "assimp-room-1.0.gltf", None, [], "glTF 1.0"),
         ]:
             target = Path(folder) / name

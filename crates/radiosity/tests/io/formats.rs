@@ -136,6 +136,9 @@ fn collada_without_what_no_light_depends_on_is_read() {
         ),
         ("<asset><unit name=\"inch\" meter=\"0.0254\"/><up_axis>Z_UP</up_axis></asset>", "", 0),
         (" id=\"n\" name=\"n\"", "", 0),
+        (" count=\"4\" stride=\"3\"", "", 0),
+        ("offset=\"0\"/>", "offset=\"0\"/><input semantic=\"NORMAL\" source=\"#none\" offset=\"0\"/>", 0),
+        ("offset=\"0\"/>", "offset=\"0\"/><input semantic=\"NORMAL\" source=\"#square-p\" offset=\"0\"/>", 0),
         ("</visual_scene>", look, 1),
     ] {
         assert!(good.contains(from), "{from}");

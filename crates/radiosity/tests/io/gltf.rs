@@ -140,7 +140,7 @@ fn what_is_not_read_draws_a_warning() {
         json!([{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 1}}]);
     document["nodes"][0]["camera"] = json!(0);
     let warnings = read(&document).warnings.iter().map(|warning| format!("{warning}\n")).collect::<String>();
-    for word in ["transparency", "lines have no area", "perspective"] {
+    for word in ["transparency", "lines and points have no area", "perspective"] {
         assert!(warnings.contains(word), "{word}: {warnings}");
     }
 }

@@ -7,7 +7,7 @@ use crate::scene::finding::Finding;
 use serde_json::{Value, json};
 
 /// Extensions that are read, that change no light, or whose use is noted where it is met.
-const READ: [&str; 10] = [
+const READ: [&str; 11] = [
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -16,6 +16,7 @@ const READ: [&str; 10] = [
     "KHR_texture_basisu",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
+    "FB_ngon_encoding",
     "EXT_texture_webp",
     "MSFT_texture_dds",
 ];
@@ -30,6 +31,7 @@ pub(super) fn prepare(
 ) -> Result<(), FileError> {
     refuse(name, document)?;
     note_extensions(name, document, warnings);
+    note_metals(name, document, warnings);
     add_bounds(document);
     leave_out_primitives(name, document, warnings);
     leave_out_cameras(name, document, warnings);
@@ -106,6 +108,22 @@ fn note_extensions(name: &str, document: &Value, warnings: &mut Vec<Finding>) {
     if document["animations"].as_array().is_some_and(|all| !all.is_empty()) {
         let what = "animations are left out; everything stands where its node is";
         Finding::note(warnings, name, what, "export the moment that you want");
+    }
+}
+
+/// Metals that the file states: what it leaves out is metal, too, by a default that few mean.
+fn note_metals(name: &str, document: &Value, warnings: &mut Vec<Finding>) {
+    let materials = document["materials"].as_array().into_iter().flatten().enumerate();
+    let share =
+        |material: &Value| material["pbrMetallicRoughness"]["metallicFactor"].as_f64().unwrap_or_default();
+    for (index, _) in materials.filter(|(_, material)| share(material) > 0.0) {
+        let what = "shine is left out; surfaces reflect diffusely";
+        Finding::note(
+            warnings,
+            format!("{name}: material {index}"),
+            what,
+            "check that the light is what you mean",
+        );
     }
 }
 

@@ -1,7 +1,7 @@
 //! MTL: what the materials of an OBJ file reflect and emit.
-use super::statements::{Statement, Wrong};
+use super::statements::Statement;
 use crate::image_file;
-use crate::io::error::Fault;
+use crate::io::error::{Fault, Wrong};
 use crate::io::surface::finish::Finish;
 use crate::scene::{finding::Finding, texture::Image};
 use glam::DVec2;
