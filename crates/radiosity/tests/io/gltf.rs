@@ -23,7 +23,7 @@ fn square_through(indices: [u16; 6]) -> Value {
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
         "materials": [{
             "name": "m",
-            "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1.0]},
+            "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1.0], "metallicFactor": 0.0},
             "emissiveFactor": [1.0, 0.5, 0.0],
             "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4.0}},
         }],

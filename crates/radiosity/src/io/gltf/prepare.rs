@@ -111,19 +111,18 @@ fn note_extensions(name: &str, document: &Value, warnings: &mut Vec<Finding>) {
     }
 }
 
-/// Metals that the file states: what it leaves out is metal, too, by a default that few mean.
+/// Metals. A surface that says nothing about it is metal, and exporters leave the number out that means so.
 fn note_metals(name: &str, document: &Value, warnings: &mut Vec<Finding>) {
+    let is_metal = |material: &Value| {
+        let surface = &material["pbrMetallicRoughness"];
+        let is_lit = material["extensions"]["KHR_materials_unlit"].is_null();
+        surface.is_object() && is_lit && surface["metallicFactor"].as_f64().unwrap_or(1.0) > 0.0
+    };
     let materials = document["materials"].as_array().into_iter().flatten().enumerate();
-    let share =
-        |material: &Value| material["pbrMetallicRoughness"]["metallicFactor"].as_f64().unwrap_or_default();
-    for (index, _) in materials.filter(|(_, material)| share(material) > 0.0) {
-        let what = "shine is left out; surfaces reflect diffusely";
-        Finding::note(
-            warnings,
-            format!("{name}: material {index}"),
-            what,
-            "check that the light is what you mean",
-        );
+    for (index, _) in materials.filter(|(_, material)| is_metal(material)) {
+        let (place, what) =
+            (format!("{name}: material {index}"), "shine is left out; surfaces reflect diffusely");
+        Finding::note(warnings, place, what, "check that the light is what you mean");
     }
 }
 
