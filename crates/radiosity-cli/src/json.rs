@@ -1,4 +1,5 @@
 //! What `--json` prints.
+use radiosity::inspect::Finding;
 use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
@@ -14,6 +15,9 @@ pub(crate) struct Figures<'s> {
     closure: Option<f64>,
     scaling: Option<f64>,
     energy: Energy<'s>,
+    /// What was left out of the file, or read as something else.
+    #[serde(skip_serializing_if = "<[Finding]>::is_empty")]
+    warnings: &'s [Finding],
     patches: Vec<PatchFigures<'s>>,
 }
 
@@ -70,6 +74,7 @@ impl<'s> Figures<'s> {
                 unshot: &ledger.unshot,
                 defect: &ledger.defect,
             },
+            warnings: &scene.warnings,
             patches: patches
                 .map(|(index, ((patch, irradiance), radiosity))| PatchFigures {
                     name: &patch.name,

@@ -24,21 +24,20 @@ pub(super) fn primitives<'a>(
     warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Primitive<'a>>, FileError> {
     let Some(mesh) = child(geometry, "mesh") else {
-        let what = format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry));
-        warnings.push(Finding::of_file(what, "turn it into a mesh"));
+        let what = "only <mesh> geometry is read; another kind is left out";
+        Finding::note(warnings, file.place(geometry), what, "turn it into a mesh");
         return Ok(Vec::new());
     };
     let mut sources = HashMap::new();
     let mut all = Vec::new();
     for element in surfaces(geometry) {
-        let polygons = polygons(file, element, &mut sources)?;
+        let polygons = polygons(file, element, &mut sources, warnings)?;
         let is_cut = !matches!(element.tag_name().name(), "polylist" | "polygons");
         all.push(Primitive { element, material: element.attribute("material"), polygons, is_cut });
     }
-    if let Some(line) = mesh.children().find(|node| matches!(node.tag_name().name(), "lines" | "linestrips"))
-    {
-        let what = format!("{}: lines have no area; they are left out", file.place(line));
-        warnings.push(Finding::of_file(what, "remove them, or make them surfaces"));
+    for line in mesh.children().filter(|node| matches!(node.tag_name().name(), "lines" | "linestrips")) {
+        let what = "lines have no area; they are left out";
+        Finding::note(warnings, file.place(line), what, "remove them, or make them surfaces");
     }
     Ok(all)
 }
@@ -55,14 +54,23 @@ fn polygons<'a>(
     file: &File<'a>,
     element: XmlNode<'a>,
     sources: &mut HashMap<XmlNode<'a>, Vec<DVec3>>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Polygon>, FileError> {
     let Some(layout) = layout(file, element)? else { return Ok(Vec::new()) };
     let positions = match sources.entry(layout.source) {
         Entry::Occupied(known) => known.into_mut(),
         Entry::Vacant(new) => new.insert(rows(file, layout.source, 3)?),
     };
-    let places = layout.places.map(|(source, offset)| Ok((rows(file, source, 2)?, offset))).transpose()?;
-    let normals = layout.normals.map(|(source, offset)| Ok((rows(file, source, 3)?, offset))).transpose()?;
+    // Light does not depend on these: broken ones are as good as none.
+    let mut beside = |source: Option<(XmlNode<'a>, usize)>, width| {
+        let (source, offset) = source?;
+        let read = rows(file, source, width).map_err(|error| {
+            let what = "normals or places in a picture that cannot be read are left out";
+            Finding::note(warnings, error.to_string(), what, "export the file again");
+        });
+        read.ok().map(|rows| (rows, offset))
+    };
+    let (places, normals) = (beside(layout.places, 2), beside(layout.normals, 3));
     let points = Vertices { file, layout: &layout, positions, places, normals };
     let outlines = |rings: Vec<Vec<Corner>>| rings.into_iter().map(|ring| vec![ring]);
     let mut all = Vec::new();
@@ -105,7 +113,10 @@ fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>
         }
     }
     let Some((input, offset)) = vertex else {
-        let empty = child(element, "p").is_none() && child(element, "ph").is_none();
+        let is_empty = |p: XmlNode<'_>| {
+            p.descendants().all(|node| node.text().is_none_or(|text| text.trim().is_empty()))
+        };
+        let empty = child(element, "ph").is_none() && children(element, "p").all(is_empty);
         return if empty {
             Ok(None)
         } else {
@@ -136,7 +147,7 @@ fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Result<Vec<DV
         Some(_) => file.target(accessor, "source", "float_array")?,
         None => array,
     };
-    let stride = file.whole_attribute(accessor, "stride", 1)?;
+    let stride = file.whole_attribute(accessor, "stride", width)?;
     let offset = file.whole_attribute(accessor, "offset", 0)?;
     let count =
         accessor.attribute("count").map(|_| file.whole_attribute(accessor, "count", 0)).transpose()?;

@@ -6,18 +6,22 @@
 //! `.back`. A warning tells what is not read. Lengths are metres, y is up.
 mod accessor;
 mod buffer;
+mod compose;
 mod container;
 mod document;
 mod exposed;
 mod lit;
 mod material;
+mod prepare;
 mod read;
 mod write;
 
+pub use compose::scene_glb;
 pub use exposed::exposed;
 pub use write::glb;
 
 use super::error::FileError;
+use super::save::bytes_of;
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -36,9 +40,7 @@ impl Gltf {
     /// [`FileError::Read`] when the file cannot be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
-        let folder = path.parent().map(Into::into);
-        Ok(Self { name: path.display().to_string(), bytes, folder })
+        Ok(Self::from_bytes(path.display().to_string(), bytes_of(path)?).within(path.parent()))
     }
 
     /// Bytes as the contents of a file that is in no folder; messages show its `name`.
@@ -46,12 +48,18 @@ impl Gltf {
         Self { name: name.into(), bytes: bytes.into(), folder: None }
     }
 
+    /// The same file in a folder, from which the files that it names are read.
+    pub(super) fn within(self, folder: Option<&Path>) -> Self {
+        Self { folder: folder.map(Into::into), ..self }
+    }
+
     /// The scene: patches, cameras and warnings, in metres, y up.
     ///
     /// # Errors
     /// [`FileError::Gltf`] for bytes that are not glTF 2.0, [`FileError::Part`] for a part with a fault.
     pub fn scene(&self) -> Result<Scene, FileError> {
-        let file = document::parse(&self.name, &self.bytes)?;
-        read::scene(&self.name, &file, self.folder.as_deref())
+        let mut warnings = Vec::new();
+        let file = document::parse(&self.name, &self.bytes, &mut warnings)?;
+        read::scene(&self.name, &file, self.folder.as_deref(), warnings)
     }
 }
