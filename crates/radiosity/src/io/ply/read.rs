@@ -50,6 +50,9 @@ fn picture(file: &str, name: &str, folder: Option<&Path>, warnings: &mut Vec<Fin
     told.ok()
 }
 
+/// The corners of a face, and its reflectance.
+type ColouredFace = (Vec<Corner>, [f64; 3]);
+
 /// What a row says of one vertex.
 #[derive(Clone, Copy, Debug, Default)]
 struct PlyVertex {
@@ -128,7 +131,7 @@ impl PlyMesh {
     }
 
     /// Every face and every triangle of a strip, with its reflectance.
-    fn polygons(&self, file: &str) -> Result<Vec<(Vec<Corner>, [f64; 3])>, FileError> {
+    fn polygons(&self, file: &str) -> Result<Vec<ColouredFace>, FileError> {
         let strips = self.strips.iter().flat_map(strip_triangles);
         let all = self.faces.iter().cloned().chain(strips);
         let polygon = |(index, face): (usize, PlyFace)| {
@@ -137,7 +140,7 @@ impl PlyMesh {
         all.enumerate().map(polygon).collect()
     }
 
-    fn polygon(&self, face: &PlyFace) -> Result<(Vec<Corner>, [f64; 3]), Fault> {
+    fn polygon(&self, face: &PlyFace) -> Result<ColouredFace, Fault> {
         let (mut corners, mut sum, mut is_coloured) = (Vec::new(), [0.0; 3], true);
         for (place, number) in face.corners.iter().enumerate() {
             let (index, len) = (whole(*number)?, self.vertices.len());
