@@ -36,7 +36,11 @@ fuzz_target!(|input: Input| {
         Ok(scene) => {
             for patch in &scene.patches {
                 assert!(patch.polygon.area() > 0.0, "{} has no area", patch.name);
-                assert!(patch.reflectance.iter().all(|r| r.is_finite() && *r >= 0.0), "{}: nonsense", patch.name);
+                assert!(
+                    patch.reflectance.iter().all(|r| r.is_finite() && *r >= 0.0),
+                    "{}: nonsense",
+                    patch.name
+                );
             }
             survives_writing(&scene);
         }
