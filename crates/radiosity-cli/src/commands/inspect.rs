@@ -36,10 +36,8 @@ pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
     let inspection = inspect(&scene);
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if let Some(path) = &arguments.output {
-        let (repaired, changes) = radiosity::repair(&scene);
-        io::save(path, Collada::of(&repaired).text().as_bytes())?;
-        changes.iter().for_each(|change| eprintln!("{change}"));
-        eprintln!("{} patches changed; written to {}", changes.len(), path.display());
+        let repaired = radiosity::repair(&scene);
+        io::save(path, Collada::of(&repaired.scene).text().as_bytes())?;
     }
     Ok(ExitCode::SUCCESS)
 }

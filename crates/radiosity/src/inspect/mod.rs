@@ -17,13 +17,13 @@ mod openness;
 mod orientation;
 pub(crate) mod overlap;
 mod summary;
-mod surface;
+pub(crate) mod surface;
 
 pub use crate::scene::finding::{Finding, Kind};
 pub use cost::Cost;
 pub use openness::Opening;
 pub use overlap::coplanar_overlaps;
-pub use summary::KindSummary;
+pub use summary::{KindSummary, summary};
 
 use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
@@ -106,7 +106,7 @@ pub fn inspect(scene: &Scene) -> Inspection {
         emitters: emitters(scene),
         closed: opening.as_ref().is_some_and(Opening::is_none),
         opening,
-        summary: summary::summary(&findings),
+        summary: summary(&findings),
         findings,
         cost,
     }

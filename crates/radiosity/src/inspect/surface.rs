@@ -22,7 +22,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     told.chain(dark).chain(own).collect()
 }
 
-fn reflectance(patch: &Patch) -> Option<Finding> {
+pub(crate) fn reflectance(patch: &Patch) -> Option<Finding> {
     let (band, value) =
         patch.reflectance.iter().enumerate().find(|(_, value)| !(0.0..1.0).contains(*value))?;
     Some(Finding {
@@ -34,7 +34,7 @@ fn reflectance(patch: &Patch) -> Option<Finding> {
 }
 
 /// A patch is narrow when its area is small for its diameter.
-fn sliver(patch: &Patch) -> Option<Finding> {
+pub(crate) fn sliver(patch: &Patch) -> Option<Finding> {
     let points: Vec<DVec3> = patch.polygon.loops().flatten().copied().collect();
     let length = points.iter().map(|point| point.distance(points[0])).fold(0.0, f64::max);
     let width = patch.polygon.area() / length;

@@ -7,7 +7,9 @@
 //! split     a polygon cut into triangles
 //! finish    what a surface reflects and emits
 //! polygon   polygons as a file gives them
+//! changes   what became of them when the scene was repaired
 //! ```
+pub(super) mod changes;
 pub(super) mod finish;
 mod flaws;
 mod merge;
@@ -27,6 +29,6 @@ pub(super) fn facets(polygons: &[Polygon], is_cut: bool, textured: bool) -> Vec<
         return merge::merge(&polygons.iter().map(triangle).collect::<Vec<_>>());
     }
     let facet =
-        |(number, loops): (usize, &Polygon)| Facet { number, loops: loops.clone(), parts: Vec::new() };
+        |(number, loops): (usize, &Polygon)| Facet { number, loops: loops.clone(), parts: Vec::new(), members: vec![number] };
     polygons.iter().enumerate().map(facet).collect()
 }
