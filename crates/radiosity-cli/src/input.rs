@@ -69,7 +69,7 @@ pub(crate) fn refusal(path: &Path, repairs: &[Finding]) -> Failure {
 }
 
 /// How many of each kind, and what became of them.
-fn counts(repairs: &[KindSummary]) -> String {
+pub(crate) fn counts(repairs: &[KindSummary]) -> String {
     let count = |kind: &KindSummary| format!("{} {}", kind.counted(), kind.remedy.unwrap_or_default());
     repairs.iter().map(count).collect::<Vec<_>>().join(", ")
 }

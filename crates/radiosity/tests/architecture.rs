@@ -21,7 +21,7 @@ const ORDER: [&str; 166] = [
     "io/collada/file", "io/collada/lit_mesh", "io/collada/xml", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
     "io/surface/changes",    "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish",
     "io/surface/polygon", "io/save", "io/error",
-    "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error", "sides", "sides/bodies", "sides/sight", "repair", "repair/cut", "repair/reflectance", "repair/weld",
+    "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error", "sides", "sides/bodies", "sides/sight", "repair", "repair/cut", "repair/slivers", "repair/reflectance", "repair/weld",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",
     "inspect/orientation", "inspect/summary", "inspect/surface",
     "table", "record", "recording/recorder", "recording", "recording/packed",

@@ -1,10 +1,11 @@
 //! `radiosity inspect`
 use crate::failure::Failure;
+use crate::input::{self, Sides};
+use crate::json;
 use crate::outputs::print;
-use crate::{input, json};
 use clap::Args;
-use radiosity::inspect::{Finding, Inspection, KindSummary, inspect};
-use radiosity::io::{self, collada::Collada};
+use radiosity::inspect::{Finding, Inspection, KindSummary, inspect, summary};
+use radiosity::io;
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
@@ -22,22 +23,28 @@ pub(crate) struct Inspect {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Cut faces that overlap in one plane out of each other; needs -o
+    #[command(flatten)]
+    sides: Sides,
+    /// Repair the surfaces, as solve does while reading; needs -o
     #[arg(long, requires = "output")]
     repair: bool,
-    /// Write the repaired scene to this file, as COLLADA
+    /// Write the repaired file to this file: COLLADA and glTF in their own format, View3D as COLLADA
     #[arg(short, long, value_name = "FILE", requires = "repair")]
     output: Option<PathBuf>,
 }
 
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
 pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
-    let (scene, _) = input::read_quietly(&arguments.scene)?;
+    let (scene, source) = input::read_quietly(&arguments.scene)?;
+    let scene = arguments.sides.of(&scene);
     let inspection = inspect(&scene);
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if let Some(path) = &arguments.output {
         let repaired = radiosity::repair(&scene);
-        io::save(path, Collada::of(&repaired.scene).text().as_bytes())?;
+        io::save(path, &source.repaired(&scene, &repaired.scene)?)?;
+        let repairs = summary(&repaired.repairs);
+        let what = if repairs.is_empty() { "nothing".to_owned() } else { input::counts(&repairs) };
+        eprintln!("repaired: {what}; written to {}", path.display());
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -8,7 +8,7 @@ use crate::scene::{
 use glam::DVec3;
 
 /// A patch whose width is less than so many times its coordinates' rounding is a sliver.
-const WIDTH: f64 = 1e3;
+pub(crate) const WIDTH: f64 = 1e3;
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     let told = scene.warnings.iter().cloned();

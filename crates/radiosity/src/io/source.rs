@@ -51,6 +51,20 @@ impl Source {
         }
     }
 
+    /// The bytes of this file with the polygons of a repaired scene: the file's own text or document, in which polygons that were cut give
+    /// way to their pieces, for COLLADA and glTF; a new COLLADA text for the other formats.
+    ///
+    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()).
+    ///
+    /// # Errors
+    /// As [`Source::scene`].
+    pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<Vec<u8>, FileError> {
+        match self {
+            Self::Collada(file) => file.repaired(before, after).map(String::into_bytes),
+            Self::Gltf(_) | Self::Vs3(_) => Ok(Collada::of(after).text().into()),
+        }
+    }
+
     /// A COLLADA text in which the mesh's triangles replace the scene's polygons, with `colours` (red, green and blue for each
     /// vertex of the mesh) at their vertices: [`Collada::with_light`] for COLLADA, a new text for the other formats.
     ///

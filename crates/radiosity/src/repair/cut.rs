@@ -1,7 +1,9 @@
 //! Faces of one plane cut out of each other.
+use super::slivers::without_spikes;
 use crate::coplanar::{Overlap, SINGLE, overlaps, perimeter};
 use crate::extent::Extent;
 use crate::inspect::overlap::finding;
+use crate::mesh::subdivide::can_be_divided;
 use crate::plane::Plane;
 use crate::scene::{Scene, finding::Finding, patch::Patch};
 use formfactor::PlanarPolygon;
@@ -67,9 +69,9 @@ fn rest(scene: &Scene, index: usize, upper: &[usize]) -> Vec<PlanarPolygon> {
     let regions: Vec<Region> = above.iter().map(|polygon| plane.region(polygon)).collect();
     let rest = (Csg::from(&plane.region(polygon)) - Csg::union(&regions)).evaluate();
     let width = SINGLE * Extent::around(polygon).diagonal();
-    let mut pieces = plane.lift(&rest, &[polygon]);
-    pieces.retain(|piece| piece.area() > width * perimeter(piece));
-    pieces
+    let pieces = plane.lift(&rest, &[polygon]);
+    let smooth = pieces.iter().filter_map(|piece| without_spikes(piece, width));
+    smooth.filter(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece)).collect()
 }
 
 /// The pieces under their names: the patch's own for a single one.

@@ -3,6 +3,7 @@
 //! ```text
 //! cut          faces of one plane cut out of each other
 //! reflectance  no surface reflects all light
+//! slivers      what is thinner than rounding is left out
 //! weld         vertices that nearly meet become one
 //! ```
 //!
@@ -11,11 +12,11 @@
 //! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch.
 mod cut;
 mod reflectance;
+mod slivers;
 mod weld;
 
 pub(crate) use weld::Welds;
 
-use crate::inspect::surface::sliver;
 use crate::scene::{Scene, finding::Finding};
 
 /// A scene after its repair, and what was wrong.
@@ -32,7 +33,7 @@ pub struct Repaired {
 ///
 /// - Reflectances of 1 or more become 0.99, negative ones 0.
 /// - Vertices that lie beside each other by less than single precision rounds away become one, where polygons stay planar.
-/// - Slivers, which are thinner than rounding, are left out.
+/// - Slivers and spikes of polygons, which are thinner than rounding, are left out.
 /// - Patches that face the same way in one plane are cut out of each other, so that no point is covered twice. An emitter stays whole
 ///   and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal ones the first. Duplicates and
 ///   patches that are covered completely are removed. The pieces of a patch get `.1`, `.2`, … behind its name. Cuts are exact.
@@ -45,14 +46,7 @@ pub fn repair(scene: &Scene) -> Repaired {
     let mut repairs: Vec<Finding> = read.collect();
     repairs.extend(reflectance::limit(&mut scene));
     repairs.extend(weld::weld(&mut scene));
-    repairs.extend(leave_out_slivers(&mut scene));
+    repairs.extend(slivers::leave_out(&mut scene));
     repairs.extend(cut::cut(&mut scene));
     Repaired { scene, repairs }
-}
-
-fn leave_out_slivers(scene: &mut Scene) -> Vec<Finding> {
-    let slivers: Vec<Option<Finding>> = scene.patches.iter().map(sliver).collect();
-    let mut is_sliver = slivers.iter().map(Option::is_some);
-    scene.patches.retain(|_| !is_sliver.next().unwrap_or(false));
-    slivers.into_iter().flatten().collect()
 }
