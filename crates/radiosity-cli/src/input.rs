@@ -1,7 +1,7 @@
 //! Scenes from files.
 use crate::failure::Failure;
 use clap::Args;
-use radiosity::inspect::{Finding, KindSummary, summary};
+use radiosity::inspect::{Finding, KindSummary, in_one_line, summary};
 use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair};
 use serde::Deserialize;
 use std::path::Path;
@@ -39,8 +39,9 @@ pub(crate) fn read_repaired(path: &Path, reading: Reading) -> Result<RepairedInp
     if reading.strict && !repairs.is_empty() {
         return Err(refusal(path, &repairs));
     }
-    for warning in scene.warnings.iter().filter(|warning| warning.kind.remedy().is_none()) {
-        eprintln!("warning: {warning}");
+    let notes = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_none()).cloned();
+    if let Some(line) = in_one_line(&notes.collect::<Vec<_>>()) {
+        eprintln!("warning: {line}");
     }
     let repairs = summary(&repairs);
     if !repairs.is_empty() {

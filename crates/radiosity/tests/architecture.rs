@@ -13,7 +13,7 @@ const ORDER: [&str; 166] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
-    "io", "io/source", "io/gltf", "io/gltf/write", "io/gltf/exposed", "io/gltf/read", "io/gltf/lit",
+    "io", "io/source", "io/gltf", "io/gltf/write", "io/gltf/exposed", "io/gltf/repaired", "io/gltf/read", "io/gltf/lit",
     "io/gltf/material", "io/gltf/accessor", "io/gltf/document", "io/gltf/container", "io/gltf/buffer",
     "io/collada", "io/collada/repaired", "io/collada/write", "io/collada/splice", "io/collada/exposed", "io/collada/compose", "io/collada/model",
     "io/collada/patches", "io/collada/material", "io/collada/images", "io/collada/spectra",

@@ -5,7 +5,6 @@ use crate::json;
 use crate::outputs::print;
 use clap::Args;
 use radiosity::inspect::{Finding, Inspection, KindSummary, inspect, summary};
-use radiosity::io;
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
@@ -28,7 +27,7 @@ pub(crate) struct Inspect {
     /// Repair the surfaces, as solve does while reading; needs -o
     #[arg(long, requires = "output")]
     repair: bool,
-    /// Write the repaired file to this file: COLLADA and glTF in their own format, View3D as COLLADA
+    /// Write the repaired file to this file, in the format of its extension; of COLLADA and glTF only what was cut changes
     #[arg(short, long, value_name = "FILE", requires = "repair")]
     output: Option<PathBuf>,
 }
@@ -41,10 +40,13 @@ pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if let Some(path) = &arguments.output {
         let repaired = radiosity::repair(&scene);
-        io::save(path, &source.repaired(&scene, &repaired.scene)?)?;
+        let left_out = source.save_repaired(&scene, &repaired.scene, path)?;
         let repairs = summary(&repaired.repairs);
         let what = if repairs.is_empty() { "nothing".to_owned() } else { input::counts(&repairs) };
         eprintln!("repaired: {what}; written to {}", path.display());
+        if !left_out.is_empty() {
+            eprintln!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
+        }
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -37,6 +37,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         patches: [other, index].map(|patch| scene.patches[patch].name.clone()).into(),
         what: format!("{count} vertices of the first end within edges of the second, one at {point}"),
         repair: "add the vertex to that edge, if a seam shows; form factors do not mind".into(),
+        places: Vec::new(),
     };
     pairs.into_iter().map(finding).collect()
 }

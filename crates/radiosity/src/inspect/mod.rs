@@ -19,7 +19,7 @@ pub(crate) mod overlap;
 mod summary;
 pub(crate) mod surface;
 
-pub use crate::scene::finding::{Finding, Kind};
+pub use crate::scene::finding::{Finding, Kind, in_one_line};
 pub use cost::Cost;
 pub use openness::Opening;
 pub use overlap::coplanar_overlaps;

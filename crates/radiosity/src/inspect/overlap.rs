@@ -40,7 +40,7 @@ pub(crate) fn finding(scene: &Scene, overlap: &Overlap) -> Finding {
         _ => "cut one out of the other; or let reading or inspect --repair do it",
     };
     let patches = vec![a.name.clone(), b.name.clone()];
-    Finding { kind, patches, what, repair: repair.into() }
+    Finding { kind, patches, what, repair: repair.into(), places: Vec::new() }
 }
 
 /// Whether two patches have the same vertices.

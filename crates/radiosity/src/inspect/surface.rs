@@ -17,6 +17,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         patches: Vec::new(),
         what: "no patch emits light".into(),
         repair: "give the material of an emitter an emission above 0".into(),
+        places: Vec::new(),
     });
     let own = scene.patches.iter().flat_map(|patch| reflectance(patch).into_iter().chain(sliver(patch)));
     told.chain(dark).chain(own).collect()
@@ -30,6 +31,7 @@ pub(crate) fn reflectance(patch: &Patch) -> Option<Finding> {
         patches: vec![patch.name.clone()],
         what: format!("its reflectance in band {band} is {value}; a surface reflects from 0 to below 1"),
         repair: "lower the diffuse colour; white paint is about 0.85".into(),
+        places: Vec::new(),
     })
 }
 
@@ -43,5 +45,6 @@ pub(crate) fn sliver(patch: &Patch) -> Option<Finding> {
         patches: vec![patch.name.clone()],
         what: format!("it is {length:.3e} long and only {width:.3e} wide"),
         repair: "remove it, or give it a width that its coordinates can hold".into(),
+        places: Vec::new(),
     })
 }

@@ -43,6 +43,7 @@ fn spike(patch: &mut Patch) -> Option<Finding> {
         patches: vec![patch.name.clone()],
         what: what.into(),
         repair: "remove it, or give it a width that its coordinates can hold".into(),
+        places: Vec::new(),
     })
 }
 

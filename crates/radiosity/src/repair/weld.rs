@@ -97,5 +97,6 @@ fn finding(patch: &Patch, polygon: &PlanarPolygon) -> Finding {
         patches: vec![patch.name.clone()],
         what: format!("its vertices lie up to {moved:.1e} beside those of its neighbours"),
         repair: "give neighbours the same vertices; or let reading or inspect --repair do it".into(),
+        places: Vec::new(),
     }
 }

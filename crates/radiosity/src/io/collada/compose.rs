@@ -1,8 +1,8 @@
 //! A model as COLLADA 1.4 text: one node, geometry and polygon list per face.
 use super::model::{Face, Material, Model};
 use super::spectra::PROFILE;
-use super::xml::{TOOL, decimal, list};
 use crate::escape::escape;
+use crate::io::words::{TOOL, decimal, list};
 use crate::scene::{asset::Asset, camera::Camera, texture::Texture};
 use glam::DVec3;
 use std::{collections::HashMap, fmt::Write};

@@ -16,27 +16,24 @@ pub(super) fn finish<'a>(
     images: &mut Images,
     warnings: &mut Vec<Finding>,
 ) -> Result<Finish, FileError> {
-    let mut plain = |why: &str| {
-        let place = file.place(instance);
-        let what = format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken");
-        warnings.push(Finding::of_file(what, "give it a material with a diffuse colour"));
+    let mut plain = |what: &str| {
+        Finding::note(warnings, file.place(instance), what, "give it a material with a diffuse colour");
         let reflectance = [DEFAULT_REFLECTANCE; 3];
         Ok(Finish { reflectance, emission: [0.0; 3], image: None, spectra: None })
     };
-    let Some(symbol) = symbol else { return plain("polygons without a material") };
+    let Some(symbol) = symbol else { return plain("polygons without a material have a reflectance of 0.5") };
     let Some(material) = bound(file, instance, symbol)? else {
-        return plain(&format!("the material {symbol:?} is not bound"));
+        return plain("polygons whose material is not bound have a reflectance of 0.5");
     };
     let effect = file.target(file.child(material, "instance_effect")?, "url", "effect")?;
     let spectra = spectra(file, effect)?;
     let Some(shader) = shader(effect) else {
-        return plain(&format!("the effect of {symbol:?} has no common shader"));
+        return plain("polygons whose effect has no common shader have a reflectance of 0.5");
     };
     let emission = match slot(effect, shader, "emission") {
         Slot::Texture(texture) => {
-            let place = file.place(texture);
-            let what = format!("{place}: emission textures are not read; emission 0 is taken");
-            warnings.push(Finding::of_file(what, "give it an emission colour"));
+            let what = "emission textures are not read; emission 0 is taken";
+            Finding::note(warnings, file.place(texture), what, "give it an emission colour");
             [0.0; 3]
         }
         other => other.colour(file)?,

@@ -24,8 +24,8 @@ pub(super) fn primitives<'a>(
     warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Primitive<'a>>, FileError> {
     let Some(mesh) = child(geometry, "mesh") else {
-        let what = format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry));
-        warnings.push(Finding::of_file(what, "turn it into a mesh"));
+        let what = "only <mesh> geometry is read; another kind is left out";
+        Finding::note(warnings, file.place(geometry), what, "turn it into a mesh");
         return Ok(Vec::new());
     };
     let mut sources = HashMap::new();
@@ -35,10 +35,9 @@ pub(super) fn primitives<'a>(
         let is_cut = !matches!(element.tag_name().name(), "polylist" | "polygons");
         all.push(Primitive { element, material: element.attribute("material"), polygons, is_cut });
     }
-    if let Some(line) = mesh.children().find(|node| matches!(node.tag_name().name(), "lines" | "linestrips"))
-    {
-        let what = format!("{}: lines have no area; they are left out", file.place(line));
-        warnings.push(Finding::of_file(what, "remove them, or make them surfaces"));
+    for line in mesh.children().filter(|node| matches!(node.tag_name().name(), "lines" | "linestrips")) {
+        let what = "lines have no area; they are left out";
+        Finding::note(warnings, file.place(line), what, "remove them, or make them surfaces");
     }
     Ok(all)
 }

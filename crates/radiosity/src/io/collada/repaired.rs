@@ -13,11 +13,11 @@ use super::file::{File, XmlNode, child, children, descend};
 use super::primitive::{Layout, Primitive, layout, polylist, primitives, rows, triangles};
 use super::splice::{Edit, Splice, copied_doors, spliced};
 use super::walk::{Instance, walk};
-use super::xml::{decimal, list};
 use crate::escape::escape;
 use crate::io::error::FileError;
 use crate::io::surface::changes::{Changes, Piece, Pieces};
 use crate::io::surface::{facets, polygon::bits};
+use crate::io::words::{decimal, list};
 use glam::{DMat4, DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

@@ -4,9 +4,9 @@
 //! names, and edits are made in the copy.
 use super::file::{File, XmlNode, child};
 use super::walk::Instance;
-use super::xml::TOOL;
 use crate::escape::escape;
 use crate::io::error::{Fault, FileError};
+use crate::io::words::TOOL;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
