@@ -4,7 +4,7 @@ use radiosity::formfactor::PlanarPolygon;
 use radiosity::glam::DVec3;
 use radiosity::inspect::Kind;
 use radiosity::io::collada::Collada;
-use radiosity::{Error, Patch, Quality, Repaired, Scene, repair, scenes, solve};
+use radiosity::{Error, Method, Options, Patch, Quality, Repaired, Scene, repair, scenes, solve};
 use std::ops::ControlFlow;
 
 /// Numbers from 0 to 1 that a seed determines.
@@ -252,4 +252,72 @@ fn a_repaired_file_reads_as_the_repaired_scene() {
         let unchanged = file.repaired(&before, &before).unwrap();
         assert_eq!(unchanged, file.text());
     }
+}
+
+/// Tiles of a tilted plane that share edges but for rounding, as instances have them: what is left between them is thin.
+#[test]
+fn pieces_of_any_cut_are_solved() {
+    for seed in 0..40 {
+        let random = &mut Random(seed);
+        let plane = Sheet {
+            corner: DVec3::new(random.within(-9.0, 9.0), random.next(), random.next()),
+            along: DVec3::new(2.0, random.next(), random.next()),
+            up: DVec3::new(-random.next(), 1.5, random.next()),
+        };
+        let mut patches = vec![plane.patch("wall", 0.0)];
+        for k in 0..4 {
+            // Thirds are no doubles, and each tile rounds its corners by itself.
+            let (s, u) = (f64::from(k) / 6.0, f64::from(k + 1) / 6.0);
+            let tile = plane.part([s, 1.0 / 3.0, u, 1.0 - 1.0 / 3.0 * random.next().round()]);
+            let shift = DVec3::splat(random.next());
+            let tile = Sheet { corner: (tile.corner + shift) - shift, ..tile };
+            patches.push(tile.patch(&format!("tile {k}"), f64::from(k % 2)));
+        }
+        let repaired = repair(&scene(patches));
+        assert!(repair(&repaired.scene).repairs.is_empty(), "seed {seed}");
+        for method in [Method::Mesh, Method::Hierarchical] {
+            let options = Options { method, elements: 200, ..Quality::Draft.options() };
+            let solved = solve(&repaired.scene, &options, |_| ControlFlow::Break(()));
+            assert!(solved.is_ok(), "seed {seed}, {method:?}: {solved:?}");
+        }
+    }
+}
+
+/// One square in two places, a rug on the first: nodes through `<instance_node>` as well as by themselves.
+const TWICE: &str = r##"<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries>
+<geometry id="square"><mesh>
+<source id="p"><float_array id="p-array" count="12">0 0 0 4 0 0 4 4 0 0 4 0</float_array>
+<technique_common><accessor source="#p-array" count="4" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4</vcount><p>0 1 2 3</p></polylist>
+</mesh></geometry>
+<geometry id="rug"><mesh>
+<source id="q"><float_array id="q-array" count="12">1 1 0 2 1 0 2 2 0 1 2 0</float_array>
+<technique_common><accessor source="#q-array" count="4" stride="3"/></technique_common></source>
+<vertices id="w"><input semantic="POSITION" source="#q"/></vertices>
+<polylist count="1"><input semantic="VERTEX" source="#w" offset="0"/><vcount>4</vcount><p>0 1 2 3</p></polylist>
+</mesh></geometry>
+</library_geometries>
+<library_nodes><node id="floor" name="floor"><instance_geometry url="#square"/></node></library_nodes>
+<library_visual_scenes><visual_scene id="s">
+<node name="near"><instance_node url="#floor"/></node>
+<node name="far"><translate>9 0 0</translate><instance_node url="#floor"/></node>
+<node name="rug"><instance_geometry url="#rug"/></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>"##;
+
+#[test]
+fn a_shared_geometry_is_copied_for_the_node_that_was_cut() {
+    let file = Collada::from_text("twice.dae", TWICE);
+    let before = file.scene().unwrap();
+    let Repaired { scene: after, repairs, .. } = repair(&before);
+    assert_eq!(repairs.len(), 1);
+    let text = file.repaired(&before, &after).unwrap();
+    let read = Collada::from_text("repaired.dae", text).scene().unwrap();
+    let areas: Vec<f64> = read.patches.iter().map(|patch| patch.polygon.area()).collect();
+    assert_eq!(areas, [15.0, 16.0, 1.0]);
+    assert!(repair(&read).repairs.is_empty());
 }

@@ -4,9 +4,9 @@
 //! openness     how much of the view from the patches leaves the scene
 //! cost         how long the form factors will take
 //! junction     vertices that end in the middle of another patch's edge
-//! overlap      patches that cover each other in one plane, duplicates among them
+//! overlap      patches that cover each other in one plane
 //! orientation  neighbours that face opposite ways
-//! surface      impossible reflectances, patches that are thinner than rounding
+//! surface      what the reader told, whether there is light, and what repair finds
 //! summary      findings by kind: how many, and whether they matter
 //! ```
 //! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
@@ -15,9 +15,9 @@ mod cost;
 mod junction;
 mod openness;
 mod orientation;
-pub(crate) mod overlap;
+mod overlap;
 mod summary;
-pub(crate) mod surface;
+mod surface;
 
 pub use crate::scene::finding::{Finding, Kind, in_one_line};
 pub use cost::Cost;
@@ -87,7 +87,6 @@ pub fn inspect(scene: &Scene) -> Inspection {
     let findings = [
         surface::findings(scene),
         orientation::findings(scene),
-        overlap::coplanar_overlaps(scene),
         junction::findings(scene),
     ];
     let mut findings: Vec<Finding> = findings.into_iter().flatten().collect();

@@ -1,8 +1,7 @@
 //! Faces of one plane cut out of each other.
-use super::slivers::without_spikes;
+use super::{findings, slivers::without_spikes};
 use crate::coplanar::{Overlap, SINGLE, overlaps, perimeter};
 use crate::extent::Extent;
-use crate::inspect::overlap::finding;
 use crate::mesh::subdivide::can_be_divided;
 use crate::plane::Plane;
 use crate::scene::{Scene, finding::Finding, patch::Patch};
@@ -16,7 +15,7 @@ const ROUNDS: usize = 4;
 /// Cuts until no two patches overlap; tells what overlapped before. What still does after some rounds is left out.
 pub(super) fn cut(scene: &mut Scene) -> Vec<Finding> {
     let mut found = overlaps(scene, SINGLE);
-    let findings = found.iter().map(|overlap| finding(scene, overlap)).collect();
+    let findings = found.iter().map(|overlap| findings::overlap(scene, overlap)).collect();
     for _ in 0..ROUNDS {
         if found.is_empty() {
             return findings;

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cut          faces of one plane cut out of each other
+//! findings     what is wrong with patches, in words
 //! reflectance  no surface reflects all light
 //! slivers      what is thinner than rounding is left out
 //! weld         vertices that nearly meet become one
@@ -11,6 +12,7 @@
 //! factors keep the parts inside dark, and what stands outside is lit as if they had been cut. Faces of one plane that face opposite ways
 //! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch.
 mod cut;
+pub(crate) mod findings;
 mod reflectance;
 mod slivers;
 mod weld;

@@ -1,5 +1,5 @@
 //! No surface reflects all light, or more.
-use crate::inspect::surface::reflectance;
+use super::findings::reflectance;
 use crate::scene::{Scene, finding::Finding};
 
 /// What reflects all light in a file reflects so much: brighter than white paint, and light ends.

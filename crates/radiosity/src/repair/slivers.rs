@@ -1,5 +1,5 @@
 //! What is thinner than rounding is left out: slivers, and spikes of polygons.
-use crate::inspect::surface::{WIDTH, sliver};
+use super::findings::{WIDTH, sliver};
 use crate::mesh::subdivide::can_be_divided;
 use crate::plane::slack;
 use crate::scene::{
