@@ -66,7 +66,11 @@ pub(crate) fn refusal(path: &Path, repairs: &[Finding]) -> Failure {
     };
     let (kinds, lines) = (summary(repairs), repairs.iter().map(line).collect::<String>());
     let counts: Vec<String> = kinds.iter().map(KindSummary::counted).collect();
-    Failure::scene(format!("{}: {}; leave out --strict to have them repaired{lines}", path.display(), counts.join(", ")))
+    Failure::scene(format!(
+        "{}: {}; leave out --strict to have them repaired{lines}",
+        path.display(),
+        counts.join(", ")
+    ))
 }
 
 /// How many of each kind, and what became of them.

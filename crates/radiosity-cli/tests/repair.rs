@@ -18,7 +18,9 @@ fn dirty(folder: &tempfile::TempDir) -> PathBuf {
     let floor = &patches[0].polygon;
     let corners: Vec<_> = floor.loops().next().unwrap().to_vec();
     let middle = corners.iter().sum::<radiosity::glam::DVec3>() / 4.0;
-    let small = PlanarPolygon::new([corners.iter().map(|corner| middle.lerp(*corner, 0.5)).collect::<Vec<_>>()]).unwrap();
+    let small =
+        PlanarPolygon::new([corners.iter().map(|corner| middle.lerp(*corner, 0.5)).collect::<Vec<_>>()])
+            .unwrap();
     patches.push(Patch { name: "small".into(), polygon: small, ..patches[0].clone() });
     let path = folder.path().join("dirty.dae");
     std::fs::write(&path, Collada::of(&Scene { patches, ..furnace }).text()).unwrap();
@@ -33,10 +35,16 @@ fn dirt_is_counted_in_a_line_and_in_json() {
     let told = String::from_utf8(run.stderr).unwrap();
     assert!(run.status.success(), "{told}");
     let lines: Vec<&str> = told.lines().filter(|line| line.starts_with("warning:")).collect();
-    assert_eq!(lines, ["warning: repaired: 1 duplicate removed, 1 overlap cut; inspect lists them, --strict refuses them"]);
+    assert_eq!(
+        lines,
+        ["warning: repaired: 1 duplicate removed, 1 overlap cut; inspect lists them, --strict refuses them"]
+    );
     let figures: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
     let repairs = figures["repairs"].as_array().unwrap();
-    let counts: Vec<_> = repairs.iter().map(|kind| (kind["kind"].as_str().unwrap(), kind["count"].as_u64().unwrap())).collect();
+    let counts: Vec<_> = repairs
+        .iter()
+        .map(|kind| (kind["kind"].as_str().unwrap(), kind["count"].as_u64().unwrap()))
+        .collect();
     assert_eq!(counts, [("duplicate", 1), ("overlap", 1)]);
 }
 
@@ -47,7 +55,10 @@ fn strict_refuses_and_lists_all_findings() {
     let run = radiosity(&["solve", file.to_str().unwrap(), "--strict", "--json"]);
     let told = String::from_utf8(run.stderr).unwrap();
     assert_eq!((run.status.code(), run.stdout.len()), (Some(3), 0), "{told}");
-    assert!(told.contains("1 duplicate, 1 overlap") && told.contains("again") && told.contains("small"), "{told}");
+    assert!(
+        told.contains("1 duplicate, 1 overlap") && told.contains("again") && told.contains("small"),
+        "{told}"
+    );
     // What was written repaired is taken.
     let clean = folder.path().join("clean.dae");
     let run = radiosity(&["inspect", file.to_str().unwrap(), "--repair", "-o", clean.to_str().unwrap()]);

@@ -41,8 +41,10 @@ pub(crate) fn overlaps(scene: &Scene, near: f64) -> Vec<Overlap> {
         let others = boxes.meeting(&reach).into_iter().filter(move |&second| second != first);
         others.map(move |second| [first.min(second), first.max(second)])
     };
-    let mut pairs: Vec<[usize; 2]> =
-        (0..sheets.len()).flat_map(around).filter(|pair| may_overlap(pair.map(|k| &sheets[k]), near)).collect();
+    let mut pairs: Vec<[usize; 2]> = (0..sheets.len())
+        .flat_map(around)
+        .filter(|pair| may_overlap(pair.map(|k| &sheets[k]), near))
+        .collect();
     pairs.sort_unstable();
     pairs.dedup();
     pairs.into_iter().filter_map(|patches| overlap(&sheets, patches)).collect()
@@ -66,8 +68,9 @@ impl Sheet<'_> {
 
 /// The length of all edges.
 pub(crate) fn perimeter(polygon: &PlanarPolygon) -> f64 {
-    let ring =
-        |points: &[DVec3]| points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum::<f64>();
+    let ring = |points: &[DVec3]| {
+        points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum::<f64>()
+    };
     polygon.loops().map(ring).sum()
 }
 
@@ -80,7 +83,8 @@ fn strip([a, b]: [&Sheet<'_>; 2], near: f64) -> f64 {
 fn may_overlap(pair: [&Sheet<'_>; 2], near: f64) -> bool {
     let [a, b] = pair;
     let apart = strip(pair, near);
-    let on = |plane: &Plane, sheet: &Sheet<'_>| sheet.points().all(|point| plane.height(point).abs() <= apart);
+    let on =
+        |plane: &Plane, sheet: &Sheet<'_>| sheet.points().all(|point| plane.height(point).abs() <= apart);
     a.plane.normal.dot(b.plane.normal) > 0.0 && on(&a.plane, b) && on(&b.plane, a)
 }
 

@@ -28,10 +28,9 @@ impl Extent {
     /// The box of some points.
     pub(crate) fn holding<'p>(points: impl IntoIterator<Item = &'p DVec3>) -> Extent {
         let none = Extent { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-        points.into_iter().fold(none, |Extent { low, high }, point| Extent {
-            low: low.min(*point),
-            high: high.max(*point),
-        })
+        points
+            .into_iter()
+            .fold(none, |Extent { low, high }, point| Extent { low: low.min(*point), high: high.max(*point) })
     }
 
     /// The box that is larger by `distance` on every side.

@@ -39,7 +39,8 @@ impl Sheet {
 
     fn patch(&self, name: &str, emission: f64) -> Patch {
         let Sheet { corner, along, up } = *self;
-        let polygon = PlanarPolygon::new([[corner, corner + along, corner + along + up, corner + up]]).unwrap();
+        let polygon =
+            PlanarPolygon::new([[corner, corner + along, corner + along + up, corner + up]]).unwrap();
         Patch::new(name, polygon, vec![0.5], vec![emission])
     }
 }
@@ -53,7 +54,8 @@ fn faces(low: DVec3, size: DVec3, turned_in: bool) -> Vec<Sheet> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * size);
     let pair = |k: usize| {
         let (w, u, v) = (axes[k], axes[(k + 1) % 3], axes[(k + 2) % 3]);
-        let (out, back) = (Sheet { corner: low + w, along: u, up: v }, Sheet { corner: low, along: v, up: u });
+        let (out, back) =
+            (Sheet { corner: low + w, along: u, up: v }, Sheet { corner: low, along: v, up: u });
         if turned_in {
             [Sheet { along: v, up: u, ..out }, Sheet { along: u, up: v, ..back }]
         } else {
@@ -164,7 +166,9 @@ fn irradiance(scene: &Scene, names: &[&str]) -> Vec<(f64, f64)> {
     let means = solution.patch_means(&solution.irradiance, scene.patches.len());
     let mean = |name: &&str| {
         let mut sums = [0.0; 3];
-        for (index, patch) in scene.patches.iter().enumerate().filter(|(_, patch)| patch.name.starts_with(name)) {
+        for (index, patch) in
+            scene.patches.iter().enumerate().filter(|(_, patch)| patch.name.starts_with(name))
+        {
             let area = patch.polygon.area();
             let terms = [area, area * means[index][0], area * solution.patch_estimate(index)[0]];
             (0..3).for_each(|k| sums[k] += terms[k]);
@@ -196,13 +200,22 @@ fn solids_that_pass_through_each_other_need_no_cut() {
     let block = |low: f64| {
         let size = DVec3::new(0.8, 0.6, 1.0 - low);
         let sheets = faces(DVec3::new(0.5, 0.7, low), size, false);
-        sheets.iter().enumerate().map(|(k, sheet)| sheet.patch(&format!("block {k}"), 0.0)).collect::<Vec<_>>()
+        sheets
+            .iter()
+            .enumerate()
+            .map(|(k, sheet)| sheet.patch(&format!("block {k}"), 0.0))
+            .collect::<Vec<_>>()
     };
-    let with = |low: f64| Scene { patches: room.patches.iter().cloned().chain(block(low)).collect(), ..room.clone() };
+    let with = |low: f64| Scene {
+        patches: room.patches.iter().cloned().chain(block(low)).collect(),
+        ..room.clone()
+    };
     let names = ["east", "west", "north", "south", "ceiling"];
     let sunk = repair(&with(-0.5));
     assert!(sunk.repairs.is_empty(), "{:?}", sunk.repairs);
-    for (name, (a, b)) in names.iter().zip(irradiance(&with(0.0), &names).iter().zip(irradiance(&sunk.scene, &names))) {
+    for (name, (a, b)) in
+        names.iter().zip(irradiance(&with(0.0), &names).iter().zip(irradiance(&sunk.scene, &names)))
+    {
         assert!((a.0 - b.0).abs() <= a.1 + b.1, "{name}: {a:?} {b:?}");
     }
 }
@@ -227,7 +240,9 @@ fn reflectances_are_limited() {
 #[test]
 fn planes_that_a_single_tells_apart_are_two() {
     let plane = Sheet { corner: DVec3::ZERO, along: DVec3::X, up: DVec3::Y };
-    let above = |height: f64| Sheet { corner: DVec3::Z * height, ..plane }.part([0.2, 0.2, 0.6, 0.6]).patch("above", 1.0);
+    let above = |height: f64| {
+        Sheet { corner: DVec3::Z * height, ..plane }.part([0.2, 0.2, 0.6, 0.6]).patch("above", 1.0)
+    };
     let both = |height: f64| scene(vec![plane.patch("below", 0.0), above(height)]);
     assert_eq!(kinds(&repair(&both(1e-8))), [Kind::EmitterInFace]);
     assert!(kinds(&repair(&both(1e-5))).is_empty());
@@ -245,7 +260,11 @@ fn a_repaired_file_reads_as_the_repaired_scene() {
         let read = Collada::from_text("repaired.dae", text.clone()).scene().unwrap();
         assert!(repair(&read).repairs.is_empty(), "seed {seed}: {:?}", repair(&read).repairs);
         let loops = |scene: &Scene| {
-            scene.patches.iter().map(|patch| patch.polygon.loops().map(<[DVec3]>::to_vec).collect::<Vec<_>>()).collect::<Vec<_>>()
+            scene
+                .patches
+                .iter()
+                .map(|patch| patch.polygon.loops().map(<[DVec3]>::to_vec).collect::<Vec<_>>())
+                .collect::<Vec<_>>()
         };
         assert_eq!(loops(&read), loops(&after), "seed {seed}");
         assert!(text.len() < file.text().len() * 5 / 4, "{} to {}", file.text().len(), text.len());

@@ -15,7 +15,8 @@ struct Mesh {
 
 /// A box, its faces turned out, or in.
 fn block(name: &'static str, low: [f32; 3], high: [f32; 3], turned_in: bool) -> Mesh {
-    let corner = |code: usize| std::array::from_fn(|axis| if code >> axis & 1 == 1 { high[axis] } else { low[axis] });
+    let corner =
+        |code: usize| std::array::from_fn(|axis| if code >> axis & 1 == 1 { high[axis] } else { low[axis] });
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let quads = sides.map(|side| {
         let mut side = side.map(corner);
@@ -29,7 +30,11 @@ fn block(name: &'static str, low: [f32; 3], high: [f32; 3], turned_in: bool) -> 
 
 /// A level square that faces down.
 fn panel(name: &'static str, [x, y]: [f32; 2], size: f32, z: f32, emits: bool) -> Mesh {
-    Mesh { name, quads: vec![[[x, y, z], [x, y + size, z], [x + size, y + size, z], [x + size, y, z]]], emits }
+    Mesh {
+        name,
+        quads: vec![[[x, y, z], [x, y + size, z], [x + size, y + size, z], [x + size, y, z]]],
+        emits,
+    }
 }
 
 fn base64(bytes: &[u8]) -> String {
@@ -52,12 +57,18 @@ fn file(meshes: &[Mesh]) -> Gltf {
             mesh.quads.iter().flat_map(|[a, b, c, d]| [a, b, c, a, c, d]).copied().collect();
         let start = bytes.len();
         corners.iter().flatten().for_each(|number| bytes.extend(number.to_le_bytes()));
-        let bound = |pick: fn(f32, f32) -> f32| corners.iter().copied().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k])));
-        accessors.push(json!({"bufferView": views.len(), "componentType": 5126, "count": corners.len(), "type": "VEC3",
-            "min": bound(f32::min), "max": bound(f32::max)}));
+        let bound = |pick: fn(f32, f32) -> f32| {
+            corners.iter().copied().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k])))
+        };
+        accessors.push(
+            json!({"bufferView": views.len(), "componentType": 5126, "count": corners.len(), "type": "VEC3",
+            "min": bound(f32::min), "max": bound(f32::max)}),
+        );
         views.push(json!({"buffer": 0, "byteOffset": start, "byteLength": bytes.len() - start}));
     }
-    let each = |value: &dyn Fn(usize, &Mesh) -> Value| meshes.iter().enumerate().map(|(k, mesh)| value(k, mesh)).collect::<Vec<_>>();
+    let each = |value: &dyn Fn(usize, &Mesh) -> Value| {
+        meshes.iter().enumerate().map(|(k, mesh)| value(k, mesh)).collect::<Vec<_>>()
+    };
     let document = json!({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": (0..meshes.len()).collect::<Vec<_>>()}],
         "nodes": each(&|k, mesh| json!({"name": mesh.name, "mesh": k})),
@@ -82,7 +93,10 @@ fn kept(scene: &Scene, body: &str) -> [[usize; 2]; 2] {
 #[test]
 fn the_inside_of_a_closed_body_is_left_out() {
     for (turned_in, sides) in [(false, [6, 0]), (true, [0, 6])] {
-        let scene = scene(&[block("block", [0.0; 3], [1.0, 2.0, 3.0], turned_in), panel("sheet", [3.0, 0.0], 1.0, 0.0, false)]);
+        let scene = scene(&[
+            block("block", [0.0; 3], [1.0, 2.0, 3.0], turned_in),
+            panel("sheet", [3.0, 0.0], 1.0, 0.0, false),
+        ]);
         assert_eq!(scene.patches.len(), 14);
         assert_eq!(kept(&scene, "block")[0], sides);
         assert_eq!(kept(&scene, "sheet")[0], [1, 1]);
@@ -93,7 +107,11 @@ fn the_inside_of_a_closed_body_is_left_out() {
 fn a_room_with_a_lamp_keeps_both_sides_whichever_way_it_is_turned() {
     for turned_in in [false, true] {
         let lamp = panel("lamp", [1.0, 1.0], 1.0, 2.5, true);
-        let scene = scene(&[block("room", [0.0; 3], [3.0; 3], turned_in), lamp, block("table", [1.0, 1.0, 0.0], [2.0, 2.0, 1.0], false)]);
+        let scene = scene(&[
+            block("room", [0.0; 3], [3.0; 3], turned_in),
+            lamp,
+            block("table", [1.0, 1.0, 0.0], [2.0, 2.0, 1.0], false),
+        ]);
         assert_eq!(kept(&scene, "room")[0], [6, 6]);
         assert_eq!(kept(&scene, "table")[0], [6, 0]);
     }
@@ -109,7 +127,8 @@ fn an_open_box_keeps_both_sides() {
 #[test]
 fn a_lamp_shines_away_from_the_wall_behind_it() {
     let room = || block("room", [0.0; 3], [3.0; 3], true);
-    let emitting = |height: f32| kept(&scene(&[room(), panel("lamp", [1.0, 1.0], 1.0, height, true)]), "lamp")[1];
+    let emitting =
+        |height: f32| kept(&scene(&[room(), panel("lamp", [1.0, 1.0], 1.0, height, true)]), "lamp")[1];
     // On the ceiling, and a hand's breadth below it; far below it, it has two sides.
     assert_eq!([emitting(3.0), emitting(2.97), emitting(2.0)], [[1, 0], [1, 0], [1, 1]]);
     // Turned the wrong way round its second side is that to the room.
@@ -125,7 +144,14 @@ fn a_closed_lamp_shines_outwards_unless_somebody_is_in_it() {
     let mut scene = scene(&[bulb]);
     assert_eq!(kept(&scene, "bulb"), [[6, 0], [6, 0]]);
     let (direction, up) = (DVec3::X, DVec3::Z);
-    let camera = |x: f64| Camera { name: "eye".into(), position: DVec3::new(x, 0.4, 0.6), direction, up, vertical_fov: 1.0, aspect: 1.0 };
+    let camera = |x: f64| Camera {
+        name: "eye".into(),
+        position: DVec3::new(x, 0.4, 0.6),
+        direction,
+        up,
+        vertical_fov: 1.0,
+        aspect: 1.0,
+    };
     scene.cameras = vec![camera(-3.0)];
     assert_eq!(kept(&scene, "bulb")[0], [6, 0]);
     scene.cameras = vec![camera(0.3)];
@@ -136,7 +162,13 @@ fn a_closed_lamp_shines_outwards_unless_somebody_is_in_it() {
 fn one_side_is_that_of_the_file() {
     let scene = scene(&[block("block", [0.0; 3], [1.0; 3], true)]);
     let one = one_sided(&scene);
-    assert!(one.patches.iter().map(|patch| &patch.name).eq(scene.patches.iter().step_by(2).map(|patch| &patch.name)));
+    assert!(
+        one.patches.iter().map(|patch| &patch.name).eq(scene
+            .patches
+            .iter()
+            .step_by(2)
+            .map(|patch| &patch.name))
+    );
     let middle = DVec3::splat(0.5);
     let turned_in = |patch: &radiosity::Patch| {
         let corner = patch.polygon.loops().next().unwrap()[0];
@@ -178,7 +210,11 @@ fn a_repaired_gltf_file_has_no_overlaps_left() {
             quads: vec![[place(x0, y0), place(x1, y0), place(x1, y1), place(x0, y1)]],
             emits: false,
         };
-        let file = file(&[sheet("floor", [0.1, 0.1, 3.3, 2.7]), sheet("rug", [0.7, 0.9, 1.3, 3.1]), sheet("mat", [2.1, 0.3, 2.9, 1.1])]);
+        let file = file(&[
+            sheet("floor", [0.1, 0.1, 3.3, 2.7]),
+            sheet("rug", [0.7, 0.9, 1.3, 3.1]),
+            sheet("mat", [2.1, 0.3, 2.9, 1.1]),
+        ]);
         let before = needed_sides(&file.scene().unwrap());
         let repaired = repair(&before);
         assert!(!repaired.repairs.is_empty());

@@ -84,11 +84,7 @@ pub struct Emitter {
 /// ```
 #[must_use]
 pub fn inspect(scene: &Scene) -> Inspection {
-    let findings = [
-        surface::findings(scene),
-        orientation::findings(scene),
-        junction::findings(scene),
-    ];
+    let findings = [surface::findings(scene), orientation::findings(scene), junction::findings(scene)];
     let mut findings: Vec<Finding> = findings.into_iter().flatten().collect();
     findings.sort_by_key(|finding| finding.kind);
     let (opening, cost) = openness::openness(scene);

@@ -1,6 +1,6 @@
 //! A scene file of any kind.
-use super::{collada::Collada, error::FileError, format::Format, gltf::Gltf};
 use super::save::{bytes_of, save};
+use super::{collada::Collada, error::FileError, format::Format, gltf::Gltf};
 use super::{obj::Obj, ply::Ply, scene_file::save_scene, stl::Stl, vs3::Vs3};
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
@@ -95,7 +95,9 @@ impl Source {
         let path = path.as_ref();
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match self {
-            Self::Collada(file) if extension == "dae" => save(path, file.repaired(before, after)?.as_bytes())?,
+            Self::Collada(file) if extension == "dae" => {
+                save(path, file.repaired(before, after)?.as_bytes())?
+            }
             Self::Gltf(file) if extension == file.extension() => save(path, &file.repaired(before, after)?)?,
             _ => return save_scene(after, path),
         }

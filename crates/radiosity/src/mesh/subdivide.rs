@@ -4,7 +4,8 @@ use super::element::{Element, Mesh};
 use super::tree::{Node, grow};
 use super::triangulate::triangulate;
 use super::{
-    contacts::contacts, convex::convex_parts, frame::Frame, outline::Flat, plan::Plan, refusal::MeshRefusal, split::split,
+    contacts::contacts, convex::convex_parts, frame::Frame, outline::Flat, plan::Plan, refusal::MeshRefusal,
+    split::split,
 };
 use crate::error::Error;
 use crate::extent::Extent;

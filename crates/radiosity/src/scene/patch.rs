@@ -46,7 +46,8 @@ impl Patch {
         emission: Vec<f64>,
     ) -> Patch {
         let name = name.into();
-        let (texture, smoothing, only_blocks, is_back, origin) = (None, None, false, false, Origin::default());
+        let (texture, smoothing, only_blocks, is_back, origin) =
+            (None, None, false, false, Origin::default());
         Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, is_back, origin }
     }
 

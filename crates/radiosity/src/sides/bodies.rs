@@ -42,10 +42,15 @@ impl Bodies {
                 groups.join(edge.patch, patch);
             }
         }
-        (1..scene.patches.len()).filter(|&index| scene.patches[index].is_back).for_each(|index| groups.join(index - 1, index));
+        (1..scene.patches.len())
+            .filter(|&index| scene.patches[index].is_back)
+            .for_each(|index| groups.join(index - 1, index));
         let (of_patch, firsts) = groups.number();
         let mut is_closed = vec![true; firsts.len()];
-        edges.values().filter(|edge| edge.turns != 0).for_each(|edge| is_closed[of_patch[edge.patch]] = false);
+        edges
+            .values()
+            .filter(|edge| edge.turns != 0)
+            .for_each(|edge| is_closed[of_patch[edge.patch]] = false);
         let volumes = volumes(scene, &of_patch, firsts.len());
         let body = |(index, first): (usize, usize)| Body {
             first,

@@ -59,7 +59,11 @@ pub fn needed_sides(scene: &Scene) -> Scene {
     };
     let side = |index: usize| {
         let patch = scene.patches[index].clone();
-        if patch.emits() && !lamps[index] { Patch { emission: vec![0.0; scene.bands], ..patch } } else { patch }
+        if patch.emits() && !lamps[index] {
+            Patch { emission: vec![0.0; scene.bands], ..patch }
+        } else {
+            patch
+        }
     };
     let patches = (0..scene.patches.len()).filter(is_needed).map(side).collect();
     Scene { patches, ..scene.clone() }
@@ -79,8 +83,12 @@ fn other_side(scene: &Scene, index: usize) -> usize {
 fn lit_within(scene: &Scene, bodies: &Bodies, sight: &Sight<'_>, lamps: &[bool]) -> Vec<bool> {
     let mut is_lit = vec![false; bodies.bodies.len()];
     for index in (0..lamps.len()).filter(|&index| lamps[index]) {
-        let around = before(scene, index).map_or_else(Vec::new, |place| sight.around(place, &bodies.of_patch));
-        around.into_iter().filter(|body| *body != bodies.of_patch[index]).for_each(|body| is_lit[body] = true);
+        let around =
+            before(scene, index).map_or_else(Vec::new, |place| sight.around(place, &bodies.of_patch));
+        around
+            .into_iter()
+            .filter(|body| *body != bodies.of_patch[index])
+            .for_each(|body| is_lit[body] = true);
     }
     // A body that emits itself may be a room, for whoever stands in it.
     let witnesses = bodies.bodies.iter().filter_map(|body| before(scene, body.first));
@@ -107,7 +115,10 @@ fn shines(scene: &Scene, sight: &Sight<'_>, index: usize) -> bool {
         let Some(middle) = patch.middle() else { return true };
         // What touches a lamp is behind it.
         let touch = if patch.is_back { -BEFORE * size } else { BEFORE * size };
-        let ray = [middle.position() + touch * middle.normal(), middle.position() + BEHIND * size * middle.normal()];
+        let ray = [
+            middle.position() + touch * middle.normal(),
+            middle.position() + BEHIND * size * middle.normal(),
+        ];
         sight.is_free(ray, [index, other_side(scene, index)])
     };
     is_free(index) || (!is_back && !is_free(other_side(scene, index)))

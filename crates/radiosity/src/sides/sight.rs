@@ -30,7 +30,8 @@ impl<'s> Sight<'s> {
             let patch = &self.scene.patches[index];
             let flat = |point: DVec3| DVec2::new(point.y, point.z);
             if !patch.is_back && holds(patch, flat(place), flat) && lies_beyond(patch, place) {
-                *turns.entry(of_patch[index]).or_default() += if patch.polygon.normal().x > 0.0 { 1 } else { -1 };
+                *turns.entry(of_patch[index]).or_default() +=
+                    if patch.polygon.normal().x > 0.0 { 1 } else { -1 };
             }
         }
         turns.into_iter().filter(|(_, turns)| *turns != 0).map(|(body, _)| body).collect()

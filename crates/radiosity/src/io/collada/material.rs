@@ -59,7 +59,8 @@ pub(super) fn is_double_sided<'a>(
     let effect = effect.and_then(|effect| file.target(effect, "url", "effect").ok());
     let told = effect.into_iter().flat_map(|effect| effect.descendants());
     let told = told.chain(children(instance.geometry, "extra").flat_map(|extra| extra.descendants()));
-    let mut flags = told.filter(|node| node.tag_name().name() == "double_sided").filter_map(|node| node.text());
+    let mut flags =
+        told.filter(|node| node.tag_name().name() == "double_sided").filter_map(|node| node.text());
     Ok(flags.any(|flag| matches!(flag.trim(), "1" | "true")))
 }
 

@@ -85,7 +85,8 @@ struct Vertices {
 
 impl Vertices {
     fn of(positions: &[DVec3], world: DMat4) -> Vertices {
-        let places = positions.iter().enumerate().map(|(index, point)| (bits(world.transform_point3(*point)), index));
+        let places =
+            positions.iter().enumerate().map(|(index, point)| (bits(world.transform_point3(*point)), index));
         let mut known = HashMap::new();
         places.for_each(|(place, index)| {
             known.entry(place).or_insert(index);
@@ -157,12 +158,17 @@ fn without<'a>(
         let polygons = element.children().filter(|node| matches!(node.tag_name().name(), "p" | "ph"));
         let gone = polygons.enumerate().filter(|(index, _)| removed.contains(index));
         let count = primitive.polygons.len() - removed.len();
-        let counted = element.attribute_node("count").map(|attribute| (attribute.range_value(), count.to_string()));
+        let counted =
+            element.attribute_node("count").map(|attribute| (attribute.range_value(), count.to_string()));
         return Ok(gone.map(|(_, node)| (node.range(), String::new())).chain(counted).collect());
     }
     let all = corners(file, element, layout.stride)?;
-    let kept: Vec<&Vec<Vec<usize>>> =
-        all.iter().enumerate().filter(|(index, _)| !removed.contains(index)).map(|(_, polygon)| polygon).collect();
+    let kept: Vec<&Vec<Vec<usize>>> = all
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| !removed.contains(index))
+        .map(|(_, polygon)| polygon)
+        .collect();
     let new = if kept.is_empty() { String::new() } else { kept_element(text, element, &kept) };
     Ok(vec![(element.range(), new)])
 }
@@ -177,7 +183,11 @@ fn corners<'a>(
     let mut all = Vec::new();
     for p in children(element, "p") {
         let ring: Vec<Vec<usize>> = file.wholes(p)?.chunks(stride).map(<[usize]>::to_vec).collect();
-        all.extend(if tag == "polylist" { polylist(file, element, &ring)? } else { triangles(file, p, tag, &ring)? });
+        all.extend(if tag == "polylist" {
+            polylist(file, element, &ring)?
+        } else {
+            triangles(file, p, tag, &ring)?
+        });
     }
     Ok(all)
 }
@@ -189,7 +199,12 @@ fn kept_element(text: &str, element: XmlNode<'_>, kept: &[&Vec<Vec<usize>>]) -> 
     match element.tag_name().name() {
         "polylist" => {
             let counts = list(kept.iter().map(|polygon| polygon.len()));
-            wrapped("polylist", element, kept.len(), &format!("{inputs}<vcount>{counts}</vcount>\n<p>{corners}</p>\n"))
+            wrapped(
+                "polylist",
+                element,
+                kept.len(),
+                &format!("{inputs}<vcount>{counts}</vcount>\n<p>{corners}</p>\n"),
+            )
         }
         _ => wrapped("triangles", element, kept.len(), &format!("{inputs}<p>{corners}</p>\n")),
     }
@@ -242,10 +257,12 @@ fn with(
     }
     let mut edits = Vec::new();
     let of_vertices = layout.vertices.attribute("id").unwrap_or_default();
-    let mut inputs = format!("<input semantic=\"VERTEX\" source=\"#{}\" offset=\"0\"/>\n", escape(of_vertices));
+    let mut inputs =
+        format!("<input semantic=\"VERTEX\" source=\"#{}\" offset=\"0\"/>\n", escape(of_vertices));
     if textured {
         let id = splice.fresh(&format!("{of_vertices}-places"));
-        let set = children(primitive.element, "input").find(|input| input.attribute("semantic") == Some("TEXCOORD"));
+        let set = children(primitive.element, "input")
+            .find(|input| input.attribute("semantic") == Some("TEXCOORD"));
         let set = set.and_then(|input| input.attribute("set")).unwrap_or("0");
         inputs += &format!(
             "<input semantic=\"TEXCOORD\" source=\"#{}\" offset=\"1\" set=\"{}\"/>\n",
@@ -256,7 +273,10 @@ fn with(
         edits.push((start..start, places_source(&id, &places)));
     }
     let end = primitive.element.range().end;
-    edits.push((end..end, format!("\n{}", element_of(primitive.element, &inputs, &shapes, if textured { 2 } else { 1 }))));
+    edits.push((
+        end..end,
+        format!("\n{}", element_of(primitive.element, &inputs, &shapes, if textured { 2 } else { 1 })),
+    ));
     edits
 }
 
@@ -324,11 +344,13 @@ fn longer_array<'a>(
     let Some(array) = child(source, "float_array") else { return Ok(None) };
     let stride = file.whole_attribute(accessor, "stride", 1)?;
     let numbers = file.numbers(array)?.len();
-    let [Some(of_array), Some(of_accessor)] = [array, accessor].map(|node| node.attribute_node("count")) else {
+    let [Some(of_array), Some(of_accessor)] = [array, accessor].map(|node| node.attribute_node("count"))
+    else {
         return Ok(None);
     };
     let last = array.last_child().filter(roxmltree::Node::is_text);
-    let whole = accessor.attribute("offset").is_none_or(|offset| offset.trim() == "0") && numbers == stride * count;
+    let whole =
+        accessor.attribute("offset").is_none_or(|offset| offset.trim() == "0") && numbers == stride * count;
     let (Some(last), true) = (last, whole) else { return Ok(None) };
     let filled = rows.iter().flat_map(|row| row.iter().copied().chain(std::iter::repeat(0.0)).take(stride));
     let words = list(filled.collect::<Vec<_>>().iter().map(decimal));

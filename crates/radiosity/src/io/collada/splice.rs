@@ -84,7 +84,12 @@ impl<'t, 'f, 'a> Splice<'t, 'f, 'a> {
     }
 
     /// Lets an instance, in the copy `path`, show another geometry.
-    pub(super) fn point_at(&mut self, instance: &Instance<'a>, geometry: &str, path: Path<'a>) -> Result<(), FileError> {
+    pub(super) fn point_at(
+        &mut self,
+        instance: &Instance<'a>,
+        geometry: &str,
+        path: Path<'a>,
+    ) -> Result<(), FileError> {
         let url = instance.element.attribute_node("url");
         let url = url.ok_or_else(|| self.file.fault(instance.element, Fault::Attribute("url")))?;
         self.edit(path, url.range_value(), format!("#{}", escape(geometry)));

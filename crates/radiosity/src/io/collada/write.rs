@@ -92,7 +92,11 @@ fn lit_mesh(instance: &Instance, elements: &BTreeMap<usize, Vec<usize>>, light: 
 }
 
 /// The mesh takes the place of the geometry's own.
-fn replace_mesh<'a>(splice: &mut Splice<'_, '_, 'a>, instance: &Instance<'a>, mesh: &LitMesh) -> Result<(), FileError> {
+fn replace_mesh<'a>(
+    splice: &mut Splice<'_, '_, 'a>,
+    instance: &Instance<'a>,
+    mesh: &LitMesh,
+) -> Result<(), FileError> {
     let old = splice.file.child(instance.geometry, "mesh")?;
     let ids = ids(splice, splice.file.attribute(instance.geometry, "id")?);
     splice.edit(Vec::new(), old.range(), mesh.text(&ids));

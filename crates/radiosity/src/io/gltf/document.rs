@@ -16,11 +16,7 @@ pub(super) struct GltfFile {
 pub(super) type Prepared = (Value, Option<Vec<u8>>);
 
 /// The file; notes what is left out of it.
-pub(super) fn prepared(
-    name: &str,
-    bytes: &[u8],
-    warnings: &mut Vec<Finding>,
-) -> Result<Prepared, FileError> {
+pub(super) fn prepared(name: &str, bytes: &[u8], warnings: &mut Vec<Finding>) -> Result<Prepared, FileError> {
     let (text, binary) = chunks(name, bytes)?;
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start();
     if !text.starts_with(b"{") {

@@ -86,6 +86,6 @@ impl Gltf {
         let (document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
         let file = document::check(&self.name, (document.clone(), blob.clone()))?;
         let (_, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
-        repaired::repaired(document, blob, &primitives, &changes)
+        repaired::repaired((document, blob), &primitives, &changes)
     }
 }

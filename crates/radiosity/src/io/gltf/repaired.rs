@@ -32,7 +32,9 @@ pub(super) fn repaired(
                 list.extend(new);
             }
             (None, Some(new)) => list[origin.primitive] = new,
-            (None, None) => list[origin.primitive]["indices"] = added.buffer.indices(std::iter::empty()).into(),
+            (None, None) => {
+                list[origin.primitive]["indices"] = added.buffer.indices(std::iter::empty()).into()
+            }
         }
     }
     added.close(document)
@@ -104,7 +106,9 @@ impl Added {
                 }
                 points.extend(triangle.map(|corner| inverse.transform_point3(corner.point).to_array()));
                 normals.extend([normal.to_array(); 3]);
-                places.extend(triangle.map(|corner| read.laid.inverse().transform_point2(corner.place).to_array()));
+                places.extend(
+                    triangle.map(|corner| read.laid.inverse().transform_point2(corner.place).to_array()),
+                );
             }
         }
         if points.is_empty() {
@@ -128,7 +132,8 @@ impl Added {
 
     /// The whole file.
     fn close(self, mut document: Value) -> Result<Vec<u8>, FileError> {
-        let Added { buffer: Buffer { bytes, mut views, accessors }, views: old, is_binary, is_chunk, chunk } = self;
+        let Added { buffer: Buffer { bytes, mut views, accessors }, views: old, is_binary, is_chunk, chunk } =
+            self;
         let count = document["buffers"].as_array().map_or(0, Vec::len);
         let own = if is_chunk { 0 } else { count };
         views[old..].iter_mut().for_each(|view| view["buffer"] = own.into());
@@ -145,7 +150,11 @@ impl Added {
             Some(buffers) => buffers.push(buffer),
             None => document["buffers"] = json!([buffer]),
         }
-        if is_binary { container(&document, chunk.unwrap_or_default()) } else { Ok(document.to_string().into_bytes()) }
+        if is_binary {
+            container(&document, chunk.unwrap_or_default())
+        } else {
+            Ok(document.to_string().into_bytes())
+        }
     }
 }
 

@@ -45,7 +45,11 @@ pub(super) fn facets(polygons: &[Polygon], is_cut: bool, textured: bool) -> Vec<
         let triangle = |polygon: &Polygon| [0, 1, 2].map(|corner| place(polygon[0][corner]));
         return merge::merge(&polygons.iter().map(triangle).collect::<Vec<_>>());
     }
-    let facet =
-        |(number, loops): (usize, &Polygon)| Facet { number, loops: loops.clone(), parts: Vec::new(), members: vec![number] };
+    let facet = |(number, loops): (usize, &Polygon)| Facet {
+        number,
+        loops: loops.clone(),
+        parts: Vec::new(),
+        members: vec![number],
+    };
     polygons.iter().enumerate().map(facet).collect()
 }

@@ -92,7 +92,12 @@ impl Surfaces {
         let origin = Origin { polygon, ..surface.origin };
         let draft = |(piece, polygon, is_back)| {
             let patch = finished(polygon, &surface.finish, texture.clone());
-            Draft { base: surface.name.into(), number, piece, patch: Patch { origin, smoothing, is_back, ..patch } }
+            Draft {
+                base: surface.name.into(),
+                number,
+                piece,
+                patch: Patch { origin, smoothing, is_back, ..patch },
+            }
         };
         for (piece, polygon) in pieces {
             let back = if surface.two_sided { turned(&polygon) } else { None };
