@@ -15,7 +15,7 @@ const ORDER: [&str; 166] = [
     "scenes/rooms", "scenes/shapes",
     "io", "io/source", "io/gltf", "io/gltf/write", "io/gltf/exposed", "io/gltf/repaired", "io/gltf/read", "io/gltf/lit",
     "io/gltf/material", "io/gltf/accessor", "io/gltf/document", "io/gltf/container", "io/gltf/buffer",
-    "io/collada", "io/collada/repaired", "io/collada/write", "io/collada/splice", "io/collada/exposed", "io/collada/compose", "io/collada/model",
+    "io/collada", "io/collada/repaired", "io/collada/vertices", "io/collada/write", "io/collada/splice", "io/collada/exposed", "io/collada/compose", "io/collada/model",
     "io/collada/patches", "io/collada/material", "io/collada/images", "io/collada/spectra",
     "io/collada/primitive", "io/collada/camera", "io/collada/walk", "io/collada/transform",
     "io/collada/file", "io/collada/lit_mesh", "io/collada/xml", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",

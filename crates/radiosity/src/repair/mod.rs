@@ -17,7 +17,7 @@ mod reflectance;
 mod slivers;
 mod weld;
 
-pub(crate) use weld::Welds;
+pub(crate) use weld::{PointKey, Welds, key};
 
 use crate::scene::{Scene, finding::Finding};
 

@@ -10,11 +10,12 @@ use formfactor::PlanarPolygon;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-type Key = [u64; 3];
+/// A place as a key of a map; −0.0 reads as 0.0.
+pub(crate) type PointKey = [u64; 3];
 
 /// For each place at which a vertex stands, the place to which it is moved.
 #[derive(Debug)]
-pub(crate) struct Welds(BTreeMap<Key, DVec3>);
+pub(crate) struct Welds(BTreeMap<PointKey, DVec3>);
 
 impl Welds {
     /// Each vertex goes to the first one of the scene that is nearer than a rounding of the smallest patch there. What is moved to does
@@ -47,7 +48,7 @@ fn distance(places: &[(DVec3, f64)], from: usize, a: usize, b: usize) -> std::cm
 
 /// The places at which vertices stand, in the order of the scene, each with how far it may be moved.
 fn places(scene: &Scene) -> Vec<(DVec3, f64)> {
-    let mut known: BTreeMap<Key, usize> = BTreeMap::new();
+    let mut known: BTreeMap<PointKey, usize> = BTreeMap::new();
     let mut places: Vec<(DVec3, f64)> = Vec::new();
     for patch in &scene.patches {
         let reach = SINGLE * Extent::of(patch).diagonal();
@@ -62,7 +63,8 @@ fn places(scene: &Scene) -> Vec<(DVec3, f64)> {
     places
 }
 
-fn key(place: DVec3) -> Key {
+/// The key of a place.
+pub(crate) fn key(place: DVec3) -> PointKey {
     place.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
 }
 

@@ -1,15 +1,13 @@
 //! Surfaces that are connected by edges, and which of them are closed.
-use crate::repair::Welds;
+use crate::repair::{PointKey, Welds, key};
 use crate::scene::Scene;
 use crate::union_find::UnionFind;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-type Key = [u64; 3];
-
 /// Patches that are connected by edges.
 #[derive(Debug)]
-pub(super) struct Body {
+pub(super) struct ConnectedBody {
     /// Its first patch.
     pub(super) first: usize,
     /// For a closed body whose faces are all turned the same way, whether their fronts are turned in.
@@ -20,12 +18,12 @@ pub(super) struct Body {
 /// The bodies of a scene.
 #[derive(Debug)]
 pub(super) struct Bodies {
-    pub(super) bodies: Vec<Body>,
+    pub(super) bodies: Vec<ConnectedBody>,
     pub(super) of_patch: Vec<usize>,
 }
 
 /// What is known of an edge: a patch that has it, and how often more it is run along forwards than backwards.
-struct Edge {
+struct SharedEdge {
     patch: usize,
     turns: i32,
 }
@@ -33,11 +31,11 @@ struct Edge {
 impl Bodies {
     /// The bodies that first sides make. Every edge of a closed body is run along as often one way as the other.
     pub(super) fn collect(scene: &Scene, welds: &Welds) -> Bodies {
-        let mut edges: BTreeMap<[Key; 2], Edge> = BTreeMap::new();
+        let mut edges: BTreeMap<[PointKey; 2], SharedEdge> = BTreeMap::new();
         let mut groups = UnionFind::new(scene.patches.len());
         for (patch, _) in scene.patches.iter().enumerate().filter(|(_, patch)| !patch.is_back) {
             for [a, b] in sides(scene, patch, welds) {
-                let edge = edges.entry([a.min(b), a.max(b)]).or_insert(Edge { patch, turns: 0 });
+                let edge = edges.entry([a.min(b), a.max(b)]).or_insert(SharedEdge { patch, turns: 0 });
                 edge.turns += if a < b { 1 } else { -1 };
                 groups.join(edge.patch, patch);
             }
@@ -52,28 +50,28 @@ impl Bodies {
             .filter(|edge| edge.turns != 0)
             .for_each(|edge| is_closed[of_patch[edge.patch]] = false);
         let volumes = volumes(scene, &of_patch, firsts.len());
-        let body = |(index, first): (usize, usize)| Body {
+        let body = |(index, first): (usize, usize)| ConnectedBody {
             first,
             turned_in: (is_closed[index] && volumes[index] != 0.0).then_some(volumes[index] < 0.0),
             emits: false,
         };
-        let mut bodies: Vec<Body> = firsts.into_iter().enumerate().map(body).collect();
+        let mut bodies: Vec<ConnectedBody> = firsts.into_iter().enumerate().map(body).collect();
         scene.patches.iter().zip(&of_patch).for_each(|(patch, &body)| bodies[body].emits |= patch.emits());
         Bodies { bodies, of_patch }
     }
 
     /// The body of a patch.
-    pub(super) fn of(&self, patch: usize) -> &Body {
+    pub(super) fn of(&self, patch: usize) -> &ConnectedBody {
         &self.bodies[self.of_patch[patch]]
     }
 }
 
 /// The directed edges of a patch between places that are not one.
-fn sides(scene: &Scene, patch: usize, welds: &Welds) -> Vec<[Key; 2]> {
-    let key = |point: &DVec3| welds.place(*point).to_array().map(|coordinate| (coordinate + 0.0).to_bits());
+fn sides(scene: &Scene, patch: usize, welds: &Welds) -> Vec<[PointKey; 2]> {
+    let place = |point: &DVec3| key(welds.place(*point));
     let loops = scene.patches[patch].polygon.loops();
     let pairs = loops.flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)));
-    pairs.map(|(a, b)| [key(a), key(b)]).filter(|[a, b]| a != b).collect()
+    pairs.map(|(a, b)| [place(a), place(b)]).filter(|[a, b]| a != b).collect()
 }
 
 /// Six times the signed volume of each body: positive where fronts are turned out.

@@ -17,7 +17,7 @@ use crate::repair::Welds;
 use crate::scene::{Scene, patch::Patch};
 use bodies::Bodies;
 use glam::DVec3;
-use sight::Sight;
+use sight::SightLines;
 
 /// A lamp has a wall behind it where one is nearer than this share of the square root of its area.
 const BEHIND: f64 = 0.05;
@@ -45,7 +45,7 @@ pub fn needed_sides(scene: &Scene) -> Scene {
         return scene.clone();
     }
     let bodies = Bodies::collect(scene, &Welds::of(scene));
-    let sight = Sight::of(scene);
+    let sight = SightLines::of(scene);
     let shines = |index: usize| {
         let is_sheet = is_pair(scene, index) && bodies.of(index).turned_in.is_none();
         scene.patches[index].emits() && (!is_sheet || shines(scene, &sight, index))
@@ -80,7 +80,7 @@ fn other_side(scene: &Scene, index: usize) -> usize {
 }
 
 /// Which closed bodies have light within.
-fn lit_within(scene: &Scene, bodies: &Bodies, sight: &Sight<'_>, lamps: &[bool]) -> Vec<bool> {
+fn lit_within(scene: &Scene, bodies: &Bodies, sight: &SightLines<'_>, lamps: &[bool]) -> Vec<bool> {
     let mut is_lit = vec![false; bodies.bodies.len()];
     for index in (0..lamps.len()).filter(|&index| lamps[index]) {
         let around =
@@ -107,7 +107,7 @@ fn before(scene: &Scene, index: usize) -> Option<DVec3> {
 }
 
 /// Whether this side of a lamp with two sides emits.
-fn shines(scene: &Scene, sight: &Sight<'_>, index: usize) -> bool {
+fn shines(scene: &Scene, sight: &SightLines<'_>, index: usize) -> bool {
     let is_back = scene.patches[index].is_back;
     let is_free = |side: usize| {
         let patch = &scene.patches[side];

@@ -8,17 +8,17 @@ use std::collections::BTreeMap;
 
 /// The patches of a scene in a tree.
 #[derive(Debug)]
-pub(super) struct Sight<'s> {
+pub(super) struct SightLines<'s> {
     scene: &'s Scene,
     boxes: BoxTree,
     extent: Extent,
 }
 
-impl<'s> Sight<'s> {
-    pub(super) fn of(scene: &'s Scene) -> Sight<'s> {
+impl<'s> SightLines<'s> {
+    pub(super) fn of(scene: &'s Scene) -> SightLines<'s> {
         let [low, high] = scene.extent();
         let boxes = BoxTree::new(scene.patches.iter().map(Extent::of));
-        Sight { scene, boxes, extent: Extent { low, high } }
+        SightLines { scene, boxes, extent: Extent { low, high } }
     }
 
     /// The bodies that wind around a point: a ray along x leaves them more often than it enters them, or the other way round.

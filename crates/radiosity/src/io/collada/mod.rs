@@ -23,6 +23,7 @@ mod repaired;
 mod spectra;
 mod splice;
 mod transform;
+mod vertices;
 mod walk;
 mod write;
 

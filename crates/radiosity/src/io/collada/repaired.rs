@@ -9,16 +9,17 @@
 //! ```
 //!
 //! A geometry that several nodes instance gets a copy for each that changed.
-use super::file::{File, XmlNode, child, children, descend};
+use super::file::{File, XmlNode, children};
 use super::primitive::{Layout, Primitive, layout, polylist, primitives, rows, triangles};
 use super::splice::{Edit, Splice, copied_doors, spliced};
+use super::vertices::GeometryVertices;
 use super::walk::{Instance, walk};
 use crate::escape::escape;
 use crate::io::error::FileError;
-use crate::io::surface::changes::{Changes, Piece, Pieces};
-use crate::io::surface::{facets, polygon::bits};
+use crate::io::surface::changes::{Changes, CutPiece, Pieces};
+use crate::io::surface::facets;
 use crate::io::words::{decimal, list};
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The new text; `None` where the file's arrays have no room for more vertices.
@@ -67,47 +68,6 @@ fn renamed(splice: &mut Splice<'_, '_, '_>, instance: &Instance<'_>, text: &str)
     Some((own, spliced(text, 0..text.len(), &edits)))
 }
 
-/// A vertex of a piece that the file does not have.
-struct NewVertex {
-    point: DVec3,
-    normal: DVec3,
-    place: DVec2,
-}
-
-/// The vertices of a geometry by where they stand in the world, and the new ones.
-struct Vertices {
-    world: DMat4,
-    known: HashMap<[u64; 3], usize>,
-    /// How many the file has.
-    count: usize,
-    new: Vec<NewVertex>,
-}
-
-impl Vertices {
-    fn of(positions: &[DVec3], world: DMat4) -> Vertices {
-        let places =
-            positions.iter().enumerate().map(|(index, point)| (bits(world.transform_point3(*point)), index));
-        let mut known = HashMap::new();
-        places.for_each(|(place, index)| {
-            known.entry(place).or_insert(index);
-        });
-        Vertices { world, known, count: positions.len(), new: Vec::new() }
-    }
-
-    /// The index of a piece's vertex.
-    fn index(&mut self, point: DVec3, piece: &Piece<'_>) -> usize {
-        let next = self.count + self.new.len();
-        let index = *self.known.entry(bits(point)).or_insert(next);
-        if index == next {
-            let inverse = self.world.inverse();
-            let place = piece.texture.map_or(DVec2::ZERO, |texture| texture.place(point));
-            let normal = self.world.transpose().transform_vector3(piece.normal).normalize_or_zero();
-            self.new.push(NewVertex { point: inverse.transform_point3(point), normal, place });
-        }
-        index
-    }
-}
-
 /// The edits to an instance's geometry, sorted; `None` where an array has no room.
 fn edits<'a>(
     splice: &mut Splice<'_, '_, 'a>,
@@ -116,7 +76,7 @@ fn edits<'a>(
 ) -> Result<Option<Vec<Edit>>, FileError> {
     let file = splice.file;
     let all = primitives(file, instance.geometry, &mut Vec::new())?;
-    let mut vertices: Option<(Layout<'a>, Vertices)> = None;
+    let mut vertices: Option<(Layout<'a>, GeometryVertices)> = None;
     let mut edits = Vec::new();
     for (&index, pieces) in changes {
         let primitive = &all[index];
@@ -125,7 +85,7 @@ fn edits<'a>(
             return Ok(None);
         }
         if vertices.is_none() {
-            let known = Vertices::of(&rows(file, layout.source, 3)?, instance.visit.world);
+            let known = GeometryVertices::of(&rows(file, layout.source, 3)?, instance.visit.world);
             vertices = Some((layout, known));
         }
         let Some((layout, vertices)) = &mut vertices else { return Ok(None) };
@@ -133,8 +93,8 @@ fn edits<'a>(
         edits.extend(with(splice, primitive, layout, vertices, pieces));
     }
     let Some((layout, vertices)) = vertices else { return Ok(Some(edits)) };
-    if !vertices.new.is_empty() {
-        let Some(longer) = longer(file, layout.vertices, &vertices)? else { return Ok(None) };
+    if vertices.are_more() {
+        let Some(longer) = vertices.longer(file, layout.vertices)? else { return Ok(None) };
         edits.extend(longer);
     }
     edits.sort_by_key(|(range, _)| range.start);
@@ -150,9 +110,8 @@ fn without<'a>(
     pieces: &Pieces<'_>,
 ) -> Result<Vec<Edit>, FileError> {
     let element = primitive.element;
-    let textured = pieces.values().flatten().any(|piece| piece.texture.is_some());
-    let facets = facets(&primitive.polygons, primitive.is_cut, textured);
-    let changed = facets.iter().filter(|facet| pieces.contains_key(&facet.number));
+    let facets = facets(&primitive.polygons, primitive.is_cut, pieces.is_textured);
+    let changed = facets.iter().filter(|facet| pieces.of_polygon.contains_key(&facet.number));
     let removed: BTreeSet<usize> = changed.flat_map(|facet| facet.members.iter().copied()).collect();
     if element.tag_name().name() == "polygons" {
         let polygons = element.children().filter(|node| matches!(node.tag_name().name(), "p" | "ph"));
@@ -227,57 +186,65 @@ fn with(
     splice: &mut Splice<'_, '_, '_>,
     primitive: &Primitive<'_>,
     layout: &Layout<'_>,
-    vertices: &mut Vertices,
+    vertices: &mut GeometryVertices,
     pieces: &Pieces<'_>,
 ) -> Vec<Edit> {
-    let all: Vec<&Piece<'_>> = pieces.values().flatten().collect();
-    if all.is_empty() {
+    let mut places = pieces.is_textured.then(Vec::new);
+    let shape = |piece: &CutPiece<'_>| {
+        piece.loops.iter().map(|points| ring(points, piece, vertices, &mut places)).collect::<Vec<_>>()
+    };
+    let shapes: Vec<Vec<Vec<usize>>> = pieces.all().map(shape).collect();
+    if shapes.is_empty() {
         return Vec::new();
     }
-    let mirrored = vertices.world.determinant() < 0.0;
-    let textured = all.iter().any(|piece| piece.texture.is_some());
-    let (mut places, mut shapes) = (Vec::new(), Vec::new());
-    for piece in all {
-        let mut ring = |points: &Vec<DVec3>| {
-            let mut corners = Vec::new();
-            for &point in points {
-                corners.push(vertices.index(point, piece));
-                if textured {
-                    let place = piece.texture.map_or(DVec2::ZERO, |texture| texture.place(point));
-                    corners.push(places.len());
-                    places.push([place.x, 1.0 - place.y]);
-                }
-            }
-            if mirrored {
-                corners = corners.rchunks(if textured { 2 } else { 1 }).flatten().copied().collect();
-            }
-            corners
-        };
-        shapes.push(piece.loops.iter().map(&mut ring).collect::<Vec<_>>());
-    }
-    let mut edits = Vec::new();
     let of_vertices = layout.vertices.attribute("id").unwrap_or_default();
-    let mut inputs =
-        format!("<input semantic=\"VERTEX\" source=\"#{}\" offset=\"0\"/>\n", escape(of_vertices));
-    if textured {
+    let mut inputs = input("VERTEX", of_vertices, "offset=\"0\"");
+    let mut edits = Vec::new();
+    if let Some(places) = &places {
         let id = splice.fresh(&format!("{of_vertices}-places"));
-        let set = children(primitive.element, "input")
-            .find(|input| input.attribute("semantic") == Some("TEXCOORD"));
-        let set = set.and_then(|input| input.attribute("set")).unwrap_or("0");
-        inputs += &format!(
-            "<input semantic=\"TEXCOORD\" source=\"#{}\" offset=\"1\" set=\"{}\"/>\n",
-            escape(&id),
-            escape(set)
-        );
+        inputs +=
+            &input("TEXCOORD", &id, &format!("offset=\"1\" set=\"{}\"", escape(set_of(primitive.element))));
         let start = layout.vertices.range().start;
-        edits.push((start..start, places_source(&id, &places)));
+        edits.push((start..start, places_source(&id, places)));
     }
+    let stride = if places.is_some() { 2 } else { 1 };
     let end = primitive.element.range().end;
-    edits.push((
-        end..end,
-        format!("\n{}", element_of(primitive.element, &inputs, &shapes, if textured { 2 } else { 1 })),
-    ));
+    edits.push((end..end, format!("\n{}", element_of(primitive.element, &inputs, &shapes, stride))));
     edits
+}
+
+/// The indices of a piece's corners, each followed by that of its place in the picture where there is one.
+fn ring(
+    points: &[DVec3],
+    piece: &CutPiece<'_>,
+    vertices: &mut GeometryVertices,
+    places: &mut Option<Vec<[f64; 2]>>,
+) -> Vec<usize> {
+    let mut corners = Vec::new();
+    for &point in points {
+        let mut corner = vec![vertices.index(point, piece)];
+        if let Some(places) = places {
+            let place = piece.texture.map_or(DVec2::ZERO, |texture| texture.place(point));
+            corner.push(places.len());
+            // COLLADA counts a picture's rows from below.
+            places.push([place.x, 1.0 - place.y]);
+        }
+        corners.push(corner);
+    }
+    if vertices.is_mirrored() {
+        corners.reverse();
+    }
+    corners.concat()
+}
+
+fn input(semantic: &str, source: &str, rest: &str) -> String {
+    format!("<input semantic=\"{semantic}\" source=\"#{}\" {rest}/>\n", escape(source))
+}
+
+/// The set of a picture's places that an element uses.
+fn set_of<'a>(element: XmlNode<'a>) -> &'a str {
+    let places = children(element, "input").find(|input| input.attribute("semantic") == Some("TEXCOORD"));
+    places.and_then(|input| input.attribute("set")).unwrap_or("0")
 }
 
 /// `<polygons>` where there are holes, else a `<polylist>`.
@@ -309,55 +276,4 @@ fn places_source(id: &str, places: &[[f64; 2]]) -> String {
          <param name=\"T\" type=\"float\"/></accessor></technique_common></source>\n",
         2 * count
     )
-}
-
-/// The new vertices behind those of every array that the file's vertices have.
-fn longer<'a>(
-    file: &File<'a>,
-    of_vertices: XmlNode<'a>,
-    vertices: &Vertices,
-) -> Result<Option<Vec<Edit>>, FileError> {
-    let mut edits = Vec::new();
-    for input in children(of_vertices, "input") {
-        let source = file.target(input, "source", "source")?;
-        let row = |vertex: &NewVertex| match input.attribute("semantic") {
-            Some("POSITION") => vertex.point.to_array().to_vec(),
-            Some("NORMAL") => vertex.normal.to_array().to_vec(),
-            Some("TEXCOORD") => vec![vertex.place.x, 1.0 - vertex.place.y],
-            _ => Vec::new(),
-        };
-        let rows: Vec<Vec<f64>> = vertices.new.iter().map(row).collect();
-        let Some(longer) = longer_array(file, source, &rows, vertices.count)? else { return Ok(None) };
-        edits.extend(longer);
-    }
-    Ok(Some(edits))
-}
-
-/// An array with more rows, each filled up with zeros; `None` where other numbers than the rows stand in it.
-fn longer_array<'a>(
-    file: &File<'a>,
-    source: XmlNode<'a>,
-    rows: &[Vec<f64>],
-    count: usize,
-) -> Result<Option<Vec<Edit>>, FileError> {
-    let Some(accessor) = descend(source, &["technique_common", "accessor"]) else { return Ok(None) };
-    let Some(array) = child(source, "float_array") else { return Ok(None) };
-    let stride = file.whole_attribute(accessor, "stride", 1)?;
-    let numbers = file.numbers(array)?.len();
-    let [Some(of_array), Some(of_accessor)] = [array, accessor].map(|node| node.attribute_node("count"))
-    else {
-        return Ok(None);
-    };
-    let last = array.last_child().filter(roxmltree::Node::is_text);
-    let whole =
-        accessor.attribute("offset").is_none_or(|offset| offset.trim() == "0") && numbers == stride * count;
-    let (Some(last), true) = (last, whole) else { return Ok(None) };
-    let filled = rows.iter().flat_map(|row| row.iter().copied().chain(std::iter::repeat(0.0)).take(stride));
-    let words = list(filled.collect::<Vec<_>>().iter().map(decimal));
-    let end = last.range().end;
-    Ok(Some(vec![
-        (of_array.range_value(), (numbers + stride * rows.len()).to_string()),
-        (end..end, format!(" {words}")),
-        (of_accessor.range_value(), (count + rows.len()).to_string()),
-    ]))
 }

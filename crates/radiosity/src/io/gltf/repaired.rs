@@ -3,7 +3,7 @@ use super::buffer::{Buffer, container};
 use super::document::Prepared;
 use super::read::ReadPrimitive;
 use crate::io::error::FileError;
-use crate::io::surface::changes::{Changes, Piece, Pieces};
+use crate::io::surface::changes::{Changes, CutPiece, Pieces};
 use crate::io::surface::{polygon::Corner, split::split};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use glam::DVec2;
@@ -81,8 +81,13 @@ impl Added {
 
     /// The primitive without the triangles that were cut; `None` where none is left.
     fn rest(&mut self, old: &Value, read: &ReadPrimitive, pieces: &Pieces<'_>) -> Option<Value> {
-        let gone: BTreeSet<usize> =
-            pieces.keys().filter_map(|number| read.members.get(number)).flatten().copied().collect();
+        let gone: BTreeSet<usize> = pieces
+            .of_polygon
+            .keys()
+            .filter_map(|number| read.members.get(number))
+            .flatten()
+            .copied()
+            .collect();
         let kept = read.triangles.iter().enumerate().filter(|(index, _)| !gone.contains(index));
         let kept: Vec<usize> = kept.flat_map(|(_, triangle)| *triangle).collect();
         if kept.is_empty() {
@@ -98,7 +103,7 @@ impl Added {
     fn pieces(&mut self, old: &Value, read: &ReadPrimitive, pieces: &Pieces<'_>) -> Option<Value> {
         let (inverse, mirrored) = (read.world.inverse(), read.world.determinant() < 0.0);
         let (mut points, mut normals, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        for piece in pieces.values().flatten() {
+        for piece in pieces.all() {
             let normal = read.world.transpose().transform_vector3(piece.normal).normalize_or_zero();
             for mut triangle in triangles(piece) {
                 if mirrored {
@@ -159,7 +164,7 @@ impl Added {
 }
 
 /// A piece cut into triangles, with places in its picture.
-fn triangles(piece: &Piece<'_>) -> Vec<[Corner; 3]> {
+fn triangles(piece: &CutPiece<'_>) -> Vec<[Corner; 3]> {
     let place = |point| piece.texture.map_or(DVec2::ZERO, |texture| texture.place(point));
     let corner = |&point: &_| Corner { point, place: place(point), ..Corner::default() };
     split(&piece.loops.iter().map(|ring| ring.iter().map(corner).collect()).collect())

@@ -5,15 +5,28 @@ use std::collections::BTreeMap;
 
 /// What takes the place of a polygon, or of a part of it.
 #[derive(Debug)]
-pub(crate) struct Piece<'s> {
+pub(crate) struct CutPiece<'s> {
     /// In the world, seen from the polygon's front.
     pub(crate) loops: Vec<Vec<DVec3>>,
     pub(crate) normal: DVec3,
     pub(crate) texture: Option<&'s Texture>,
 }
 
-/// By the index of the (first) polygon that they are made of.
-pub(crate) type Pieces<'s> = BTreeMap<usize, Vec<Piece<'s>>>;
+/// What changed of a primitive.
+#[derive(Debug, Default)]
+pub(crate) struct Pieces<'s> {
+    /// By the index of the (first) polygon that they are made of.
+    pub(crate) of_polygon: BTreeMap<usize, Vec<CutPiece<'s>>>,
+    /// Whether the primitive shows a picture.
+    pub(crate) is_textured: bool,
+}
+
+impl<'s> Pieces<'s> {
+    /// All pieces, in the order of their polygons.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &CutPiece<'s>> {
+        self.of_polygon.values().flatten()
+    }
+}
 
 /// By instance and by primitive.
 pub(crate) type Changes<'s> = BTreeMap<usize, BTreeMap<usize, Pieces<'s>>>;
@@ -30,7 +43,9 @@ pub(crate) fn changes<'s>(before: &Scene, after: &'s Scene) -> Changes<'s> {
         let new = new.get(&[instance, primitive, polygon]).cloned().unwrap_or_default();
         let Some(side) = (0..2).find(|&side| !are_alike(&old[side], &new[side])) else { continue };
         let pieces = new[side].iter().map(|patch| piece(patch)).collect();
-        changes.entry(instance).or_default().entry(primitive).or_default().insert(polygon, pieces);
+        let changed = changes.entry(instance).or_default().entry(primitive).or_default();
+        changed.of_polygon.insert(polygon, pieces);
+        changed.is_textured |= old[side].iter().any(|patch| patch.texture.is_some());
     }
     changes
 }
@@ -49,13 +64,13 @@ fn are_alike(old: &[&Patch], new: &[&Patch]) -> bool {
     old.len() == new.len() && old.iter().zip(new).all(same)
 }
 
-fn piece(patch: &Patch) -> Piece<'_> {
+fn piece(patch: &Patch) -> CutPiece<'_> {
     let turn = |points: &[DVec3]| {
         let points = points.iter().copied();
         if patch.is_back { points.rev().collect() } else { points.collect() }
     };
     let normal = patch.polygon.normal();
-    Piece {
+    CutPiece {
         loops: patch.polygon.loops().map(turn).collect(),
         normal: if patch.is_back { -normal } else { normal },
         texture: patch.texture.as_ref(),
