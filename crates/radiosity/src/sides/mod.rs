@@ -91,10 +91,13 @@ fn lit_within(scene: &Scene, bodies: &Bodies, sight: &SightLines<'_>, lamps: &[b
             .for_each(|body| is_lit[body] = true);
     }
     // A body that emits itself may be a room, for whoever stands in it.
-    let witnesses = bodies.bodies.iter().filter_map(|body| before(scene, body.first));
-    for place in scene.cameras.iter().map(|camera| camera.position).chain(witnesses) {
+    let cameras = scene.cameras.iter().map(|camera| (None, camera.position));
+    let others = bodies.bodies.iter().enumerate();
+    let others = others.filter_map(|(body, other)| Some((Some(body), before(scene, other.first)?)));
+    for (own, place) in cameras.chain(others) {
         let around = sight.around(place, &bodies.of_patch).into_iter();
-        around.filter(|body| bodies.bodies[*body].emits).for_each(|body| is_lit[body] = true);
+        let rooms = around.filter(|body| bodies.bodies[*body].emits && own != Some(*body));
+        rooms.for_each(|body| is_lit[body] = true);
     }
     is_lit
 }
