@@ -3,7 +3,7 @@ use super::{body::Bodies, pool::Pool, shaft::Shaft, shell::Adjacency, surfaces::
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
-use super::line::Line;
+use super::line::LineOfSight;
 use crate::numeric::predicates::place;
 use crate::pipeline::{self, Reach};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
@@ -277,7 +277,7 @@ impl Enclosure {
         if place(from.given_normal(), from.position(), there) != Ordering::Greater {
             return false;
         }
-        let line = Line::between(from.position(), there);
+        let line = LineOfSight::between(from.position(), there);
         let near = self.tree.find(|extent| line.misses_box(extent));
         !near.into_iter().any(|id| !self.is_edge_on(from, id) && line.is_blocked_by(&self.polygons[id]))
     }

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 /// The way from one place to another.
 #[derive(Debug)]
-pub(crate) struct Line {
+pub(crate) struct LineOfSight {
     start: DVec3,
     end: DVec3,
     /// Some place beside the line.
@@ -15,7 +15,7 @@ pub(crate) struct Line {
     extent: Extent,
 }
 
-impl Line {
+impl LineOfSight {
     pub(crate) fn between(start: DVec3, end: DVec3) -> Self {
         let way = (end - start).abs();
         // The axis along which the line runs least.

@@ -1,20 +1,23 @@
 //! From instances to patches: each primitive with its material, where the node puts it.
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
-use super::{file::File, images::Images, material::finish};
+use super::{file::File, images::Images, lights::AreaLamp, material::finish};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
-use crate::io::{surface::facets, surface::finish::Surface};
+use crate::io::surface::polygon::{Corner, Facet};
+use crate::io::{surface::facets, surface::finish::Finish, surface::finish::Surface};
 use crate::scene::{
     finding::Finding,
     patch::{Origin, Patch},
 };
+use glam::{DVec2, DVec3};
 use std::{collections::HashMap, collections::hash_map::Entry};
 
 /// The patches of all instances.
 pub(super) fn patches<'a>(
     file: &File<'a>,
     instances: &[Instance<'a>],
+    areas: &[AreaLamp<'a, '_>],
     images: &mut Images,
     warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Patch>, FileError> {
@@ -40,13 +43,44 @@ pub(super) fn patches<'a>(
             surfaces.add(&surface, warnings).map_err(|refusal| fault(file, primitive, refusal))?;
         }
     }
+    for lamp in areas {
+        let refused = |refusal| file.fault(lamp.instance.light, fault_of(refusal));
+        surfaces.add(&area_surface(file, lamp, &[facet(&lamp.corners)]), warnings).map_err(refused)?;
+    }
     Ok(surfaces.named())
 }
 
 fn fault<'a>(file: &File<'a>, primitive: &Primitive<'a>, refusal: Refusal) -> FileError {
-    let fault = match refusal {
+    file.fault(primitive.element, fault_of(refusal))
+}
+
+fn fault_of(refusal: Refusal) -> Fault {
+    match refusal {
         Refusal::TooMany => Fault::TooMany { what: "polygons", limit: MAX_PATCHES },
         Refusal::Shape { polygon, source } => Fault::Shape { polygon, source },
-    };
-    file.fault(primitive.element, fault)
+    }
+}
+
+/// A lamp's outline as a surface: it shines and reflects nothing.
+fn area_surface<'s>(file: &File<'_>, lamp: &AreaLamp<'s, '_>, facets: &'s [Facet]) -> Surface<'s> {
+    Surface {
+        name: name_of(lamp.instance.visit.node, "light"),
+        place: "",
+        facets,
+        world: lamp.instance.visit.world,
+        finish: Finish {
+            material: "".into(),
+            reflectance: [0.0; 3],
+            emission: lamp.emission,
+            image: None,
+            spectra: None,
+        },
+        two_sided: false,
+        origin: Origin::NOWHERE,
+    }
+}
+
+fn facet(corners: &[DVec3]) -> Facet {
+    let corner = |point: &DVec3| Corner { point: *point, place: DVec2::ZERO, normal: DVec3::ZERO };
+    Facet { number: 0, loops: vec![corners.iter().map(corner).collect()], parts: Vec::new() }
 }

@@ -31,11 +31,18 @@ pub(super) struct CameraInstance<'a> {
     pub(super) camera: XmlNode<'a>,
 }
 
+/// An `<instance_light>` met on the way.
+pub(super) struct LightInstance<'a> {
+    pub(super) visit: Visit<'a>,
+    pub(super) light: XmlNode<'a>,
+}
+
 /// What the walk met, in the order of the file, and what it had to say.
 #[derive(Default)]
 pub(super) struct Walk<'a> {
     pub(super) instances: Vec<Instance<'a>>,
     pub(super) camera_instances: Vec<CameraInstance<'a>>,
+    pub(super) light_instances: Vec<LightInstance<'a>>,
     pub(super) warnings: Vec<Finding>,
 }
 
@@ -124,9 +131,8 @@ fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(
                 walk.warnings.push(Finding::of_file(what, "bake it into plain geometry"));
             }
             "instance_light" => {
-                let place = file.place(element);
-                let what = format!("{place}: lights are left out; only surfaces that emit give light");
-                walk.warnings.push(Finding::of_file(what, "put a surface with an emission in its place"));
+                let light = file.target(element, "url", "light")?;
+                walk.light_instances.push(LightInstance { visit: visit.clone(), light });
             }
             _ => {}
         }

@@ -1,10 +1,11 @@
 //! The default scene, walked: meshes become patches, cameras cameras.
-use super::{accessor::Buffers, document::GltfFile, material::Materials};
+use super::{accessor::Buffers, document::GltfFile, lights, lights::ReadLight, material::Materials};
 use crate::io::error::{Fault, FileError};
+use crate::io::surface::lamps::Stand;
 use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::io::{surface::facets, surface::finish::Surface};
-use crate::scene::{Scene, camera::Camera, finding::Finding, patch::Origin};
+use crate::scene::{Scene, camera::Camera, finding::Finding, lamp::Lamp, patch::Origin, sky::Sun, units::Units};
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
@@ -22,12 +23,16 @@ pub(super) fn scene(file: &str, gltf: &GltfFile, folder: Option<&Path>) -> Resul
         materials: Materials::new(&buffers, folder),
         surfaces: Surfaces::default(),
         cameras: Vec::new(),
+        lamps: Vec::new(),
+        suns: Vec::new(),
+        units: lights::units(&gltf.document),
         warnings: Vec::new(),
         instances: 0,
     };
     reader.walk(&gltf.document)?;
-    let Reader { surfaces, cameras, warnings, .. } = reader;
-    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() })
+    let Reader { surfaces, cameras, lamps, suns, units, warnings, .. } = reader;
+    let patches = surfaces.named();
+    Ok(Scene { patches, lamps, suns, units, cameras, bands: 3, warnings, ..Scene::default() })
 }
 
 struct Reader<'f> {
@@ -35,6 +40,9 @@ struct Reader<'f> {
     materials: Materials<'f>,
     surfaces: Surfaces,
     cameras: Vec<Camera>,
+    lamps: Vec<Lamp>,
+    suns: Vec<Sun>,
+    units: Units,
     warnings: Vec<Finding>,
     instances: usize,
 }
@@ -47,10 +55,6 @@ impl Reader<'_> {
             let index = scene.index();
             let what = format!("{}: of its scenes number {index} is taken", self.file);
             self.warn(what, "make the one you want the default scene");
-        }
-        if gltf.extensions_used().any(|name| name == "KHR_lights_punctual") {
-            let what = format!("{}: lights are left out; only surfaces that emit give light", self.file);
-            self.warn(what, "put a surface with an emission in their place");
         }
         let mut stack: Vec<(gltf::Node<'_>, DMat4, usize)> =
             scene.nodes().map(|node| (node, DMat4::IDENTITY, 0)).collect();
@@ -82,6 +86,9 @@ impl Reader<'_> {
         if let Some(camera) = node.camera() {
             self.look(&camera, &name, world);
         }
+        if let Some(light) = node.light() {
+            self.shine(&light, &name, world);
+        }
         let Some(mesh) = node.mesh() else { return Ok(()) };
         if node.skin().is_some() || mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
             self.warn(format!("{name}: skins and morphs are left out"), "bake them into plain geometry");
@@ -92,6 +99,18 @@ impl Reader<'_> {
             self.cover(&name, &mesh, &primitive, world, instance)?;
         }
         Ok(())
+    }
+
+    fn shine(&mut self, light: &gltf::khr_lights_punctual::Light<'_>, name: &str, world: DMat4) {
+        let read = Stand::of(world).and_then(|stand| lights::read(light, name, stand, self.units));
+        match read {
+            Some(ReadLight::Lamp(lamp)) => self.lamps.push(lamp),
+            Some(ReadLight::Sun(sun)) => self.suns.push(sun),
+            None => self.warn(
+                format!("{name}: the light has no strength or no direction; it is left out"),
+                "correct its intensity, its colour, or the node's transform",
+            ),
+        }
     }
 
     /// The patches of a primitive.

@@ -8,6 +8,7 @@ use crate::mesh::{
     frame::{Frame, power_of_two},
 };
 use crate::scene::Scene;
+use crate::solve::lights::magnitude;
 use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
@@ -279,9 +280,10 @@ impl<'s> Tiling<'s> {
     }
 }
 
-/// A power of two near the largest radiosity that is emitted.
+/// A power of two near the largest radiosity that is emitted, or what lights bring.
 fn unit(scene: &Scene, band: usize) -> f64 {
-    power_of_two(scene.patches.iter().map(|patch| PI * patch.emission[band]).fold(0.0, f64::max))
+    let emitted = scene.patches.iter().map(|patch| PI * patch.emission[band]);
+    power_of_two(emitted.fold(magnitude(scene, band), f64::max))
 }
 
 impl Tile {

@@ -1,4 +1,5 @@
-//! What points receive: from every linked tile as bright as it was found, exactly past what stands in between.
+//! What points receive: from every linked tile as bright as it was found, and from lights, exactly past what stands in between.
+use super::direct::Direct;
 use super::flow::Linear;
 use super::link::Link;
 use super::links::Links;
@@ -29,6 +30,7 @@ const NEAR: f64 = 0.05;
 pub(super) struct Sights<'s> {
     pub(super) tiling: &'s Tiling<'s>,
     links: &'s [Link],
+    direct: &'s Direct<'s>,
     of_tile: Vec<Sight>,
     /// What each tile sends, band by band, and 1 of each: what comes of that is ΣF.
     sent: Vec<Vec<Linear>>,
@@ -50,6 +52,7 @@ impl<'s> Sights<'s> {
     pub(super) fn new(
         tiling: &'s Tiling<'s>,
         links: &'s Links,
+        direct: &'s Direct<'s>,
         sent: &[Vec<Linear>],
         fine: &[f64],
     ) -> Sights<'s> {
@@ -86,7 +89,7 @@ impl<'s> Sights<'s> {
             Sight { looks: flaws[count..].iter().map(|(_, at)| *at).collect(), rest }
         };
         let of_tile = of_tile.into_iter().enumerate().map(sight).collect();
-        Sights { tiling, links, of_tile, sent, known }
+        Sights { tiling, links, direct, of_tile, sent, known }
     }
 
     /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `tile_of` is the tile of an element.
@@ -154,7 +157,8 @@ impl<'s> Sights<'s> {
             }
         }
         let sum = light.pop().filter(|sum| *sum > 0.0 && self.known[leaf] == Some(1.0)).unwrap_or(1.0);
-        light.into_iter().map(|light| (light / sum).max(0.0)).collect()
+        let straight = self.direct.at(self.tiling, point);
+        light.into_iter().zip(straight).map(|(light, straight)| (light / sum).max(0.0) + straight).collect()
     }
 }
 

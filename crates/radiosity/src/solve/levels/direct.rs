@@ -1,0 +1,182 @@
+//! What lights without surfaces bring to the leaves.
+//!
+//! The lit part of a leaf is a polygon, so that the mean light of a beam on it and how that climbs are integrals without an error, however
+//! large the leaf is; only what they leave is an error of what the leaf sends. The sky is looked at from the points of the leaf, as other
+//! tiles are.
+use super::flow::Linear;
+use super::tile::{INNER, OUTER, SQUARE};
+use super::tiling::{Tile, Tiling};
+use crate::error::Error;
+use crate::solve::lights::{Lights, LitPolygon};
+use crate::solve::workers::attempt;
+use formfactor::DifferentialArea;
+use rayon::prelude::*;
+
+/// How many curvatures a mean over five points may be off by.
+const CUBATURE: f64 = 0.3;
+
+/// What lights bring to a tile, band by band, in the units of the bands.
+#[derive(Clone, Debug)]
+struct TileLight {
+    received: Vec<Linear>,
+    /// The part of the mean that comes from beyond the scene.
+    beyond: Vec<f64>,
+    /// How far it is from linear.
+    deviation: Vec<f64>,
+    /// What the mean may be off by.
+    error: Vec<f64>,
+    /// The axis along which the sky bends most.
+    axis: usize,
+}
+
+/// What lights bring to the tiles.
+#[derive(Debug)]
+pub(super) struct Direct<'s> {
+    pub(super) lights: Lights<'s>,
+    /// For each tile, where it was a leaf when that was found.
+    of_tile: Vec<Option<TileLight>>,
+    none: TileLight,
+}
+
+/// The light of a band on every tile: how far it is from linear, and what its mean may be off by.
+#[derive(Debug)]
+pub(super) struct DirectFlaws {
+    pub(super) deviation: Vec<f64>,
+    pub(super) error: Vec<f64>,
+}
+
+impl<'s> Direct<'s> {
+    /// Nothing is found yet.
+    pub(super) fn new(tiling: &Tiling<'s>) -> Direct<'s> {
+        let bands = tiling.scene.bands;
+        Direct {
+            lights: Lights::new(tiling.scene, tiling.enclosure.polygons()),
+            of_tile: Vec::new(),
+            none: TileLight {
+                received: vec![[0.0; 3]; bands],
+                beyond: vec![0.0; bands],
+                deviation: vec![0.0; bands],
+                error: vec![0.0; bands],
+                axis: 0,
+            },
+        }
+    }
+
+    /// Finds the light of all leaves of which it is not known. `sums` is ΣF of the tiles of which it is known: a closed room has no sky.
+    ///
+    /// # Errors
+    /// [`Error::Defect`] when what a light sees cannot be found.
+    pub(super) fn grow(&mut self, tiling: &Tiling<'_>, sums: &[Option<f64>]) -> Result<(), Error> {
+        self.of_tile.resize(tiling.tiles.len(), None);
+        if self.lights.is_empty() {
+            return Ok(());
+        }
+        let open: Vec<usize> = tiling.leaves().filter(|&leaf| self.of_tile[leaf].is_none()).collect();
+        let find = |&leaf: &usize| {
+            let name = &tiling.scene.patches[tiling.tiles[leaf].patch].name;
+            attempt(name, || self.find(tiling, leaf, sums[leaf].is_some()))
+        };
+        let found: Vec<Result<TileLight, Error>> = open.par_iter().map(find).collect();
+        for (leaf, light) in open.into_iter().zip(found) {
+            self.of_tile[leaf] = Some(light?);
+        }
+        Ok(())
+    }
+
+    fn find(&self, tiling: &Tiling<'_>, leaf: usize, is_closed: bool) -> TileLight {
+        let tile = &tiling.tiles[leaf];
+        let mut light = self.none.clone();
+        let linear = |at| tile.outline.linear(tiling.flatten(tile.patch, at));
+        for lit in self.lights.lit(&tiling.enclosure, (tile.surface, &tile.polygon), linear) {
+            self.add_beam(&mut light, tiling, tile, &lit);
+        }
+        if self.lights.has_sky() && !is_closed {
+            self.add_sky(&mut light, tiling, tile);
+        }
+        light
+    }
+
+    /// The projection on linear functions, and what that leaves: of orthogonal functions the squares add up.
+    fn add_beam(&self, light: &mut TileLight, tiling: &Tiling<'_>, tile: &Tile, lit: &LitPolygon) {
+        let area = tile.polygon.area();
+        let mean = lit.moments.whole / area;
+        let [first, second] = lit.moments.linear.map(|moment| moment / area / SQUARE);
+        let left = lit.moments.square / area - mean * mean - SQUARE * (first * first + second * second);
+        let deviation = left.max(0.0).sqrt();
+        let (strength, is_beyond) = self.lights.beam(lit.beam);
+        for (band, strength) in strength.iter().enumerate() {
+            let strength = strength / tiling.units()[band];
+            add(&mut light.received[band], strength, [mean, first, second]);
+            light.beyond[band] += if is_beyond { strength * mean } else { 0.0 };
+            light.deviation[band] += strength * deviation;
+        }
+    }
+
+    fn add_sky(&self, light: &mut TileLight, tiling: &Tiling<'_>, tile: &Tile) {
+        let [middle, ahead, back, left, right] =
+            tile.points.each_ref().map(|point| self.lights.sky(point));
+        let mean = INNER * middle + OUTER * (ahead + back + left + right);
+        let slopes = [ahead - back, left - right].map(|climb| OUTER * climb / SQUARE);
+        let [long, short] = [(ahead, back), (left, right)].map(|(a, b)| (f64::midpoint(a, b) - middle).abs());
+        light.axis = usize::from(short > long);
+        for (band, radiance) in self.lights.sky_radiance().iter().enumerate() {
+            let strength = radiance / tiling.units()[band];
+            add(&mut light.received[band], strength, [mean, slopes[0], slopes[1]]);
+            light.beyond[band] += strength * mean;
+            light.deviation[band] += strength * SQUARE.sqrt() * (long + short);
+            light.error[band] += strength * CUBATURE * (long + short);
+        }
+    }
+
+    /// The light of a tile in a band.
+    pub(super) fn received(&self, tile: usize, band: usize) -> Linear {
+        self.of(tile).received[band]
+    }
+
+    /// What a leaf sends in a band before anything is exchanged: of its own, and of what lights bring.
+    pub(super) fn given(&self, tiling: &Tiling<'_>, leaf: usize, band: usize) -> Linear {
+        let reflected = self.received(leaf, band).map(|h| tiling.tiles[leaf].reflectance[band] * h);
+        [tiling.emittance(leaf, band) + reflected[0], reflected[1], reflected[2]]
+    }
+
+    /// The part of its mean that comes from beyond the scene.
+    pub(super) fn beyond(&self, tile: usize, band: usize) -> f64 {
+        self.of(tile).beyond[band]
+    }
+
+    /// The axis across which a tile is best cut.
+    pub(super) fn axis(&self, tile: usize) -> usize {
+        self.of(tile).axis
+    }
+
+    fn of(&self, tile: usize) -> &TileLight {
+        self.of_tile.get(tile).and_then(Option::as_ref).unwrap_or(&self.none)
+    }
+
+    /// What is wrong with the light of a band.
+    pub(super) fn flaws(&self, tiling: &Tiling<'_>, band: usize) -> DirectFlaws {
+        let of = |value: fn(&TileLight) -> &Vec<f64>| {
+            let at = |tile: usize| {
+                if tiling.tiles[tile].halves.is_none() { value(self.of(tile))[band] } else { 0.0 }
+            };
+            (0..tiling.tiles.len()).map(at).collect()
+        };
+        DirectFlaws { deviation: of(|light| &light.deviation), error: of(|light| &light.error) }
+    }
+
+    /// The power of the lamps in a band, in its unit.
+    pub(super) fn power(&self, tiling: &Tiling<'_>, band: usize) -> f64 {
+        self.lights.power()[band] / tiling.units()[band]
+    }
+
+    /// The light of a point, band by band, in their units.
+    pub(super) fn at(&self, tiling: &Tiling<'_>, point: &DifferentialArea) -> Vec<f64> {
+        let [lamps, beyond] = self.lights.irradiance(&tiling.enclosure, point);
+        let sums = lamps.iter().zip(&beyond).zip(tiling.units());
+        sums.map(|((lamps, beyond), unit)| (lamps + beyond) / unit).collect()
+    }
+}
+
+fn add(to: &mut Linear, strength: f64, light: Linear) {
+    to.iter_mut().zip(light).for_each(|(to, light)| *to += strength * light);
+}
