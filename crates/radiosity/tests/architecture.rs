@@ -9,18 +9,18 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 166] = [
+const ORDER: [&str; 183] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
-    "io", "io/source", "io/gltf", "io/gltf/write", "io/gltf/exposed", "io/gltf/read", "io/gltf/lit",
+    "io", "io/source", "io/gltf", "io/gltf/write", "io/gltf/exposed", "io/gltf/read", "io/gltf/lights", "io/gltf/lit",
     "io/gltf/material", "io/gltf/accessor", "io/gltf/document", "io/gltf/container", "io/gltf/buffer",
-    "io/collada", "io/collada/write", "io/collada/exposed", "io/collada/compose", "io/collada/model",
-    "io/collada/patches", "io/collada/material", "io/collada/images", "io/collada/spectra",
+    "io/collada", "io/collada/write", "io/collada/exposed", "io/collada/compose", "io/collada/light_text", "io/collada/model",
+    "io/collada/patches", "io/collada/material", "io/collada/images", "io/collada/lights", "io/collada/spectra",
     "io/collada/primitive", "io/collada/camera", "io/collada/walk", "io/collada/transform",
     "io/collada/file", "io/collada/lit_mesh", "io/collada/xml", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
-    "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish",
-    "io/surface/polygon", "io/save", "io/error",
+    "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
+    "io/surface/polygon", "io/photometry", "io/photometry/ies", "io/photometry/ldt", "io/photometry/angles", "io/save", "io/error",
     "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error", "repair",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",
     "inspect/orientation", "inspect/summary", "inspect/surface",
@@ -28,11 +28,11 @@ const ORDER: [&str; 166] = [
     "picture", "picture/raster", "picture/painting", "picture/png", "picture/framing",
     "expose",
     "solve", "solve/levels", "solve/levels/rounds", "solve/levels/stand", "solve/levels/output", "solve/levels/pieces", "solve/levels/vertices", "solve/levels/links", "solve/levels/totals", "solve/levels/measure", "solve/levels/nearby",
-    "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/flow", "solve/levels/link",
+    "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/refine", "solve/drive", "solve/direct", "solve/receivers", "solve/relax", "solve/relax/bounces", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",
     "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/run", "solve/progress",
-    "solve/factors", "solve/hemicube", "solve/workers", "solve/occluders", "solve/interpolate",
+    "solve/factors", "solve/hemicube", "solve/workers", "solve/occluders", "solve/lights", "solve/lights/beam", "solve/lights/dome", "solve/lights/cubature", "solve/interpolate",
     "solve/solution", "solve/ledger", "solve/shooters", "solve/rooms", "solve/light", "solve/state",
     "solve/levels/transfer", "solve/levels/tile",
     "solve/fingerprint", "solve/magnitude", "solve/check", "solve/overlap", "solve/quality",
@@ -41,7 +41,7 @@ const ORDER: [&str; 166] = [
     "mesh/split", "mesh/triangulate", "mesh/divide", "mesh/lattice", "mesh/contacts", "mesh/frame",
     "mesh/refusal", "mesh/element",
     "image_file", "extent",
-    "scene", "scene/middle", "scene/patch", "scene/texture", "scene/camera", "scene/asset",
+    "scene", "scene/middle", "scene/patch", "scene/lamp", "scene/photometry", "scene/sky", "scene/units", "scene/texture", "scene/camera", "scene/asset",
     "scene/finding",
     "plane", "spectrum", "union_find", "escape", "predicates", "error",
 ];

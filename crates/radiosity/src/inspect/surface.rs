@@ -12,11 +12,11 @@ const WIDTH: f64 = 1e3;
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     let told = scene.warnings.iter().cloned();
-    let dark = (!scene.patches.iter().any(Patch::emits)).then(|| Finding {
+    let dark = (!scene.has_light()).then(|| Finding {
         kind: Kind::Dark,
         patches: Vec::new(),
-        what: "no patch emits light".into(),
-        repair: "give the material of an emitter an emission above 0".into(),
+        what: "no patch emits light, and there is no other light".into(),
+        repair: "give the material of an emitter an emission above 0, or solve with --emit or --sky".into(),
     });
     let own = scene.patches.iter().flat_map(|patch| reflectance(patch).into_iter().chain(sliver(patch)));
     told.chain(dark).chain(own).collect()

@@ -78,6 +78,12 @@ pub enum FileError {
         /// The file.
         file: String,
     },
+    /// The file's extension names no photometry that is read.
+    #[error("{file}: unknown kind of photometry; give an IES (.ies) or EULUMDAT (.ldt) file")]
+    Photometry {
+        /// The file.
+        file: String,
+    },
     /// An element of a COLLADA file has a fault.
     #[error("{file}:{line}:{column}: <{element}>: {fault}")]
     Scene {

@@ -5,6 +5,7 @@
 //! gltf       glTF 2.0, read and written
 //! collada    COLLADA 1.4 and 1.5, read and written
 //! vs3        View3D's input, read
+//! photometry IES and EULUMDAT files of luminaires, read
 //! surface    what all readers do with polygons
 //! save       whole files or none
 //! error      what can go wrong
@@ -12,6 +13,7 @@
 pub mod collada;
 pub(crate) mod error;
 pub mod gltf;
+pub mod photometry;
 mod save;
 mod source;
 mod surface;

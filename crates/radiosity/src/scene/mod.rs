@@ -71,6 +71,27 @@ impl Scene {
             || self.sky.iter().any(|sky| lit(&sky.radiance))
     }
 
+    /// Lumens in a unit of power of each band: as many values as bands.
+    ///
+    /// A watt of grey is 179 lm, whatever the shade; of bands with wavelengths each has what the eye sees of it, 683 lm/W at most.
+    #[must_use]
+    pub fn lumens(&self) -> Vec<f64> {
+        self.units.lumens(self.bands, &self.wavelengths)
+    }
+
+    /// The luminous value of one per band: lx of an irradiance, lm of a power.
+    #[must_use]
+    pub fn luminous(&self, values: &[f64]) -> f64 {
+        self.lumens().iter().zip(values).map(|(lumens, value)| lumens * value).sum()
+    }
+
+    /// What of each band makes a unit of luminous light, where all have as much.
+    #[must_use]
+    pub fn white(&self) -> f64 {
+        let whole: f64 = self.lumens().iter().sum();
+        if whole > 0.0 { 1.0 / whole } else { 0.0 }
+    }
+
     /// The lower and the upper corner of the box around all patches; of the unit box where there are none.
     #[must_use]
     pub fn extent(&self) -> [DVec3; 2] {

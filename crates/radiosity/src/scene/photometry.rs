@@ -42,12 +42,6 @@ impl Photometry {
         Photometry { azimuths, heights, candela: planes.into_iter().flat_map(|plane| plane.1).collect() }
     }
 
-    /// The same with every number multiplied.
-    pub(crate) fn times(mut self, factor: f64) -> Photometry {
-        self.candela.iter_mut().for_each(|candela| *candela *= factor);
-        self
-    }
-
     /// The intensity in cd along a way of any length but 0, in the luminaire's frame: x is C = 0, y a quarter turn on, z ahead.
     #[must_use]
     pub fn candela(&self, way: DVec3) -> f64 {

@@ -1,5 +1,4 @@
 //! Watts and lumens.
-use super::Scene;
 use crate::spectrum::eye;
 
 /// What the powers of a scene are counted in.
@@ -20,34 +19,18 @@ const PEAK: f64 = 683.0;
 /// How much red, green and blue count, of which white has one each (IEC 61966-2-1).
 const RGB: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-impl Scene {
-    /// Lumens in a unit of power of each band: as many values as bands.
-    ///
-    /// A watt of grey is 179 lm, whatever the shade; of bands with wavelengths each has what the eye sees of it, 683 lm/W at most.
-    #[must_use]
-    pub fn lumens(&self) -> Vec<f64> {
-        let is_luminous = self.units == Units::Luminous;
-        let white = if is_luminous { 1.0 } else { WHITE };
-        if self.wavelengths.len() == self.bands && self.bands > 0 {
+impl Units {
+    /// Lumens in a unit of power of each band.
+    pub(super) fn lumens(self, bands: usize, wavelengths: &[f64]) -> Vec<f64> {
+        let is_luminous = self == Units::Luminous;
+        if wavelengths.len() == bands {
             let of = |nm: &f64| if is_luminous { 1.0 } else { PEAK * eye(*nm) };
-            return self.wavelengths.iter().map(of).collect();
+            return wavelengths.iter().map(of).collect();
         }
-        match self.bands {
+        let white = if is_luminous { 1.0 } else { WHITE };
+        match bands {
             3 => RGB.map(|share| share * white).to_vec(),
             bands => vec![white / bands as f64; bands],
         }
-    }
-
-    /// The luminous value of one per band: lx of an irradiance, lm of a power.
-    #[must_use]
-    pub fn luminous(&self, values: &[f64]) -> f64 {
-        self.lumens().iter().zip(values).map(|(lumens, value)| lumens * value).sum()
-    }
-
-    /// What a unit of luminous light that is white is in each band: the inverse of [`Scene::lumens`] for a spectrum as even as the bands.
-    #[must_use]
-    pub fn white(&self) -> f64 {
-        let whole: f64 = self.lumens().iter().sum();
-        if whole > 0.0 { 1.0 / whole } else { 0.0 }
     }
 }

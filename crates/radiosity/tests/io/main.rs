@@ -3,6 +3,8 @@
 mod glb;
 mod gltf;
 mod hostile;
+mod lights;
+mod photometry;
 mod picture;
 mod read;
 mod samples;

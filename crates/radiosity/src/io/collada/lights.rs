@@ -79,6 +79,10 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
         if strength.iter().all(|band| *band == 0.0) {
             return Ok(());
         }
+        if !strength.iter().all(|band| band.is_finite()) {
+            warnings.push(self.left_out("its strength is beyond all numbers", "correct its colour or attenuation"));
+            return Ok(());
+        }
         let Some(stand) = Stand::of(self.instance.visit.world) else {
             warnings.push(self.left_out("its transform leaves it no direction", "correct the node's transform"));
             return Ok(());
@@ -89,7 +93,11 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
             _ if area.is_some() => {
                 let corners = area.unwrap_or_default();
                 let emission = colour.map(|power| power / (4.0 * self.square_metres(&corners)));
-                all.areas.push(AreaLamp { instance: self.instance, corners, emission });
+                if emission.iter().all(|band| band.is_finite()) {
+                    all.areas.push(AreaLamp { instance: self.instance, corners, emission });
+                } else {
+                    warnings.push(self.left_out("its area is nothing", "correct its size or its node's scale"));
+                }
             }
             "directional" => all.suns.push(Sun { name, direction: stand.ahead(), irradiance: strength }),
             "point" | "spot" => {

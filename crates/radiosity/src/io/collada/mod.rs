@@ -13,6 +13,7 @@ pub(crate) mod compose;
 mod exposed;
 mod file;
 mod images;
+mod light_text;
 mod lights;
 mod lit_mesh;
 mod material;
@@ -29,9 +30,10 @@ use super::error::FileError;
 use crate::expose::Exposure;
 use crate::mesh::element::Mesh;
 use crate::scene::{Scene, asset::Asset};
-use compose::text;
+use compose::text_with;
 use file::{File, child};
 use glam::DVec3;
+use light_text::WrittenLights;
 use model::Model;
 use std::path::Path;
 
@@ -57,11 +59,12 @@ impl Collada {
         }
     }
 
-    /// A new file of a scene, with a node for each patch. Read again, it has the same patches. Spectra are written as such,
-    /// beside their colours.
+    /// A new file of a scene, with a node for each patch. Read again, it has the same patches, lamps and suns. Spectra are written as such,
+    /// beside their colours. A measured lamp is written as even: COLLADA has no place for a table.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        Self::from_text("scene.dae", text(&Model::of(scene)))
+        let Scene { lamps, suns, wavelengths, .. } = scene;
+        Self::from_text("scene.dae", text_with(&Model::of(scene), &WrittenLights { lamps, suns, wavelengths }))
     }
 
     /// The file's text.

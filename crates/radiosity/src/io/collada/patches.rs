@@ -45,7 +45,7 @@ pub(super) fn patches<'a>(
     }
     for lamp in areas {
         let refused = |refusal| file.fault(lamp.instance.light, fault_of(refusal));
-        surfaces.add(&area_surface(file, lamp, &[facet(&lamp.corners)]), warnings).map_err(refused)?;
+        surfaces.add(&area_surface(lamp, &[facet(&lamp.corners)]), warnings).map_err(refused)?;
     }
     Ok(surfaces.named())
 }
@@ -62,7 +62,7 @@ fn fault_of(refusal: Refusal) -> Fault {
 }
 
 /// A lamp's outline as a surface: it shines and reflects nothing.
-fn area_surface<'s>(file: &File<'_>, lamp: &AreaLamp<'s, '_>, facets: &'s [Facet]) -> Surface<'s> {
+fn area_surface<'s>(lamp: &AreaLamp<'s, '_>, facets: &'s [Facet]) -> Surface<'s> {
     Surface {
         name: name_of(lamp.instance.visit.node, "light"),
         place: "",

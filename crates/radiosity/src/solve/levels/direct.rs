@@ -4,16 +4,22 @@
 //! large the leaf is; only what they leave is an error of what the leaf sends. The sky is looked at from the points of the leaf, as other
 //! tiles are.
 use super::flow::Linear;
-use super::tile::{INNER, OUTER, SQUARE};
+use super::tile::{INNER, OUTER, Outline, SQUARE};
 use super::tiling::{Tile, Tiling};
 use crate::error::Error;
 use crate::solve::lights::{Lights, LitPolygon};
 use crate::solve::workers::attempt;
 use formfactor::DifferentialArea;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// How many curvatures a mean over five points may be off by.
 const CUBATURE: f64 = 0.3;
+
+/// Shorter edges of shadows, beside what they cross, are not cut along.
+const SHORT: f64 = 1e-4;
+/// What lies on the rim of a tile within this share of its size is a part of that.
+const RIM: f64 = 1e-5;
 
 /// What lights bring to a tile, band by band, in the units of the bands.
 #[derive(Clone, Debug)]
@@ -27,6 +33,8 @@ struct TileLight {
     error: Vec<f64>,
     /// The axis along which the sky bends most.
     axis: usize,
+    /// The edges of shadows on it, in the frame of its patch.
+    edges: Vec<[DVec2; 2]>,
 }
 
 /// What lights bring to the tiles.
@@ -58,6 +66,7 @@ impl<'s> Direct<'s> {
                 deviation: vec![0.0; bands],
                 error: vec![0.0; bands],
                 axis: 0,
+                edges: Vec::new(),
             },
         }
     }
@@ -89,6 +98,7 @@ impl<'s> Direct<'s> {
         let linear = |at| tile.outline.linear(tiling.flatten(tile.patch, at));
         for lit in self.lights.lit(&tiling.enclosure, (tile.surface, &tile.polygon), linear) {
             self.add_beam(&mut light, tiling, tile, &lit);
+            light.edges.extend(shadow_edges(tiling, tile, &lit));
         }
         if self.lights.has_sky() && !is_closed {
             self.add_sky(&mut light, tiling, tile);
@@ -126,6 +136,20 @@ impl<'s> Direct<'s> {
             light.deviation[band] += strength * SQUARE.sqrt() * (long + short);
             light.error[band] += strength * CUBATURE * (long + short);
         }
+    }
+
+    /// The edge of a shadow of which most is inside a part of a leaf.
+    pub(super) fn edge_in(&self, leaf: usize, outline: &Outline) -> Option<[DVec2; 2]> {
+        let inside = self.of(leaf).edges.iter().map(|line| (outline.within(*line), line));
+        let (length, line) = inside.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        (length > SHORT * outline.axes[0].length()).then_some(*line)
+    }
+
+    /// The edges of all shadows on the leaves of each patch.
+    pub(super) fn edges(&self, tiling: &Tiling<'_>) -> Vec<Vec<[DVec2; 2]>> {
+        let mut edges = vec![Vec::new(); tiling.scene.patches.len()];
+        tiling.leaves().for_each(|leaf| edges[tiling.tiles[leaf].patch].extend(&self.of(leaf).edges));
+        edges
     }
 
     /// The light of a tile in a band.
@@ -175,6 +199,24 @@ impl<'s> Direct<'s> {
         let sums = lamps.iter().zip(&beyond).zip(tiling.units());
         sums.map(|((lamps, beyond), unit)| (lamps + beyond) / unit).collect()
     }
+}
+
+/// Those edges of what is lit that are no edges of the tile.
+fn shadow_edges(tiling: &Tiling<'_>, tile: &Tile, lit: &LitPolygon) -> Vec<[DVec2; 2]> {
+    let corners: Vec<DVec2> = tile.outline.corners.iter().map(|corner| corner.0).collect();
+    let near = RIM * tile.outline.axes[0].length();
+    let is_on_rim = |ends: &[DVec2; 2]| {
+        let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+        sides.map(|(a, b)| (a, (*b - *a).normalize_or_zero())).any(|(a, way)| {
+            ends.iter().all(|end| way.perp_dot(*end - *a).abs() <= near)
+        })
+    };
+    let flat = |ring: &Vec<DVec3>| {
+        let ring: Vec<DVec2> = ring.iter().map(|at| tiling.flatten(tile.patch, *at)).collect();
+        let next = ring.iter().copied().cycle().skip(1);
+        ring.iter().copied().zip(next).map(|(a, b)| [a, b]).collect::<Vec<_>>()
+    };
+    lit.rings.iter().flat_map(flat).filter(|ends| !is_on_rim(ends)).collect()
 }
 
 fn add(to: &mut Linear, strength: f64, light: Linear) {

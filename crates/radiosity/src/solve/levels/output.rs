@@ -115,15 +115,21 @@ impl LeafLight {
     }
 }
 
-/// A mesh of pieces of the leaves, and the leaf that each element is a part of.
-pub(super) fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, pieces: &[LeafPart]) -> Cover {
+/// A mesh of pieces of the leaves, and the leaf that each element is a part of. Light jumps where other patches touch, and at the edges of
+/// shadows of what is direct.
+pub(super) fn cover(
+    tiling: &Tiling<'_>,
+    equilibrium: &Equilibrium<'_>,
+    direct: &Direct<'_>,
+    pieces: &[LeafPart],
+) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
     for LeafPart { leaf, outline } in pieces {
         of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
     let mut cover = Cover::default();
-    for (patch, tiles) in of_patch.iter().enumerate() {
-        cover.add(patch, tiles, tiling.contacts(patch));
+    for (patch, (tiles, edges)) in of_patch.iter().zip(direct.edges(tiling)).enumerate() {
+        cover.add(patch, tiles, &[tiling.contacts(patch), &edges].concat());
     }
     cover
 }

@@ -56,7 +56,7 @@ impl Stand<'_> {
 
     /// The light on the leaves.
     pub(super) fn solution(&self, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
-        let cover = cover(self.tiling, equilibrium, &whole(self.tiling, equilibrium));
+        let cover = cover(self.tiling, equilibrium, self.direct, &whole(self.tiling, equilibrium));
         Solution { products: self.products, ..solution(self.tiling, equilibrium, light, cover) }
     }
 
@@ -77,7 +77,7 @@ impl Stand<'_> {
         let mut ask = || self.show(watch, state);
         let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
         let Some(pieces) = pieces else { return Ok(None) };
-        let cover = cover(tiling, equilibrium, &pieces);
+        let cover = cover(tiling, equilibrium, direct, &pieces);
         let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
         let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
         let solution = solution(tiling, equilibrium, light, cover);

@@ -212,10 +212,22 @@ impl<'s> Tiling<'s> {
 
     /// The halves of an outline on a patch: cut along a contact in it if there is one, else across one of its axes through the centroid.
     pub(super) fn cut(&self, patch: usize, outline: &Outline, axis: usize) -> Option<[Outline; 2]> {
+        self.cut_along(patch, outline, None, axis)
+    }
+
+    /// The same: where there is no contact, along an edge of light on it, if that is given.
+    pub(super) fn cut_along(
+        &self,
+        patch: usize,
+        outline: &Outline,
+        edge: Option<[DVec2; 2]>,
+        axis: usize,
+    ) -> Option<[Outline; 2]> {
         let frame = self.bases[patch].frame;
         let cut = |line| outline.cut(line, |flat| frame.lift(flat));
-        let contact = self.contact_in(patch, outline).and_then(|[start, end]| cut([start, end - start]));
-        contact.or_else(|| cut(outline.across(axis)))
+        let contact = self.contact_in(patch, outline).into_iter().chain(edge);
+        let along = contact.filter_map(|[start, end]| cut([start, end - start])).next();
+        along.or_else(|| cut(outline.across(axis)))
     }
 
     /// Whether something else stands on an outline.

@@ -30,7 +30,7 @@ const NEAR: f64 = 0.05;
 pub(super) struct Sights<'s> {
     pub(super) tiling: &'s Tiling<'s>,
     links: &'s [Link],
-    direct: &'s Direct<'s>,
+    pub(super) direct: &'s Direct<'s>,
     of_tile: Vec<Sight>,
     /// What each tile sends, band by band, and 1 of each: what comes of that is ΣF.
     sent: Vec<Vec<Linear>>,

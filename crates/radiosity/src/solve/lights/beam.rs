@@ -71,13 +71,13 @@ impl<'s> Beam<'s> {
         }
     }
 
-    /// The integrals over the lit part of a convex polygon, a part of a surface; nothing where it turns its back.
-    pub(super) fn moments(
+    /// The rings of the lit part of a convex polygon, a part of a surface, and the integrals over it; nothing where it turns its back.
+    pub(super) fn lit(
         &self,
         enclosure: &Enclosure,
         (surface, part): (usize, &PlanarPolygon),
         linear: impl Fn(DVec3) -> [f64; 2],
-    ) -> Option<Moments> {
+    ) -> Option<(Vec<Vec<DVec3>>, Moments)> {
         let normal = part.normal();
         let corners = part.loops().next()?;
         let eye = DifferentialArea::new(self.eye, -normal).ok()?;
@@ -88,10 +88,11 @@ impl<'s> Beam<'s> {
             let next = ring.iter().cycle().skip(1);
             ring.iter().zip(next).map(|(a, b)| [apex, *a, *b].map(place)).collect::<Vec<_>>()
         };
-        let lit = enclosure.visible_part(&eye, surface, part);
-        let triangles: Vec<[Place; 3]> = lit.rings().flat_map(|ring| fan(&ring)).collect();
+        let rings: Vec<Vec<DVec3>> = enclosure.visible_part(&eye, surface, part).rings().collect();
+        let triangles: Vec<[Place; 3]> = rings.iter().flat_map(fan).collect();
         let size = |triangle: &[Place; 3]| self.size(triangle);
-        Some(moments(&triangles, normal, |at| self.share(at, normal), size))
+        let moments = moments(&triangles, normal, |at| self.share(at, normal), size);
+        (moments.square > 0.0).then_some((rings, moments))
     }
 
     /// How large a triangle is beside what can be taken at once: 0 where the beam misses it.

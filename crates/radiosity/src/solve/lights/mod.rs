@@ -30,11 +30,13 @@ pub(super) struct Lights<'s> {
 }
 
 /// What a beam brings to a convex polygon.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct LitPolygon {
     /// Which beam.
     pub(super) beam: usize,
     pub(super) moments: Moments,
+    /// What it lights: counter-clockwise seen from the front, holes clockwise.
+    pub(super) rings: Vec<Vec<DVec3>>,
 }
 
 impl<'s> Lights<'s> {
@@ -100,8 +102,8 @@ impl<'s> Lights<'s> {
         linear: impl Fn(DVec3) -> [f64; 2],
     ) -> Vec<LitPolygon> {
         let lit = |(index, beam): (usize, &Beam<'_>)| {
-            let moments = beam.moments(enclosure, (surface, part), &linear)?;
-            Some(LitPolygon { beam: index, moments })
+            let (rings, moments) = beam.lit(enclosure, (surface, part), &linear)?;
+            Some(LitPolygon { beam: index, moments, rings })
         };
         self.beams.iter().enumerate().filter_map(lit).collect()
     }
