@@ -57,7 +57,7 @@ fn cie_171_case_5_2_a_lambertian_lamp_over_a_floor() {
         at_vertices(&solution, |place| wanted(place.x, place.y));
         let eye = DifferentialArea::new(lamp.position, DVec3::NEG_Z).unwrap();
         let mean = PI * 1000.0 * unoccluded(&eye, &scene.patches[0].polygon).value / 16.0;
-        near(means(&scene, &solution)[0], mean, if method == Method::Hierarchical { 1e-7 } else { 1e-2 });
+        near(means(&scene, &solution)[0], mean, if method == Method::Hierarchical { 1e-6 } else { 1e-2 });
         near(solution.ledger.emitted[0], 1000.0 * PI, 1e-9);
         near(solution.ledger.absorbed[0] + solution.ledger.escaped[0], 1000.0 * PI, 1e-9);
     }
@@ -71,8 +71,8 @@ fn cie_171_case_5_8_a_lamp_in_a_cube() {
         let cube = scene(room([0.0; 3], [4.0; 3], 1, reflectance, 0.0));
         let cube = Scene { lamps: vec![lamp], ..cube };
         for method in METHODS {
-            let solution = solved(&cube, &by(method));
-            let share = if method == Method::Hierarchical { 1e-4 } else { 2e-2 };
+            let solution = solved(&cube, &Options { error: 1e-3, ..by(method) });
+            let share = if method == Method::Hierarchical { 1e-3 } else { 2e-2 };
             means(&cube, &solution).into_iter().for_each(|mean| near(mean, wanted, share));
             assert!(solution.ledger.escaped[0].abs() < share * 10_000.0);
             assert!(solution.ledger.defect[0].abs() < 1e-8 * 10_000.0);
@@ -95,13 +95,22 @@ fn shadows_of_points_have_exact_edges() {
     let found = means(&covered, &solution);
     near(found[0] * 16.0, 7.0 * (solid_angle(2.0, 3.0) - solid_angle(0.3, 1.0)), 1e-6);
     near(found[1] * 0.36, 7.0 * solid_angle(0.3, 1.0), 1e-6);
-    at_vertices(&solution, |place| {
-        let (height, is_hidden) = (3.0 - place.z, place.z == 0.0 && place.x.abs().max(place.y.abs()) < 0.9);
-        let off = if place.z == 2.0 { f64::NAN } else { 1.0 };
-        let light = 7.0 * height / (height * height + place.x * place.x + place.y * place.y).powf(1.5);
-        // The rim of the board is shown a little inside.
-        if is_hidden { 0.0 } else if off.is_nan() { f64::INFINITY } else { light }
-    });
+    // The edge of the shadow is an edge of elements, on both sides of which vertices have their own light.
+    let light = |place: DVec3| 21.0 / (9.0 + place.x * place.x + place.y * place.y).powf(1.5);
+    let vertices = solution.mesh.vertices.iter().zip(solution.vertex_irradiance());
+    let mut on_edge = [0, 0];
+    for (place, found) in vertices.filter(|(place, _)| place.z == 0.0) {
+        let reach = place.x.abs().max(place.y.abs());
+        if (reach - 0.9).abs() < 1e-9 {
+            on_edge[usize::from(found > 0.0)] += 1;
+        } else if reach < 0.9 {
+            assert_eq!(found, 0.0, "{place}");
+        } else {
+            near(found, light(*place), 5e-3);
+        }
+    }
+    assert!(on_edge[0] >= 4 && on_edge[1] >= 4, "{on_edge:?}");
+    assert!(solution.mesh.elements.len() < 2000, "{}", solution.mesh.elements.len());
 }
 
 #[test]

@@ -41,8 +41,8 @@ struct TileLight {
 #[derive(Debug)]
 pub(super) struct Direct<'s> {
     pub(super) lights: Lights<'s>,
-    /// For each tile, where it was a leaf when that was found.
-    of_tile: Vec<Option<TileLight>>,
+    /// For each tile, as it was found or as it is a part of what its parent has; and whether it was found.
+    of_tile: Vec<(TileLight, bool)>,
     none: TileLight,
 }
 
@@ -76,20 +76,32 @@ impl<'s> Direct<'s> {
     /// # Errors
     /// [`Error::Defect`] when what a light sees cannot be found.
     pub(super) fn grow(&mut self, tiling: &Tiling<'_>, sums: &[Option<f64>]) -> Result<(), Error> {
-        self.of_tile.resize(tiling.tiles.len(), None);
+        self.inherit(tiling);
         if self.lights.is_empty() {
             return Ok(());
         }
-        let open: Vec<usize> = tiling.leaves().filter(|&leaf| self.of_tile[leaf].is_none()).collect();
+        let open: Vec<usize> = tiling.leaves().filter(|&leaf| !self.of_tile[leaf].1).collect();
         let find = |&leaf: &usize| {
             let name = &tiling.scene.patches[tiling.tiles[leaf].patch].name;
-            attempt(name, || self.find(tiling, leaf, sums[leaf].is_some()))
+            attempt(name, || self.find(tiling, leaf, sums[leaf] == Some(1.0)))
         };
         let found: Vec<Result<TileLight, Error>> = open.par_iter().map(find).collect();
         for (leaf, light) in open.into_iter().zip(found) {
-            self.of_tile[leaf] = Some(light?);
+            self.of_tile[leaf] = (light?, true);
         }
         Ok(())
+    }
+
+    /// Takes in tiles that were cut since: until their own light is found they have their parents'.
+    pub(super) fn inherit(&mut self, tiling: &Tiling<'_>) {
+        for tile in &tiling.tiles[self.of_tile.len()..] {
+            let mut light = tile.parent.map_or_else(|| self.none.clone(), |parent| self.of_tile[parent].0.clone());
+            if tile.parent.is_some() {
+                light.received.iter_mut().for_each(|received| *received = tile.restrict(*received));
+                light.edges.clear();
+            }
+            self.of_tile.push((light, false));
+        }
     }
 
     fn find(&self, tiling: &Tiling<'_>, leaf: usize, is_closed: bool) -> TileLight {
@@ -174,7 +186,7 @@ impl<'s> Direct<'s> {
     }
 
     fn of(&self, tile: usize) -> &TileLight {
-        self.of_tile.get(tile).and_then(Option::as_ref).unwrap_or(&self.none)
+        self.of_tile.get(tile).map_or(&self.none, |(light, _)| light)
     }
 
     /// What is wrong with the light of a band.

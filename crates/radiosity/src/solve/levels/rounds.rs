@@ -253,6 +253,7 @@ impl Levels<'_> {
                 let whole = sent[tile];
                 sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
             }
+            self.direct.inherit(&self.tiling);
         }
         Ok(halves)
     }

@@ -131,8 +131,14 @@ impl<'s> Sights<'s> {
         Ok(Some(all))
     }
 
-    /// What a point of a tile receives: of even light 1 where ΣF is 1, nothing where something stands on the tile.
+    /// What a point of a tile receives: from tiles, and straight from lights.
     fn at(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
+        let straight = self.direct.at(self.tiling, point);
+        self.from_tiles(tile, point).into_iter().zip(straight).map(|(light, straight)| light + straight).collect()
+    }
+
+    /// What a point of a tile receives from tiles: of even light 1 where ΣF is 1, nothing where something stands on the tile.
+    fn from_tiles(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
         let mut light = vec![0.0f64; self.sent.len()];
         if self.known[tile] == Some(0.0) {
             light.pop();
@@ -157,8 +163,7 @@ impl<'s> Sights<'s> {
             }
         }
         let sum = light.pop().filter(|sum| *sum > 0.0 && self.known[leaf] == Some(1.0)).unwrap_or(1.0);
-        let straight = self.direct.at(self.tiling, point);
-        light.into_iter().zip(straight).map(|(light, straight)| (light / sum).max(0.0) + straight).collect()
+        light.into_iter().map(|light| (light / sum).max(0.0)).collect()
     }
 }
 
