@@ -70,9 +70,9 @@ fn cie_171_case_5_8_a_lamp_in_a_cube() {
         let lamp = Lamp::even("lamp", DVec3::splat(2.0), vec![10_000.0 / (4.0 * PI)]);
         let cube = scene(room([0.0; 3], [4.0; 3], 1, reflectance, 0.0));
         let cube = Scene { lamps: vec![lamp], ..cube };
-        for method in METHODS {
-            let solution = solved(&cube, &Options { error: 1e-3, ..by(method) });
-            let share = if method == Method::Hierarchical { 1e-3 } else { 2e-2 };
+        for method in if reflectance == 0.6 { &METHODS[..] } else { &METHODS[..1] } {
+            let solution = solved(&cube, &Options { error: 3e-3, ..by(*method) });
+            let share = if *method == Method::Hierarchical { 3e-3 } else { 2e-2 };
             means(&cube, &solution).into_iter().for_each(|mean| near(mean, wanted, share));
             assert!(solution.ledger.escaped[0].abs() < share * 10_000.0);
             assert!(solution.ledger.defect[0].abs() < 1e-8 * 10_000.0);
@@ -158,7 +158,7 @@ fn a_sky_lights_level_and_upright_surfaces_by_its_closed_forms() {
         (SkyKind::Uniform, PI, PI / 2.0, PI * (1.0 + 0.5f64.sqrt()) / 2.0),
         (SkyKind::Overcast, 7.0 / 9.0 * PI, PI / 6.0 + 4.0 / 9.0, f64::NAN),
     ] {
-        for method in METHODS {
+        for method in [Method::Hierarchical, Method::Shoot] {
             let mut open = under(kind, floor());
             open.patches.push(wall.clone());
             open.patches.push(tilted.clone());
@@ -265,10 +265,10 @@ fn mixed() -> Scene {
 #[test]
 fn all_methods_find_the_same_light_and_their_ledgers_close() {
     let mixed = mixed();
-    let exact = solved(&mixed, &Options { error: 3e-3, ..by(Method::Hierarchical) });
+    let exact = solved(&mixed, &by(Method::Hierarchical));
     let wanted = means(&mixed, &exact);
     for method in METHODS {
-        let solution = solved(&mixed, &Options { elements: 3000, ..by(method) });
+        let solution = solved(&mixed, &Options { elements: 1500, ..by(method) });
         let ledger = &solution.ledger;
         assert!(solution.converged && ledger.defect[0].abs() < 1e-9 * ledger.emitted[0], "{ledger:?}");
         for (found, wanted) in means(&mixed, &solution).into_iter().zip(&wanted) {

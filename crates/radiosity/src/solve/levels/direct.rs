@@ -16,6 +16,8 @@ use rayon::prelude::*;
 /// How many curvatures a mean over five points may be off by.
 const CUBATURE: f64 = 0.3;
 
+/// How many leaves are looked at before the caller is asked whether to go on.
+const BATCH: usize = 1024;
 /// Shorter edges of shadows, beside what they cross, are not cut along.
 const SHORT: f64 = 1e-4;
 /// What lies on the rim of a tile within this share of its size is a part of that.
@@ -71,25 +73,28 @@ impl<'s> Direct<'s> {
         }
     }
 
-    /// Finds the light of all leaves of which it is not known. `sums` is ΣF of the tiles of which it is known: a closed room has no sky.
+    /// Finds the light of some of the leaves of which it is not known; true when it is known of all. `sums` is ΣF of the tiles of which it is
+    /// known: a closed room has no sky.
     ///
     /// # Errors
     /// [`Error::Defect`] when what a light sees cannot be found.
-    pub(super) fn grow(&mut self, tiling: &Tiling<'_>, sums: &[Option<f64>]) -> Result<(), Error> {
+    pub(super) fn grow(&mut self, tiling: &Tiling<'_>, sums: &[Option<f64>]) -> Result<bool, Error> {
         self.inherit(tiling);
         if self.lights.is_empty() {
-            return Ok(());
+            return Ok(true);
         }
-        let open: Vec<usize> = tiling.leaves().filter(|&leaf| !self.of_tile[leaf].1).collect();
+        let unknown = tiling.leaves().filter(|&leaf| !self.of_tile[leaf].1);
+        let open: Vec<usize> = unknown.take(BATCH).collect();
         let find = |&leaf: &usize| {
             let name = &tiling.scene.patches[tiling.tiles[leaf].patch].name;
             attempt(name, || self.find(tiling, leaf, sums[leaf] == Some(1.0)))
         };
         let found: Vec<Result<TileLight, Error>> = open.par_iter().map(find).collect();
+        let is_all = open.len() < BATCH;
         for (leaf, light) in open.into_iter().zip(found) {
             self.of_tile[leaf] = (light?, true);
         }
-        Ok(())
+        Ok(is_all)
     }
 
     /// Takes in tiles that were cut since: until their own light is found they have their parents'.

@@ -76,13 +76,13 @@ impl Levels<'_> {
             .collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
         self.links.open(&self.tiling, links, self.options.error);
-        if !self.shine()? {
+        if !self.shine(state)? {
             return Ok(false);
         }
         self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
         for times in COARSE {
             loop {
-                if !self.shine()? {
+                if !self.shine(state)? {
                     return Ok(false);
                 }
                 let mut lights = self.settle(FEW, false);
@@ -115,15 +115,21 @@ impl Levels<'_> {
         Ok(Some(links))
     }
 
-    /// Finds what lights bring to the leaves; false when something is found to be broken.
-    fn shine(&mut self) -> Result<bool, Error> {
+    /// Finds what lights bring to the leaves; false when the watcher wants to stop or something is found to be broken.
+    fn shine(&mut self, state: &State) -> Result<bool, Error> {
         self.links.enclose(&self.tiling);
-        match self.direct.grow(&self.tiling, &self.links.known(&self.tiling)) {
-            Err(defect @ Error::Defect { .. }) => {
-                self.fault = Some(defect);
-                Ok(false)
+        let known = self.links.known(&self.tiling);
+        loop {
+            match self.direct.grow(&self.tiling, &known) {
+                Ok(true) => return Ok(true),
+                Ok(false) if self.report(state).is_continue() => {}
+                Ok(false) => return Ok(false),
+                Err(defect @ Error::Defect { .. }) => {
+                    self.fault = Some(defect);
+                    return Ok(false);
+                }
+                Err(error) => return Err(error),
             }
-            found => found.map(|()| true),
         }
     }
 
@@ -260,7 +266,8 @@ impl Levels<'_> {
 
     /// The solution, with an estimate of its error.
     fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
-        let most = if converged && self.shine()? { ALL } else { 0 };
+        let converged = converged && self.shine(state)?;
+        let most = if converged { ALL } else { 0 };
         let lights = self.settle(most, true);
         if self.options.record {
             // The run is over: there is nothing to stop.
