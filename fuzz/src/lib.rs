@@ -3,9 +3,11 @@
 use peak_alloc::PeakAlloc;
 use radiosity::expose::Exposure;
 use radiosity::glam::DVec3;
+use radiosity::inspect::coplanar_overlaps;
+use radiosity::io::Source;
 use radiosity::io::collada::Collada;
 use radiosity::io::gltf::{Gltf, glb};
-use radiosity::{Patch, PatchRecord, Photometry, Record, Scene};
+use radiosity::{Patch, PatchRecord, Photometry, Record, Repaired, Scene, needed_sides, repair};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -62,11 +64,30 @@ pub fn survives_writing(scene: &Scene) {
 /// # Panics
 /// When an intensity is negative, or the flux not finite.
 pub fn is_sound_photometry(table: &Photometry) {
-    for (x, y, z) in (0..343).map(|k| (k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3)).filter(|way| *way != (0, 0, 0)) {
+    for (x, y, z) in (0..343).map(|k| (k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3)).filter(|way| *way != (0, 0, 0))
+    {
         let candela = table.candela(DVec3::new(f64::from(x), f64::from(y), f64::from(z)));
         assert!(candela >= 0.0, "{candela} cd along {x} {y} {z}");
     }
     assert!(table.lumens().is_finite(), "{}", table.lumens());
+}
+
+/// Repairs a scene that a file has, writes the file repaired, and reads that.
+///
+/// # Panics
+/// When two repaired patches overlap, or the repaired file is refused.
+pub fn survives_repair(file: &Source, scene: &Scene) {
+    let before = needed_sides(scene);
+    let Repaired { scene: after, .. } = repair(&before);
+    let overlaps = coplanar_overlaps(&after);
+    assert!(overlaps.is_empty(), "{overlaps:?}");
+    let written = match file {
+        Source::Collada(file) => file.repaired(&before, &after).map(String::into_bytes),
+        Source::Gltf(file) => file.repaired(&before, &after),
+        _ => return,
+    };
+    let written = written.expect("a file that was read");
+    Source::from_bytes("repaired", written).and_then(|file| file.scene()).expect("a file that can be read");
 }
 
 /// What a file must keep of a patch, every number to the last bit: −0 is written as 0.

@@ -515,12 +515,17 @@ fn a_material_emits_what_the_command_line_says() {
     let (dark, lit) = (dark(&folder), "light=17,12,4");
     let by_option = radiosity(&["solve", &dark, "--json", "--elements", "200", "--emit", lit]);
     assert_eq!(code(&by_option), 0, "{}", stderr(&by_option));
-    let box_file = folder.put("lit.dae", &String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text"));
+    let box_file =
+        folder.put("lit.dae", &String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text"));
     let by_file = radiosity(&["solve", &box_file, "--json", "--elements", "200"]);
     assert_eq!(json(&by_option)["patches"], json(&by_file)["patches"]);
     let unknown = radiosity(&["solve", &dark, "--json", "--emit", "lamp=1"]);
     assert_eq!(code(&unknown), 2);
-    assert!(stderr(&unknown).contains("no material is named \"lamp\"; the scene has"), "{}", stderr(&unknown));
+    assert!(
+        stderr(&unknown).contains("no material is named \"lamp\"; the scene has"),
+        "{}",
+        stderr(&unknown)
+    );
 }
 
 #[test]
@@ -528,7 +533,17 @@ fn lumens_stand_beside_watts() {
     let folder = Folder::new();
     let dark = dark(&folder);
     let solve = |units: &str| {
-        let output = radiosity(&["solve", &dark, "--json", "--elements", "100", "--sky", "overcast=100", "--units", units]);
+        let output = radiosity(&[
+            "solve",
+            &dark,
+            "--json",
+            "--elements",
+            "100",
+            "--sky",
+            "overcast=100",
+            "--units",
+            units,
+        ]);
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         json(&output)
     };

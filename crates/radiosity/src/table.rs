@@ -10,7 +10,8 @@ pub fn patch_table(record: &Record) -> String {
     let groups = &groups[..if is_estimated { 5 } else { 4 }];
     let is_luminous = !record.lumens.is_empty();
     let last = is_luminous.then(|| "illuminance".to_owned());
-    let header = ["patch", "area"].map(Into::into).into_iter().chain(columns(groups, record.bands)).chain(last);
+    let header =
+        ["patch", "area"].map(Into::into).into_iter().chain(columns(groups, record.bands)).chain(last);
     let row = |patch: &PatchRecord| {
         let lux: f64 = patch.irradiance.iter().zip(&record.lumens).map(|(h, lumens)| h * lumens).sum();
         let values =

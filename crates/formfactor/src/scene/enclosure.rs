@@ -1,9 +1,9 @@
 //! Enclosures: many polygons that see and hide each other.
+use super::line::LineOfSight;
 use super::{body::Bodies, pool::Pool, shaft::Shaft, shell::Adjacency, surfaces::Surfaces, tree::Tree};
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
-use super::line::LineOfSight;
 use crate::numeric::predicates::place;
 use crate::pipeline::{self, Reach};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};

@@ -32,11 +32,7 @@ impl Photometry {
     /// A table of half-planes: the azimuth and the candela of each; both angles ascend, in radians.
     ///
     /// One half-plane stands for all.
-    pub(crate) fn new(
-        heights: Vec<f64>,
-        planes: Vec<(f64, Vec<f64>)>,
-        symmetry: Symmetry,
-    ) -> Photometry {
+    pub(crate) fn new(heights: Vec<f64>, planes: Vec<(f64, Vec<f64>)>, symmetry: Symmetry) -> Photometry {
         let planes = around(planes, symmetry);
         let azimuths = planes.iter().map(|plane| plane.0).collect();
         Photometry { azimuths, heights, candela: planes.into_iter().flat_map(|plane| plane.1).collect() }

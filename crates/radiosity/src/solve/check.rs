@@ -33,7 +33,8 @@ fn check_lights(scene: &Scene) -> Result<(), Error> {
         }
     };
     for lamp in &scene.lamps {
-        DifferentialArea::new(lamp.position, DVec3::Z).map_err(|_| refused(&lamp.name, "it stands nowhere"))?;
+        DifferentialArea::new(lamp.position, DVec3::Z)
+            .map_err(|_| refused(&lamp.name, "it stands nowhere"))?;
         bands(&lamp.name, &lamp.intensity)?;
         bands(&lamp.name, &lamp.power())?;
     }

@@ -1,6 +1,8 @@
 //! Exact form factors from the elements to the pieces.
 use super::state::{Column, State};
-use super::{fingerprint, hemicube::Hemicubes, light::DirectLight, lights::Lights, occluders::Occluders, workers};
+use super::{
+    fingerprint, hemicube::Hemicubes, light::DirectLight, lights::Lights, occluders::Occluders, workers,
+};
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;

@@ -93,7 +93,8 @@ impl Light {
 
     /// Of the power that is emitted, what lights bring to the elements and these absorb, and what misses them: per band.
     pub(super) fn spent_directly(&self) -> [Vec<f64>; 2] {
-        let kept: Vec<f64> = self.direct.iter().zip(&self.reflectance).map(|(h, rho)| h * (1.0 - rho)).collect();
+        let kept: Vec<f64> =
+            self.direct.iter().zip(&self.reflectance).map(|(h, rho)| h * (1.0 - rho)).collect();
         let (own, received) = (self.total(&self.emittance), self.total(&self.direct));
         let missed = self.emitted.iter().zip(own).zip(received);
         [self.total(&kept), missed.map(|((emitted, own), received)| emitted - own - received).collect()]

@@ -28,7 +28,10 @@ fn an_even_table_shines_alike_everywhere() {
     let table = parse_ies("even.ies", text.as_bytes()).unwrap();
     near(at(&table, 12.0, 34.0), 100.0);
     near(table.lumens(), 400.0 * PI);
-    let lamp = Lamp { distribution: Distribution::Measured(table.into()), ..Lamp::even("lamp", DVec3::ZERO, vec![2.0]) };
+    let lamp = Lamp {
+        distribution: Distribution::Measured(table.into()),
+        ..Lamp::even("lamp", DVec3::ZERO, vec![2.0])
+    };
     near(lamp.share(DVec3::new(1.0, -5.0, 0.3)), 100.0);
     near(lamp.power()[0], 800.0 * PI);
 }
@@ -98,7 +101,10 @@ fn bad_photometry_is_refused_with_its_line() {
     assert!(refused("IESNA:LM-63-2002\nTILT=lamp.tlt\n").contains("bad.ies:2: \"lamp.tlt\""));
     assert!(refused(head).contains("0 values stand where 2 are needed"));
     assert!(refused(&format!("{head}0 90\n0\n1 x\n")).contains("bad.ies:6: \"x\" is not a finite number"));
-    assert!(refused(&format!("{head}90 0\n0\n1 2\n")).contains("bad.ies:4: \"0\" stands where an ascending angle"));
+    assert!(
+        refused(&format!("{head}90 0\n0\n1 2\n"))
+            .contains("bad.ies:4: \"0\" stands where an ascending angle")
+    );
     assert!(refused(&format!("{head}0 90\n0\n1 -2\n")).contains("bad.ies:6: the colour -2 is negative"));
     assert!(refused(&format!("{head}0 90\n45\n1 2\n")).contains("bad.ies:5"));
     assert!(refused(&head.replace(" 2 1 1 2", " 2 1 2 2")).contains("type 1 (C)"));

@@ -116,7 +116,9 @@ fn shadows_of_points_have_exact_edges() {
 #[test]
 fn a_spot_lights_what_is_in_its_cone() {
     let cosine = 0.95f64;
-    for (inner, outer, rim) in [(cosine, cosine, Rim::Squared), (0.97, 0.93, Rim::Squared), (0.97, 0.93, Rim::Smooth)] {
+    for (inner, outer, rim) in
+        [(cosine, cosine, Rim::Squared), (0.97, 0.93, Rim::Squared), (0.97, 0.93, Rim::Smooth)]
+    {
         let cone = Cone { exponent: 0.0, inner, outer, rim };
         let lamp = down("spot", [0., 0., 3.], Distribution::Cone(cone), 10.0);
         let within = 1.0 - inner + (inner - outer) * if rim == Rim::Squared { 1.0 / 3.0 } else { 0.5 };
@@ -219,7 +221,8 @@ fn a_skylight_shows_as_much_of_the_sky_as_it_has_of_a_form_factor() {
             SkyKind::Overcast => 2.0 * through(place),
         };
         let vertices = solution.mesh.vertices.iter().zip(solution.vertex_irradiance());
-        let on_floor = vertices.filter(|(place, _)| place.z == 0.0 && place.x.abs().max(place.y.abs()) < 1.999);
+        let on_floor =
+            vertices.filter(|(place, _)| place.z == 0.0 && place.x.abs().max(place.y.abs()) < 1.999);
         let mut count = 0;
         for (place, found) in on_floor {
             near(found, wanted(*place), if kind == SkyKind::Uniform { 1e-9 } else { 1e-3 });

@@ -34,12 +34,13 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     }
     let options = options(arguments)?;
     let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
-    let (mut scene, source) = input::read(&arguments.scene)?;
-    light(&mut scene, &arguments.lights)?;
+    let lit = |scene: &mut Scene| light(scene, &arguments.lights);
+    let input = input::read_repaired(&arguments.scene, arguments.reading, lit)?;
+    let scene = &input.scene;
     let mut state = resume(arguments.resume.as_deref())?;
-    let writer = SolveOutputs { arguments, outputs: &outputs, source: &source, scene: &scene };
+    let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
-    let solution = radiosity::solve_from(&scene, &options, &mut state, |progress| follower.follow(progress));
+    let solution = radiosity::solve_from(scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
@@ -48,7 +49,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json {
         print(&figures)?;
     }
-    report(&scene, &solution);
+    report(scene, &solution);
     warn_of_darkness(&solution.ledger.emitted);
     Ok(follower.code(&solution))
 }

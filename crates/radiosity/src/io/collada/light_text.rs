@@ -1,7 +1,7 @@
 //! Lamps and suns as COLLADA text: as the format has them, and exactly in an `<extra>` of this program's own.
 use super::spectra::PROFILE;
-use super::xml::{decimal, list};
 use crate::escape::escape;
+use crate::io::words::{decimal, list};
 use crate::scene::lamp::{Cone, Distribution, Lamp, Rim};
 use crate::scene::sky::Sun;
 use crate::spectrum::Colours;
@@ -32,7 +32,11 @@ impl WrittenLights<'_> {
     pub(super) fn nodes(&self) -> String {
         let lamps = self.lamps.iter().map(|lamp| (&lamp.name, lamp.position, lamp.frame));
         let suns = self.suns.iter().map(|sun| (&sun.name, DVec3::ZERO, ahead(sun.direction.normalize())));
-        lamps.chain(suns).enumerate().map(|(index, (name, place, frame))| node(index, name, place, frame)).collect()
+        lamps
+            .chain(suns)
+            .enumerate()
+            .map(|(index, (name, place, frame))| node(index, name, place, frame))
+            .collect()
     }
 
     fn light(&self, index: usize, kind: &str, bands: &[f64], cone: Option<&Cone>) -> String {

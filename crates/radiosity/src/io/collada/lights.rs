@@ -71,7 +71,11 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
         let common = child(self.instance.light, "technique_common");
         let kind = common.and_then(|common| common.children().find(XmlNode::is_element));
         let Some(kind) = kind else {
-            warnings.push(self.left_out("it has no common technique", "export it as a point, spot or sun"));
+            self.leave_out(
+                warnings,
+                "a light without a common technique",
+                "export it as a point, spot or sun",
+            );
             return Ok(());
         };
         let colour = self.colour(kind)?;
@@ -80,11 +84,11 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
             return Ok(());
         }
         if !strength.iter().all(|band| band.is_finite()) {
-            warnings.push(self.left_out("its strength is beyond all numbers", "correct its colour or attenuation"));
+            self.leave_out(warnings, "a light beyond all numbers", "correct its colour or attenuation");
             return Ok(());
         }
         let Some(stand) = Stand::of(self.instance.visit.world) else {
-            warnings.push(self.left_out("its transform leaves it no direction", "correct the node's transform"));
+            self.leave_out(warnings, "a light without a direction", "correct the node's transform");
             return Ok(());
         };
         let name = name_of(self.instance.visit.node, "light").to_owned();
@@ -96,7 +100,11 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
                 if emission.iter().all(|band| band.is_finite()) {
                     all.areas.push(AreaLamp { instance: self.instance, corners, emission });
                 } else {
-                    warnings.push(self.left_out("its area is nothing", "correct its size or its node's scale"));
+                    self.leave_out(
+                        warnings,
+                        "a lamp without an area",
+                        "correct its size or its node's scale",
+                    );
                 }
             }
             "directional" => all.suns.push(Sun { name, direction: stand.ahead(), irradiance: strength }),
@@ -105,12 +113,15 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
                 all.lamps.push(stand.lamp(name, distribution, strength));
             }
             other => {
-                let what = format!("{other} lights are not read");
-                warnings.push(self.left_out(&what, "let `--sky` light the scene from all around"));
+                let repair = "let --sky light the scene from all around";
+                self.leave_out(warnings, &format!("a light of kind {other}"), repair);
             }
         }
         if self.blender().is_none() && own(self.instance.light).is_none() {
-            warnings.push(self.without_unit());
+            let what =
+                "COLLADA gives lights no unit: a colour is taken as W/sr, of a directional light as W/m²";
+            let repair = "compare its brightness with that of other lights";
+            Finding::note(warnings, self.file.place(self.instance.light), what, repair);
         }
         Ok(())
     }
@@ -119,9 +130,9 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
     fn colour(&self, kind: XmlNode<'a>) -> Result<[f64; 3], FileError> {
         let Some(element) = child(kind, "color") else { return Ok([1.0; 3]) };
         let numbers = self.file.numbers(element)?;
-        let [red, green, blue] = *numbers.first_chunk().ok_or_else(|| {
-            self.file.fault(element, Fault::Count { found: numbers.len(), wanted: 3 })
-        })?;
+        let [red, green, blue] = *numbers
+            .first_chunk()
+            .ok_or_else(|| self.file.fault(element, Fault::Count { found: numbers.len(), wanted: 3 }))?;
         match [red, green, blue].into_iter().find(|band| *band < 0.0) {
             Some(band) => Err(self.file.fault(element, Fault::Negative(band))),
             None => Ok([red, green, blue]),
@@ -175,7 +186,9 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
         let text = element.text().unwrap_or_default();
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let number = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
-        let rim = |word: &str| [("squared", Rim::Squared), ("smooth", Rim::Smooth)].into_iter().find(|r| r.0 == word);
+        let rim = |word: &str| {
+            [("squared", Rim::Squared), ("smooth", Rim::Smooth)].into_iter().find(|r| r.0 == word)
+        };
         let cone = match words[..] {
             [exponent, inner, outer, rim_word] => {
                 number(exponent).zip(number(inner)).zip(number(outer)).zip(rim(rim_word))
@@ -183,11 +196,15 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
             _ => None,
         };
         let cone = cone.map(|(((exponent, inner), outer), (_, rim))| Cone { exponent, inner, outer, rim });
-        let is_sound =
-            |cone: &Cone| cone.exponent >= 0.0 && -1.0 <= cone.outer && cone.outer <= cone.inner && cone.inner <= 1.0;
+        let is_sound = |cone: &Cone| {
+            cone.exponent >= 0.0 && -1.0 <= cone.outer && cone.outer <= cone.inner && cone.inner <= 1.0
+        };
         cone.filter(is_sound).ok_or_else(|| {
             let found = text.chars().take(40).collect();
-            self.file.fault(element, Fault::Word { found, wanted: "an exponent, two cosines and squared or smooth" })
+            self.file.fault(
+                element,
+                Fault::Word { found, wanted: "an exponent, two cosines and squared or smooth" },
+            )
         })
     }
 
@@ -229,16 +246,8 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
         }
     }
 
-    fn left_out(&self, why: &str, repair: &str) -> Finding {
+    fn leave_out(&self, warnings: &mut Vec<Finding>, what: &str, repair: &str) {
         let place = self.file.place(self.instance.light);
-        Finding::of_file(format!("{place}: {why}; the light is left out"), repair)
-    }
-
-    fn without_unit(&self) -> Finding {
-        let place = self.file.place(self.instance.light);
-        let what = format!(
-            "{place}: COLLADA gives lights no unit; the colour is taken as W/sr, of a directional light as W/m²"
-        );
-        Finding::of_file(what, "compare its brightness with that of other lights")
+        Finding::note(warnings, place, &format!("{what} is left out"), repair);
     }
 }

@@ -1,9 +1,9 @@
 //! From instances to patches: each primitive with its material, where the node puts it.
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
-use super::{file::File, images::Images, lights::AreaLamp, material::finish};
-use crate::io::error::{Fault, FileError};
-use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
+use super::{file::File, images::Images, lights::AreaLamp, material::finish, material::is_double_sided};
+use crate::io::error::FileError;
+use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Facet};
 use crate::io::{surface::facets, surface::finish::Finish, surface::finish::Surface};
 use crate::scene::{
@@ -37,28 +37,18 @@ pub(super) fn patches<'a>(
                 facets: &facets,
                 world: instance.visit.world,
                 finish,
-                two_sided: false,
+                two_sided: is_double_sided(file, instance, primitive.material)?,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
             };
-            surfaces.add(&surface, warnings).map_err(|refusal| fault(file, primitive, refusal))?;
+            let added = surfaces.add(&surface, warnings);
+            added.map_err(|refusal| file.fault(primitive.element, refusal.into()))?;
         }
     }
     for lamp in areas {
-        let refused = |refusal| file.fault(lamp.instance.light, fault_of(refusal));
-        surfaces.add(&area_surface(lamp, &[facet(&lamp.corners)]), warnings).map_err(refused)?;
+        let added = surfaces.add(&area_surface(lamp, &[facet(&lamp.corners)]), warnings);
+        added.map_err(|refusal| file.fault(lamp.instance.light, refusal.into()))?;
     }
     Ok(surfaces.named())
-}
-
-fn fault<'a>(file: &File<'a>, primitive: &Primitive<'a>, refusal: Refusal) -> FileError {
-    file.fault(primitive.element, fault_of(refusal))
-}
-
-fn fault_of(refusal: Refusal) -> Fault {
-    match refusal {
-        Refusal::TooMany => Fault::TooMany { what: "polygons", limit: MAX_PATCHES },
-        Refusal::Shape { polygon, source } => Fault::Shape { polygon, source },
-    }
 }
 
 /// A lamp's outline as a surface: it shines and reflects nothing.
@@ -82,5 +72,6 @@ fn area_surface<'s>(lamp: &AreaLamp<'s, '_>, facets: &'s [Facet]) -> Surface<'s>
 
 fn facet(corners: &[DVec3]) -> Facet {
     let corner = |point: &DVec3| Corner { point: *point, place: DVec2::ZERO, normal: DVec3::ZERO };
-    Facet { number: 0, loops: vec![corners.iter().map(corner).collect()], parts: Vec::new() }
+    let loops = vec![corners.iter().map(corner).collect()];
+    Facet { number: 0, loops, parts: Vec::new(), members: vec![0] }
 }

@@ -2,6 +2,7 @@
 //!
 //! The extension is photometric: candela, and lux of a directional light. Blender multiplies its watts with 683 lm/W, the efficacy of green
 //! light of 555 nm, and spreads them over a sphere; in its files that is undone.
+use super::material::as_written;
 use crate::io::surface::lamps::Stand;
 use crate::scene::lamp::{Cone, Distribution, Lamp, Rim};
 use crate::scene::sky::Sun;
@@ -30,21 +31,19 @@ pub(super) fn units(document: &gltf::Document) -> Units {
 /// The light of a node that stands so; nothing where it has none, or numbers that no light has.
 pub(super) fn read(light: &Light<'_>, name: &str, stand: Stand, units: Units) -> Option<ReadLight> {
     let factor = if units == Units::Radiant { 1.0 / BLENDER } else { 1.0 };
-    let strength = factor * f64::from(light.intensity());
-    let bands: Vec<f64> = light.color().map(|band| strength * f64::from(band)).to_vec();
+    let strength = factor * as_written(light.intensity());
+    let bands: Vec<f64> = light.color().map(|band| strength * as_written(band)).to_vec();
     let is_sound = bands.iter().all(|band| *band >= 0.0 && band.is_finite());
     if !is_sound || bands.iter().all(|band| *band == 0.0) {
         return None;
     }
     let name = name.to_owned();
     Some(match light.kind() {
-        Kind::Directional => {
-            ReadLight::Sun(Sun { name, direction: stand.ahead(), irradiance: bands })
-        }
+        Kind::Directional => ReadLight::Sun(Sun { name, direction: stand.ahead(), irradiance: bands }),
         Kind::Point => ReadLight::Lamp(stand.lamp(name, Distribution::Even, bands)),
         Kind::Spot { inner_cone_angle, outer_cone_angle } => {
-            let outer = f64::from(outer_cone_angle).cos();
-            let inner = f64::from(inner_cone_angle).cos().max(outer + RIM).min(1.0);
+            let outer = as_written(outer_cone_angle).cos();
+            let inner = as_written(inner_cone_angle).cos().max(outer + RIM).min(1.0);
             let cone = Cone { exponent: 0.0, inner, outer: outer.min(inner), rim: Rim::Squared };
             ReadLight::Lamp(stand.lamp(name, Distribution::Cone(cone), bands))
         }

@@ -28,15 +28,19 @@ pub(super) fn table(
     if let Some((line, _)) = candela.iter().find(beyond) {
         return Err((*line, Fault::Huge("the intensity")));
     }
-    let radians = |numbers: &[Number]| numbers.iter().map(|number| number.1.to_radians()).collect::<Vec<f64>>();
-    let rows = candela.chunks_exact(heights.len()).map(|rows| rows.iter().map(|number| number.1 * factor).collect());
+    let radians =
+        |numbers: &[Number]| numbers.iter().map(|number| number.1.to_radians()).collect::<Vec<f64>>();
+    let rows =
+        candela.chunks_exact(heights.len()).map(|rows| rows.iter().map(|number| number.1 * factor).collect());
     let planes = radians(azimuths).into_iter().zip(rows).collect();
     Ok(Photometry::new(radians(heights), planes, symmetry))
 }
 
 /// Refuses angles that do not ascend from 0 or more to `last` or less.
 fn ascending(angles: &[Number], last: f64) -> Result<(), LineFault> {
-    let wrong = |number: &Number| Err((number.0, Fault::Word { found: number.1.to_string(), wanted: "an ascending angle" }));
+    let wrong = |number: &Number| {
+        Err((number.0, Fault::Word { found: number.1.to_string(), wanted: "an ascending angle" }))
+    };
     if let Some(number) = angles.iter().find(|number| !(0.0..=last).contains(&number.1)) {
         return wrong(number);
     }

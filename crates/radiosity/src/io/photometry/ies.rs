@@ -66,7 +66,10 @@ impl Words {
         let head = self.take(13)?;
         let (multiplier, kind, ballast) = (head[2].1, head[5], head[10].1);
         if kind.1 != TYPE_C {
-            return Err((kind.0, Fault::Word { found: kind.1.to_string(), wanted: "photometric type 1 (C)" }));
+            return Err((
+                kind.0,
+                Fault::Word { found: kind.1.to_string(), wanted: "photometric type 1 (C)" },
+            ));
         }
         let factor = multiplier * ballast;
         if factor < 0.0 {
@@ -89,7 +92,10 @@ fn symmetry(planes: &[Number]) -> Result<Symmetry, LineFault> {
         (90.0, 270.0) => Ok(Symmetry::Across),
         _ => {
             let found = format!("{} to {}", first.1, last.1);
-            Err((first.0, Fault::Word { found, wanted: "0, 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees" }))
+            Err((
+                first.0,
+                Fault::Word { found, wanted: "0, 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees" },
+            ))
         }
     }
 }

@@ -44,7 +44,11 @@ pub fn open(path: impl AsRef<Path>) -> Result<Photometry, FileError> {
 /// # Errors
 /// [`FileError::Line`] where a number is missing, out of order or out of range.
 pub fn parse_ies(name: &str, bytes: &[u8]) -> Result<Photometry, FileError> {
-    ies::parse(&String::from_utf8_lossy(bytes)).map_err(|(line, fault)| FileError::Line { file: name.into(), line, fault })
+    ies::parse(&String::from_utf8_lossy(bytes)).map_err(|(line, fault)| FileError::Line {
+        file: name.into(),
+        line,
+        fault,
+    })
 }
 
 /// The photometry in an EULUMDAT file, for its first set of lamps. Bytes that are no UTF-8 may stand in its texts.
@@ -52,5 +56,9 @@ pub fn parse_ies(name: &str, bytes: &[u8]) -> Result<Photometry, FileError> {
 /// # Errors
 /// [`FileError::Line`] where a number is missing, out of order or out of range.
 pub fn parse_ldt(name: &str, bytes: &[u8]) -> Result<Photometry, FileError> {
-    ldt::parse(&String::from_utf8_lossy(bytes)).map_err(|(line, fault)| FileError::Line { file: name.into(), line, fault })
+    ldt::parse(&String::from_utf8_lossy(bytes)).map_err(|(line, fault)| FileError::Line {
+        file: name.into(),
+        line,
+        fault,
+    })
 }

@@ -100,7 +100,8 @@ impl<'s> Direct<'s> {
     /// Takes in tiles that were cut since: until their own light is found they have their parents'.
     pub(super) fn inherit(&mut self, tiling: &Tiling<'_>) {
         for tile in &tiling.tiles[self.of_tile.len()..] {
-            let mut light = tile.parent.map_or_else(|| self.none.clone(), |parent| self.of_tile[parent].0.clone());
+            let mut light =
+                tile.parent.map_or_else(|| self.none.clone(), |parent| self.of_tile[parent].0.clone());
             if tile.parent.is_some() {
                 light.received.iter_mut().for_each(|received| *received = tile.restrict(*received));
                 light.edges.clear();
@@ -140,8 +141,7 @@ impl<'s> Direct<'s> {
     }
 
     fn add_sky(&self, light: &mut TileLight, tiling: &Tiling<'_>, tile: &Tile) {
-        let [middle, ahead, back, left, right] =
-            tile.points.each_ref().map(|point| self.lights.sky(point));
+        let [middle, ahead, back, left, right] = tile.points.each_ref().map(|point| self.lights.sky(point));
         let mean = INNER * middle + OUTER * (ahead + back + left + right);
         let slopes = [ahead - back, left - right].map(|climb| OUTER * climb / SQUARE);
         let [long, short] = [(ahead, back), (left, right)].map(|(a, b)| (f64::midpoint(a, b) - middle).abs());
@@ -224,9 +224,9 @@ fn shadow_edges(tiling: &Tiling<'_>, tile: &Tile, lit: &LitPolygon) -> Vec<[DVec
     let near = RIM * tile.outline.axes[0].length();
     let is_on_rim = |ends: &[DVec2; 2]| {
         let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-        sides.map(|(a, b)| (a, (*b - *a).normalize_or_zero())).any(|(a, way)| {
-            ends.iter().all(|end| way.perp_dot(*end - *a).abs() <= near)
-        })
+        sides
+            .map(|(a, b)| (a, (*b - *a).normalize_or_zero()))
+            .any(|(a, way)| ends.iter().all(|end| way.perp_dot(*end - *a).abs() <= near))
     };
     let flat = |ring: &Vec<DVec3>| {
         let ring: Vec<DVec2> = ring.iter().map(|at| tiling.flatten(tile.patch, *at)).collect();

@@ -56,7 +56,7 @@ impl<'s> Sights<'s> {
         sent: &[Vec<Linear>],
         fine: &[f64],
     ) -> Sights<'s> {
-        let (known, links) = (links.known(tiling), &links.all[..]);
+        let (known, clusters, links) = (links.known(tiling), &links.clusters, &links.all[..]);
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
         let sent: Vec<Vec<Linear>> = sent.iter().cloned().chain([even]).collect();
         let mut of_tile = vec![Vec::new(); tiling.tiles.len()];
@@ -88,7 +88,12 @@ impl<'s> Sights<'s> {
             let rest = sent.iter().map(|sent| received(tiling, links, &flaws[..count], sent)).collect();
             Sight { looks: flaws[count..].iter().map(|(_, at)| *at).collect(), rest }
         };
-        let of_tile = of_tile.into_iter().enumerate().map(sight).collect();
+        let mut of_tile: Vec<Sight> = of_tile.into_iter().enumerate().map(sight).collect();
+        for (band, sent) in sent.iter().enumerate() {
+            let mut far = vec![[0.0; 3]; sent.len()];
+            clusters.gather(tiling, sent, &mut far);
+            of_tile.iter_mut().zip(far).for_each(|(sight, light)| sight.rest[band][0] += light[0]);
+        }
         Sights { tiling, links, direct, of_tile, sent, known }
     }
 
@@ -134,7 +139,11 @@ impl<'s> Sights<'s> {
     /// What a point of a tile receives: from tiles, and straight from lights.
     fn at(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
         let straight = self.direct.at(self.tiling, point);
-        self.from_tiles(tile, point).into_iter().zip(straight).map(|(light, straight)| light + straight).collect()
+        self.from_tiles(tile, point)
+            .into_iter()
+            .zip(straight)
+            .map(|(light, straight)| light + straight)
+            .collect()
     }
 
     /// What a point of a tile receives from tiles: of even light 1 where ΣF is 1, nothing where something stands on the tile.

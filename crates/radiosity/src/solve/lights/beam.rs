@@ -46,7 +46,12 @@ impl<'s> Beam<'s> {
         };
         let suns = scene.suns.iter().map(|sun| {
             let way = sun.direction.normalize();
-            Beam { eye: low.midpoint(high) - far * way, kind: BeamKind::Sun(way), bands: &sun.irradiance, area }
+            Beam {
+                eye: low.midpoint(high) - far * way,
+                kind: BeamKind::Sun(way),
+                bands: &sun.irradiance,
+                area,
+            }
         });
         scene.lamps.iter().map(lamp).chain(suns).collect()
     }

@@ -92,10 +92,8 @@ fn radon(corners: &[Place; 3], normal: DVec3, irradiance: impl Fn(DVec3) -> f64)
     let [a, b, c] = corners.map(|place| place.at);
     let area = (b - a).cross(c - a).dot(normal) / 2.0;
     let root = 15f64.sqrt();
-    let rings = [
-        ((6.0 - root) / 21.0, (155.0 - root) / 1200.0),
-        ((6.0 + root) / 21.0, (155.0 + root) / 1200.0),
-    ];
+    let rings =
+        [((6.0 - root) / 21.0, (155.0 - root) / 1200.0), ((6.0 + root) / 21.0, (155.0 + root) / 1200.0)];
     let mut sum = Moments::default();
     let mut take = |shares: [f64; 3], weight: f64| {
         let at = shares[0] * a + shares[1] * b + shares[2] * c;
