@@ -1,5 +1,6 @@
 //! What `--json` prints.
-use radiosity::{Record, Scene, Solution, Units, inspect::KindSummary};
+use radiosity::inspect::{Finding, KindSummary};
+use radiosity::{Record, Scene, Solution, Units};
 use serde::Serialize;
 
 /// The figures of a solution.
@@ -18,6 +19,9 @@ pub(crate) struct Figures<'s> {
     /// What powers are counted in: W or lm.
     units: &'static str,
     energy: Energy<'s>,
+    /// What was left out of the file, or read as something else.
+    #[serde(skip_serializing_if = "<[Finding]>::is_empty")]
+    warnings: &'s [Finding],
     patches: Vec<PatchFigures<'s>>,
 }
 
@@ -86,6 +90,7 @@ impl<'s> Figures<'s> {
                 defect: &ledger.defect,
                 luminous: scene.luminous(&ledger.emitted),
             },
+            warnings: &scene.warnings,
             patches: patches
                 .map(|(index, ((patch, irradiance), radiosity))| PatchFigures {
                     name: &patch.name,

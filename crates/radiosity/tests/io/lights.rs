@@ -174,3 +174,25 @@ fn lumens_of_blender_are_the_watts_that_it_had() {
     assert!((read.lamps[0].power()[0] - 100.0).abs() < 1e-4);
     assert!((read.luminous(&read.lamps[0].power()) - 17_900.0).abs() < 1e-1);
 }
+
+/// One scene of Blender, written by it in both formats: lamps of 60 and 80 W, a sun of 2 W/m².
+#[test]
+fn blender_gives_the_same_lamps_in_both_formats() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/exported");
+    let open = |name: &str| radiosity::io::Source::open(folder.join(name)).unwrap().scene().unwrap();
+    let [dae, glb] = ["blender-lights.dae", "blender-lights.glb"].map(open);
+    assert_eq!([&dae, &glb].map(|scene| (scene.lamps.len(), scene.suns.len(), scene.units)), [(2, 1, Units::Radiant); 2]);
+    for (name, power) in [("point", 60.0), ("spot", 80.0)] {
+        let [a, b] = [&dae, &glb].map(|scene| scene.lamps.iter().find(|lamp| lamp.name == name).unwrap());
+        assert!((a.intensity[0] - power / (4.0 * PI)).abs() < 1e-9, "{name}: {:?}", a.intensity);
+        assert!((b.intensity[0] - a.intensity[0]).abs() < 1e-3 * a.intensity[0], "{name}: {:?}", b.intensity);
+        // One file has z up, the other y.
+        let turned = DVec3::new(a.position.x, a.position.z, -a.position.y);
+        assert!(turned.distance(b.position) < 1e-5, "{name}: {turned} {}", b.position);
+    }
+    let outer = [&dae, &glb].map(|scene| cone(scene.lamps.iter().find(|lamp| lamp.name == "spot").unwrap()).outer);
+    assert!((outer[0] - 0.5f64.cos()).abs() < 1e-6 && (outer[1] - outer[0]).abs() < 1e-6, "{outer:?}");
+    assert!([&dae, &glb].iter().all(|scene| (scene.suns[0].irradiance[0] - 2.0).abs() < 1e-3));
+    let area = dae.patches.iter().find(|patch| patch.name == "area").unwrap();
+    assert!((area.polygon.area() * area.emission[0] - 10.0).abs() < 1e-6, "{:?}", area.emission);
+}

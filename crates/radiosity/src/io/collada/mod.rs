@@ -25,6 +25,7 @@ mod repaired;
 mod spectra;
 mod splice;
 mod transform;
+mod unread;
 mod vertices;
 mod walk;
 mod write;
@@ -98,6 +99,7 @@ impl Collada {
     pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
             let walk::Walk { instances, camera_instances, light_instances, mut warnings } = walk::walk(file)?;
+            unread::tell(file, &mut warnings);
             let asset = asset(file)?;
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
