@@ -2,7 +2,9 @@
 use crate::failure::Failure;
 use crate::json;
 use crate::view_options::ViewOptions;
+use radiosity::expose::Exposure;
 use radiosity::io::{self, Source, gltf};
+use radiosity::picture::LinearFormat;
 use radiosity::{Record, Scene, element_table, patch_table, viewer};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,6 +20,7 @@ pub(crate) struct Output {
 #[derive(Clone, Copy, Debug)]
 enum FileKind {
     Picture,
+    Linear(LinearFormat),
     Collada,
     Glb,
     Json,
@@ -27,10 +30,12 @@ enum FileKind {
 }
 
 /// By the end of the file's name.
-const KINDS: [(&str, FileKind); 7] = [
+const KINDS: [(&str, FileKind); 9] = [
     (".elements.csv", FileKind::Elements),
     (".csv", FileKind::Patches),
     (".png", FileKind::Picture),
+    (".exr", FileKind::Linear(LinearFormat::Exr)),
+    (".hdr", FileKind::Linear(LinearFormat::Hdr)),
     (".dae", FileKind::Collada),
     (".glb", FileKind::Glb),
     (".json", FileKind::Json),
@@ -63,19 +68,18 @@ impl Output {
 
     /// Whether it is for eyes alone.
     pub(crate) fn is_picture(&self) -> bool {
-        matches!(self.kind, FileKind::Picture)
+        matches!(self.kind, FileKind::Picture | FileKind::Linear(_))
     }
 
     /// Writes the file, whole or not at all.
     pub(crate) fn write(&self, contents: &Contents<'_>) -> Result<(), Failure> {
         let bytes = match self.kind {
             FileKind::Picture => contents.picture()?,
+            FileKind::Linear(format) => contents.linear_picture(format)?,
             FileKind::Collada => contents.collada()?,
             FileKind::Glb => contents.glb()?,
             FileKind::Json => contents.json().into_bytes(),
-            FileKind::Page => {
-                viewer::page(contents.record, contents.view.exposure(contents.record)).into_bytes()
-            }
+            FileKind::Page => viewer::page(contents.record, contents.exposure()?).into_bytes(),
             FileKind::Patches => patch_table(contents.record).into_bytes(),
             FileKind::Elements => element_table(contents.record).into_bytes(),
         };
@@ -84,11 +88,21 @@ impl Output {
 }
 
 impl Contents<'_> {
+    /// As asked, or chosen from what the camera sees.
+    fn exposure(&self) -> Result<Exposure, Failure> {
+        Ok(self.view.exposure(self.record, &self.view.camera(self.record)?))
+    }
+
     /// PNG as the camera sees it.
     fn picture(&self) -> Result<Vec<u8>, Failure> {
         let (record, view) = (self.record, self.view);
-        let camera = view.camera(record)?;
-        Ok(record.draw(&camera, view.exposure(record), view.width))
+        Ok(record.draw(&view.camera(record)?, self.exposure()?, view.width))
+    }
+
+    /// Radiance as the camera sees it.
+    fn linear_picture(&self, format: LinearFormat) -> Result<Vec<u8>, Failure> {
+        let camera = self.view.camera(self.record)?;
+        self.record.draw_linear(&camera, format, self.view.width).map_err(Failure::internal)
     }
 
     /// The scene's own COLLADA with the unscaled radiosity at the vertices.
@@ -103,7 +117,7 @@ impl Contents<'_> {
 
     /// glTF binary.
     fn glb(&self) -> Result<Vec<u8>, Failure> {
-        Ok(gltf::glb(self.record, self.view.exposure(self.record))?)
+        Ok(gltf::glb(self.record, self.exposure()?)?)
     }
 
     /// The figures and the light.

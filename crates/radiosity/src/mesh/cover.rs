@@ -18,7 +18,8 @@ pub(crate) struct Cover {
 pub(crate) type TileCorners<'t> = &'t [(DVec2, DVec3)];
 
 impl Cover {
-    /// Adds the tiles of a patch, each with its number; `contacts` are the lines on which other patches touch it.
+    /// Adds the tiles of a patch, each with its number; `contacts` are the lines on which other patches touch it, `guests` what else must
+    /// be a vertex: places on the patch's edges.
     ///
     /// ```text
     /// +-------+---+
@@ -27,8 +28,15 @@ impl Cover {
     /// |       |   |
     /// +-------+---+
     /// ```
-    pub(crate) fn add(&mut self, patch: usize, tiles: &[(usize, TileCorners<'_>)], contacts: &[[DVec2; 2]]) {
-        let mut knots = Knots::of(tiles.iter().flat_map(|(_, corners)| corners.iter().copied()));
+    pub(crate) fn add(
+        &mut self,
+        patch: usize,
+        tiles: &[(usize, TileCorners<'_>)],
+        contacts: &[[DVec2; 2]],
+        guests: &[(DVec2, DVec3)],
+    ) {
+        let own = tiles.iter().flat_map(|(_, corners)| corners.iter());
+        let mut knots = Knots::of(own.chain(guests).copied());
         let mut triangles = Vec::new();
         for &(tile, corners) in tiles {
             let ring = knots.ring(corners);
@@ -64,11 +72,15 @@ impl Knots {
         let size = corners.iter().map(|corner| corner.0.abs().max_element()).fold(0.0, f64::max);
         let mut knots = Knots { flat: Vec::new(), places: Vec::new(), sorted: Vec::new(), near: NEAR * size };
         for (flat, place) in corners {
-            if knots.find(flat).is_none() {
-                knots.sorted.push(knots.flat.len());
-                knots.flat.push(flat);
-                knots.places.push(place);
+            if let Some(known) = knots.find(flat) {
+                // All patches that meet in a place choose the same of what rounding made of it.
+                let first = |a: DVec3, b: DVec3| if a.to_array() < b.to_array() { a } else { b };
+                knots.places[known] = first(knots.places[known], place);
+                continue;
             }
+            knots.sorted.push(knots.flat.len());
+            knots.flat.push(flat);
+            knots.places.push(place);
         }
         knots
     }

@@ -4,7 +4,7 @@ use super::flow::Linear;
 use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
-use crate::mesh::cover::Cover;
+use crate::mesh::{cover::Cover, guests::Guests};
 use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
 use crate::solve::solution::{Gathered, Solution};
@@ -100,9 +100,14 @@ pub(super) fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, pieces: 
     for LeafPart { leaf, outline } in pieces {
         of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
-    let mut cover = Cover::default();
+    let corners = of_patch.iter().flatten().flat_map(|(_, corners)| corners.iter().map(|corner| corner.1));
+    let (mut cover, all) = (Cover::default(), Guests::new(corners));
     for (patch, tiles) in of_patch.iter().enumerate() {
-        cover.add(patch, tiles, tiling.contacts(patch));
+        let loops = tiling.scene.patches[patch].polygon.loops();
+        let edges = loops.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let on_edges = edges.flat_map(|(start, end)| all.on([*start, *end]));
+        let guests: Vec<_> = on_edges.map(|place| (tiling.flatten(patch, place), place)).collect();
+        cover.add(patch, tiles, tiling.contacts(patch), &guests);
     }
     cover
 }

@@ -1,7 +1,8 @@
 //! Leaves in pieces that are small enough for their light to be shown as linear.
-use super::equilibrium::Equilibrium;
 use super::tile::Outline;
 use super::tiling::Tiling;
+use super::borders::Borders;
+use super::equilibrium::Equilibrium;
 use super::vertices::{Ask, Sights};
 use crate::error::Error;
 use formfactor::DifferentialArea;
@@ -51,24 +52,42 @@ pub(super) fn pieces(
     let dim: Vec<f64> = means.iter().map(|mean| DIM * mean).collect();
     let measure = Measure { share, dim: &dim };
     let whole_area = equilibrium.leaves().iter().map(|&leaf| tiling.tiles[leaf].area).sum::<f64>();
-    let (mut fine, mut open) = (Vec::new(), whole(tiling, equilibrium));
+    let mut borders = Borders::new(tiling);
+    let open = whole(tiling, equilibrium).into_iter();
+    let mut open: Vec<(LeafPart, Vec<usize>)> = open
+        .map(|piece| {
+            let inside = borders.of(tiling.tiles[equilibrium.leaves()[piece.leaf]].patch);
+            (piece, inside)
+        })
+        .collect();
+    let mut fine = Vec::new();
     while !open.is_empty() {
         let tile = |piece: &LeafPart| equilibrium.leaves()[piece.leaf];
         let mut points: Vec<(usize, DifferentialArea)> = Vec::with_capacity(5 * open.len());
-        for piece in &open {
+        for (piece, _) in &open {
             let on = tiling.points(tiling.tiles[tile(piece)].patch, &piece.outline)?;
             points.extend(on.map(|point| (tile(piece), point)));
         }
         let Some(light) = sights.irradiance(&points, &mut *ask)? else { return Ok(None) };
         let mut parts = Vec::new();
-        for (piece, light) in open.into_iter().zip(light.chunks(5 * means.len())) {
+        for ((piece, inside), light) in open.into_iter().zip(light.chunks(5 * means.len())) {
             let patch = tiling.tiles[equilibrium.leaves()[piece.leaf]].patch;
             let area = tiling.area(patch, &piece.outline) / whole_area;
             let uneven = measure.uneven(light, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
             // What stands on a leaf parts what it covers from what is lit.
-            let axis = uneven.or(tiling.is_crossed(patch, &piece.outline).then_some(0));
-            match axis.and_then(|axis| tiling.cut(patch, &piece.outline, axis)) {
-                Some(halves) => parts.extend(halves.map(|outline| LeafPart { leaf: piece.leaf, outline })),
+            let is_crossed = tiling.is_crossed(patch, &piece.outline);
+            let Some(axis) = uneven.or(is_crossed.then_some(0)) else {
+                fine.push(piece);
+                continue;
+            };
+            let inside = borders.within(patch, &piece.outline, &inside);
+            let along = if is_crossed { None } else { borders.cut(patch, &piece.outline, &inside) };
+            match along.or_else(|| tiling.cut(patch, &piece.outline, axis)) {
+                Some(halves) => {
+                    let inside: Vec<usize> = inside.iter().map(|(_, border)| *border).collect();
+                    let part = |outline| (LeafPart { leaf: piece.leaf, outline }, inside.clone());
+                    parts.extend(halves.map(part));
+                }
                 None => fine.push(piece),
             }
         }

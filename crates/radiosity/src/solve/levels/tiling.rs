@@ -184,6 +184,11 @@ impl<'s> Tiling<'s> {
         self.bases[patch].frame.flatten(place)
     }
 
+    /// A point of the frame of a patch in space.
+    pub(super) fn lift(&self, patch: usize, flat: DVec2) -> DVec3 {
+        self.bases[patch].frame.lift(flat)
+    }
+
     /// The lines on which other patches touch a patch, in its frame.
     pub(super) fn contacts(&self, patch: usize) -> &[[DVec2; 2]] {
         &self.bases[patch].contacts
