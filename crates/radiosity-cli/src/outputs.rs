@@ -3,7 +3,7 @@ use crate::failure::Failure;
 use crate::json;
 use crate::view_options::ViewOptions;
 use radiosity::expose::Exposure;
-use radiosity::io::{self, Source, gltf};
+use radiosity::io::{self, Source, collada::with_exposure, gltf};
 use radiosity::picture::LinearFormat;
 use radiosity::{Record, Scene, element_table, patch_table, viewer};
 use std::io::Write;
@@ -112,7 +112,8 @@ impl Contents<'_> {
                 "only solve writes COLLADA, into the scene's own file; expose then turns it into colours",
             )
         })?;
-        Ok(source.with_light(scene, &self.record.mesh(), &self.record.colours())?.into_bytes())
+        let text = source.with_light(scene, &self.record.mesh(), &self.record.colours())?;
+        Ok(with_exposure(&text, self.exposure()?).into_bytes())
     }
 
     /// glTF binary.

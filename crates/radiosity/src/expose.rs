@@ -28,7 +28,7 @@ impl Exposure {
     ///
     /// The median brightness becomes mid grey, 0.18 of full intensity, as far as the 95th percentile stays between 0.5 and 0.9.
     /// The brightness of a colour is its largest part. What is not lit does not count, and emitters only where nothing else is
-    /// lit; where nothing is lit, K is 1. O(n log n).
+    /// lit; where nothing is lit, K is 1. K has four digits, so that it can be given again. O(n log n).
     ///
     /// ```
     /// use radiosity::expose::Exposure;
@@ -51,7 +51,7 @@ impl Exposure {
             let [least, most] = BRIGHT.map(|intensity| k_at(intensity, bright));
             k_at(MID_GREY, middle).clamp(least, most)
         });
-        k.and_then(Self::new).unwrap_or(Self { k: 1.0 })
+        k.and_then(rounded).and_then(Self::new).unwrap_or(Self { k: 1.0 })
     }
 
     /// K, in m²/W.
@@ -89,6 +89,11 @@ pub fn rgb(values: &[f64], bands: usize, wavelengths: &[f64]) -> Vec<[f64; 3]> {
 #[must_use]
 pub fn srgb(intensity: f64) -> f64 {
     if intensity <= 0.003_130_8 { 12.92 * intensity } else { 1.055 * intensity.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// A number to four digits.
+fn rounded(number: f64) -> Option<f64> {
+    format!("{number:.3e}").parse().ok()
 }
 
 /// The brightness that a share of the area does not exceed; `sorted` holds brightness and area.

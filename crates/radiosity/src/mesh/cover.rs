@@ -23,7 +23,7 @@ impl Cover {
     ///
     /// ```text
     /// +-------+---+
-    /// |       |   |    corners of a neighbour in the middle of a side are vertices of the tile: it becomes a fan around
+    /// |       |   |    corners of a neighbour in the middle of a side are vertices of the tile; a tile becomes a fan around
     /// |       +---+    its middle
     /// |       |   |
     /// +-------+---+
@@ -40,7 +40,7 @@ impl Cover {
         let mut triangles = Vec::new();
         for &(tile, corners) in tiles {
             let ring = knots.ring(corners);
-            for triangle in knots.fan(&ring, corners.len()) {
+            for triangle in knots.fan(&ring) {
                 triangles.push(triangle);
                 self.owners.push(tile);
             }
@@ -123,11 +123,11 @@ impl Knots {
         inside
     }
 
-    /// Triangles of a ring; around its middle where it has more knots than corners, or many.
-    fn fan(&mut self, ring: &[usize], corners: usize) -> Vec<[usize; 3]> {
+    /// Triangles of a ring: around its middle where it has more than three knots, so that no diagonal shows.
+    fn fan(&mut self, ring: &[usize]) -> Vec<[usize; 3]> {
         let count = ring.len();
-        if count == corners && count <= 4 {
-            return (2..count).map(|k| [ring[0], ring[k - 1], ring[k]]).collect();
+        if let [a, b, c] = *ring {
+            return vec![[a, b, c]];
         }
         let middle = self.flat.len();
         let share = 1.0 / count as f64;

@@ -7,14 +7,14 @@ use rayon::prelude::*;
 
 /// The errors of the pixels, as shares of the brightest reflected light of the picture.
 #[derive(Clone, Copy, Debug)]
-pub struct PixelErrors {
-    pub pixels: usize,
-    pub mean: f64,
+pub(crate) struct PixelErrors {
+    pub(crate) pixels: usize,
+    pub(crate) mean: f64,
     /// What one pixel in a hundred exceeds.
-    pub percentile: f64,
-    pub worst: f64,
+    pub(crate) percentile: f64,
+    pub(crate) worst: f64,
     /// Where that is, in pixels from the top left.
-    pub place: [u32; 2],
+    pub(crate) place: [u32; 2],
 }
 
 /// The point behind a pixel.
@@ -27,7 +27,7 @@ struct Hit {
 
 /// Compares what is reflected at the middle of every pixel, interpolated as in the picture, with an exact gather. A picture on a patch
 /// counts as its mean.
-pub fn pixel_errors(
+pub(crate) fn pixel_errors(
     scene: &Scene,
     solution: &Solution,
     camera: &Camera,

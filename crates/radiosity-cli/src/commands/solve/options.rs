@@ -11,8 +11,8 @@ use std::path::PathBuf;
 pub(crate) struct Solve {
     /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
     pub(super) scene: PathBuf,
-    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb), a page (.html),
-    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); may be given several times
+    /// Write the result to this file, in the format of its extension: a picture (.png; .exr or .hdr without exposure), a scene
+    /// (.dae, .glb), a page (.html), everything (.json), a table of patches (.csv) or of elements (.elements.csv); may be given several times
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Print the result's figures on stdout as JSON
