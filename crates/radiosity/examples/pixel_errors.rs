@@ -10,12 +10,13 @@ mod pixels;
 
 use pixels::pixel_errors;
 use radiosity::{Quality, scenes, solve};
+use std::error::Error;
 use std::io::Write;
 use std::ops::ControlFlow;
-use std::error::Error;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-const SCENES: [&str; 6] = ["beams", "small-occluders", "perforated", "chessboard", "cornell-box", "obstruction"];
+const SCENES: [&str; 6] =
+    ["beams", "small-occluders", "perforated", "chessboard", "cornell-box", "obstruction"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -28,7 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let width = arguments.get(1).map_or(Ok(80), |text| text.parse())?;
     let named: Vec<&str> = arguments.iter().skip(2).map(String::as_str).collect();
     let mut out = std::io::stdout().lock();
-    writeln!(out, "| scene | elements | pixels | mean | 99th percentile | worst | at | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |")?;
+    writeln!(
+        out,
+        "| scene | elements | pixels | mean | 99th percentile | worst | at | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |"
+    )?;
     for name in if named.is_empty() { &SCENES[..] } else { &named } {
         let scene = scenes::scene(name).ok_or_else(|| format!("{name}: no scene"))?;
         let start = cpu_seconds();

@@ -271,9 +271,12 @@ impl Record {
             return Exposure::of(seen.into_iter());
         }
         let colours = self.shown().rows(&self.radiosity);
-        Exposure::of(colours.iter().enumerate().map(|(index, colour)| {
-            (*colour, mesh.area(index), emits(mesh.elements[index].patch))
-        }))
+        Exposure::of(
+            colours
+                .iter()
+                .enumerate()
+                .map(|(index, colour)| (*colour, mesh.area(index), emits(mesh.elements[index].patch))),
+        )
     }
 
     /// The camera of that name, or `None` if there is none. Without a name the first camera, or one that sees all of the scene.

@@ -48,7 +48,8 @@ impl<'s> Shadows<'s> {
         let emits = |patch: &usize| scene.patches[*patch].emits();
         let mut lamps_of: Vec<Body> =
             groups(scene, emits).iter().map(|patches| whole(scene, patches)).collect();
-        let strength = |lamp: &Body| lamp.patches.iter().map(|&patch| power(&scene.patches[patch])).sum::<f64>();
+        let strength =
+            |lamp: &Body| lamp.patches.iter().map(|&patch| power(&scene.patches[patch])).sum::<f64>();
         lamps_of.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
         lamps_of.truncate(lamps);
         let bodies = if lamps_of.is_empty() { Vec::new() } else { bodies(scene) };
@@ -75,7 +76,8 @@ impl<'s> Shadows<'s> {
             .iter()
             .map(|lamp| !lamp.contains(&patch) && lamp.iter().any(|&emitter| faces(scene, patch, emitter)))
             .collect();
-        let seen = self.eclipses.iter().filter(|eclipse| lit[eclipse.lamp] && !eclipse.hiding.contains(&patch));
+        let seen =
+            self.eclipses.iter().filter(|eclipse| lit[eclipse.lamp] && !eclipse.hiding.contains(&patch));
         let wedges = seen.flat_map(|eclipse| &eclipse.wedges);
         wedges.filter_map(|wedge| line(&scene.patches[patch], wedge)).collect()
     }
@@ -168,12 +170,17 @@ impl Body {
 
 /// The planes that touch a lamp and a body.
 fn wedges(lamp: &Body, body: &Body) -> Vec<Wedge> {
-    let touches = |apex: DVec3, edge: [DVec3; 2]| lamp.is_on_one_side(apex, edge) && body.is_on_one_side(apex, edge);
+    let touches =
+        |apex: DVec3, edge: [DVec3; 2]| lamp.is_on_one_side(apex, edge) && body.is_on_one_side(apex, edge);
     let mut wedges = Vec::new();
-    for (points, edges, is_from_apex) in [(&lamp.points, &body.edges, true), (&body.points, &lamp.edges, false)] {
+    for (points, edges, is_from_apex) in
+        [(&lamp.points, &body.edges, true), (&body.points, &lamp.edges, false)]
+    {
         for &apex in points {
             let touching = edges.iter().filter(|edge| touches(apex, **edge));
-            wedges.extend(touching.map(|ends| ends.map(|end| if is_from_apex { [apex, end] } else { [end, apex] })));
+            wedges.extend(
+                touching.map(|ends| ends.map(|end| if is_from_apex { [apex, end] } else { [end, apex] })),
+            );
         }
     }
     wedges

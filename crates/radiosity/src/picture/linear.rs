@@ -27,7 +27,8 @@ pub(super) fn file(
             ImageFormat::Hdr
         }
     };
-    let [width, height] = [width, height].map(|side| u32::try_from(side).expect("sides are at most MAX_SIDE"));
+    let [width, height] =
+        [width, height].map(|side| u32::try_from(side).expect("sides are at most MAX_SIDE"));
     let image = Rgb32FImage::from_raw(width, height, pixels).expect("three parts for every pixel");
     let mut file = Cursor::new(Vec::new());
     image.write_to(&mut file, format).map_err(|error| error.to_string())?;

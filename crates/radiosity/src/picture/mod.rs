@@ -114,7 +114,8 @@ fn pixel_of(samples: &[[f64; 3]], exposure: Exposure) -> [u8; 3] {
 
 /// The mean of the samples' radiances, B / π.
 fn radiance_of(samples: &[[f64; 3]]) -> [f32; 3] {
-    let sum = samples.iter().fold([0.0; 3], |sum: [f64; 3], sample| std::array::from_fn(|k| sum[k] + sample[k]));
+    let sum =
+        samples.iter().fold([0.0; 3], |sum: [f64; 3], sample| std::array::from_fn(|k| sum[k] + sample[k]));
     sum.map(|part| {
         #[allow(clippy::cast_possible_truncation, reason = "the file's precision")]
         let part = (part / (PI * SAMPLES as f64)) as f32;

@@ -130,8 +130,11 @@ impl<'m> Means<'m> {
         if !(0..welds.len()).any(is_shared) {
             return values;
         }
-        let mean = |at: usize| sums[welds[at / self.bands] * self.bands + at % self.bands] / weights[welds[at / self.bands]];
-        let change = |(at, value): (usize, &f64)| if is_shared(at / self.bands) { mean(at) - value } else { 0.0 };
+        let mean = |at: usize| {
+            sums[welds[at / self.bands] * self.bands + at % self.bands] / weights[welds[at / self.bands]]
+        };
+        let change =
+            |(at, value): (usize, &f64)| if is_shared(at / self.bands) { mean(at) - value } else { 0.0 };
         let changes = self.spread(values.iter().enumerate().map(change).collect(), is_shared);
         let changed = |(at, value): (usize, f64)| {
             if is_shared(at / self.bands) { mean(at) } else { (value + changes[at]).max(0.0) }

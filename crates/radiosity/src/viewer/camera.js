@@ -3,7 +3,7 @@ const up = record.asset.up;
 const east = unit(cross(Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0], up)), north = cross(up, east);
 const views = record.cameras.length ? record.cameras : [framed];
 const camera = {};
-function look(given) {
+function viewFrom(given) {
   const eye = scale(sub(given.position, middle), 1 / radius), ahead = unit(given.direction);
   camera.yaw = Math.atan2(dot(ahead, east), dot(ahead, north));
   camera.pitch = Math.asin(Math.max(-1, Math.min(1, dot(ahead, up))));
@@ -13,7 +13,7 @@ function look(given) {
   camera.aspect = given.aspect;
 }
 function firstView() {
-  look(views[0]);
+  viewFrom(views[0]);
   camera.speed = 1;
   $("cameras").value = 0;
 }

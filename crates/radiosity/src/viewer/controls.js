@@ -11,7 +11,7 @@ const choose = (id, value) => { $(id).value = value; };
 const expose = step => choose("exposure", Number($("exposure").value) + step);
 const nextCamera = () => {
   choose("cameras", (Number($("cameras").value) + 1) % views.length);
-  look(views[$("cameras").value]);
+  viewFrom(views[$("cameras").value]);
 };
 const keys = {
   w: () => move(1, 0, 0), s: () => move(-1, 0, 0), a: () => move(0, -1, 0), d: () => move(0, 1, 0),
@@ -68,7 +68,7 @@ $("texture-choice").hidden = record.pictures.length === 0;
 $("panel").open = innerWidth >= 600;
 for (const id of ["show", "unit", "wireframe", "textures", "lights", "backs", "exposure"]) $(id).addEventListener("input", redraw);
 $("middle").addEventListener("input", () => { crossed(); redraw(); });
-$("cameras").addEventListener("input", () => { look(views[$("cameras").value]); redraw(); });
+$("cameras").addEventListener("input", () => { viewFrom(views[$("cameras").value]); redraw(); });
 $("faster").addEventListener("click", () => faster(2));
 $("slower").addEventListener("click", () => faster(0.5));
 $("reset").addEventListener("click", () => { firstView(); redraw(); });

@@ -41,7 +41,8 @@ pub(crate) fn pixel_errors(
         let exact = sources.gather(patch, hit.point)?;
         let rho = &scene.patches[patch].reflectance;
         let shown = |band: usize| {
-            let at = |(corner, weight): (&usize, f64)| weight * record.vertex_irradiance[corner * bands + band];
+            let at =
+                |(corner, weight): (&usize, f64)| weight * record.vertex_irradiance[corner * bands + band];
             corners.iter().zip(hit.weights).map(at).sum::<f64>()
         };
         let off = (0..bands).map(|band| rho[band] * (shown(band) - exact[band]).abs()).fold(0.0, f64::max);
@@ -49,8 +50,7 @@ pub(crate) fn pixel_errors(
         Ok((off, bright, hit.place))
     };
     let hits = hits(&record, camera, width);
-    let all: Vec<(f64, f64, [u32; 2])> =
-        hits.into_par_iter().map(compared).collect::<Result<_, Error>>()?;
+    let all: Vec<(f64, f64, [u32; 2])> = hits.into_par_iter().map(compared).collect::<Result<_, Error>>()?;
     let brightest = all.iter().map(|pixel| pixel.1).fold(f64::MIN_POSITIVE, f64::max);
     let mut errors: Vec<(f64, [u32; 2])> = all.iter().map(|pixel| (pixel.0 / brightest, pixel.2)).collect();
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -76,7 +76,8 @@ impl<'s> Sources<'s> {
             let patch = &scene.patches[element.patch];
             let emitted = patch.emission.iter().map(|radiance| std::f64::consts::PI * radiance);
             let sent = &solution.radiosity[index * scene.bands..][..scene.bands];
-            let reflected: Vec<f64> = sent.iter().zip(emitted).map(|(sent, emitted)| sent - emitted).collect();
+            let reflected: Vec<f64> =
+                sent.iter().zip(emitted).map(|(sent, emitted)| sent - emitted).collect();
             if reflected.iter().any(|band| *band > 0.0) {
                 // Slivers of no area send nothing.
                 let Ok(polygon) = PlanarPolygon::new([solution.mesh.triangle(index)]) else { continue };

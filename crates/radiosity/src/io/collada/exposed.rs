@@ -20,7 +20,9 @@ const PROFILE: &str = "radiosity";
 pub(super) fn with_exposure(text: &str, exposure: Exposure) -> String {
     let (body, end) = text.split_at(text.rfind("</").unwrap_or(text.len()));
     let k = decimal(&exposure.k());
-    format!("{body}<extra><technique profile=\"{PROFILE}\"><exposure>{k}</exposure></technique></extra>\n{end}")
+    format!(
+        "{body}<extra><technique profile=\"{PROFILE}\"><exposure>{k}</exposure></technique></extra>\n{end}"
+    )
 }
 
 /// The exposure that a file was given last.

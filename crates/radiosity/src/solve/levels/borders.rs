@@ -52,7 +52,12 @@ impl<'b> Borders<'b> {
     }
 
     /// The parts on both sides of one of the borders.
-    pub(super) fn cut(&self, patch: usize, outline: &Outline, inside: &[(f64, usize)]) -> Option<[Outline; 2]> {
+    pub(super) fn cut(
+        &self,
+        patch: usize,
+        outline: &Outline,
+        inside: &[(f64, usize)],
+    ) -> Option<[Outline; 2]> {
         let lines = self.lines[patch].as_deref().unwrap_or_default();
         let least = SHORT * outline.axes[1].length();
         let halves = |(_, line): &(f64, usize)| {

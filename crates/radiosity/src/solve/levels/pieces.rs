@@ -154,7 +154,8 @@ impl<'c> Cutting<'c> {
         let corners = outline.corners.iter().filter_map(|corner| {
             Some((outline.linear(corner.0), self.corners.get(&corner_key(tile, corner.0))?.as_slice()))
         });
-        let uneven = self.measure.uneven(light, corners, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
+        let uneven =
+            self.measure.uneven(light, corners, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
         // What stands on a leaf parts what it covers from what is lit.
         let is_crossed = self.tiling.is_crossed(patch, outline);
         let axis = uneven.or(is_crossed.then_some(0))?;
