@@ -14,6 +14,7 @@ fn assert_right(name: &str) {
         solve(&scene, &Quality::Normal.options(), |_| ControlFlow::Continue(())).expect("a solution");
     let found = pixel_errors(&scene, &solution, &scene.cameras[0], 32).expect("points");
     assert!(found.pixels > 100 && found.mean <= 0.005 && found.percentile <= 0.03, "{name}: {found:?}");
+    assert!(found.worst <= 0.1, "{name}: {} at {:?}", found.worst, found.place);
 }
 
 #[test]
