@@ -1,4 +1,5 @@
 //! What `--json` prints.
+use radiosity::inspect::{Finding, KindSummary};
 use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
@@ -6,6 +7,8 @@ use serde::Serialize;
 #[derive(Debug, Serialize)]
 pub(crate) struct Figures<'s> {
     scene: &'s str,
+    /// What was repaired while reading.
+    repairs: &'s [KindSummary],
     elements: usize,
     shots: usize,
     products: usize,
@@ -14,6 +17,9 @@ pub(crate) struct Figures<'s> {
     closure: Option<f64>,
     scaling: Option<f64>,
     energy: Energy<'s>,
+    /// What was left out of the file, or read as something else.
+    #[serde(skip_serializing_if = "<[Finding]>::is_empty")]
+    warnings: &'s [Finding],
     patches: Vec<PatchFigures<'s>>,
 }
 
@@ -48,14 +54,20 @@ struct PatchFigures<'s> {
 }
 
 impl<'s> Figures<'s> {
-    /// The figures of `solution`, the solution of `scene`, read from the file `name`.
-    pub(crate) fn new(name: &'s str, scene: &'s Scene, solution: &'s Solution) -> Figures<'s> {
+    /// The figures of `solution`, the solution of `scene`, read from the file `name` with some repairs.
+    pub(crate) fn new(
+        name: &'s str,
+        scene: &'s Scene,
+        repairs: &'s [KindSummary],
+        solution: &'s Solution,
+    ) -> Figures<'s> {
         let ledger = &solution.ledger;
         let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
         let patches = scene.patches.iter().zip(irradiance).zip(radiosity).enumerate();
         Figures {
             scene: name,
+            repairs,
             elements: solution.mesh.elements.len(),
             shots: solution.shots,
             products: solution.products,
@@ -70,6 +82,7 @@ impl<'s> Figures<'s> {
                 unshot: &ledger.unshot,
                 defect: &ledger.defect,
             },
+            warnings: &scene.warnings,
             patches: patches
                 .map(|(index, ((patch, irradiance), radiosity))| PatchFigures {
                     name: &patch.name,

@@ -1,10 +1,11 @@
 //! `radiosity inspect`
+use crate::digits::{own_digits, six_digits};
 use crate::failure::Failure;
+use crate::input::{self, Sides};
+use crate::json;
 use crate::outputs::print;
-use crate::{input, json};
 use clap::Args;
-use radiosity::inspect::{Finding, Inspection, KindSummary, inspect};
-use radiosity::io::{self, collada::Collada};
+use radiosity::inspect::{Finding, Inspection, KindSummary, inspect, summary};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
@@ -17,29 +18,36 @@ const NAMES: usize = 8;
 /// `radiosity inspect`
 #[derive(Args, Debug)]
 pub(crate) struct Inspect {
-    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), STL (.stl) or View3D (.vs3) file; - for standard input
     scene: PathBuf,
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Cut faces that overlap in one plane out of each other; needs -o
+    #[command(flatten)]
+    sides: Sides,
+    /// Repair the surfaces, as solve does while reading; needs -o
     #[arg(long, requires = "output")]
     repair: bool,
-    /// Write the repaired scene to this file, as COLLADA
+    /// Write the repaired file to this file, in the format of its extension; of COLLADA and glTF only what was cut changes
     #[arg(short, long, value_name = "FILE", requires = "repair")]
     output: Option<PathBuf>,
 }
 
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
 pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
-    let (scene, _) = input::read_quietly(&arguments.scene)?;
+    let (scene, source) = input::read_quietly(&arguments.scene)?;
+    let scene = arguments.sides.of(&scene);
     let inspection = inspect(&scene);
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if let Some(path) = &arguments.output {
-        let (repaired, changes) = radiosity::repair(&scene);
-        io::save(path, Collada::of(&repaired).text().as_bytes())?;
-        changes.iter().for_each(|change| eprintln!("{change}"));
-        eprintln!("{} patches changed; written to {}", changes.len(), path.display());
+        let repaired = radiosity::repair(&scene);
+        let left_out = source.save_repaired(&scene, &repaired.scene, path)?;
+        let repairs = summary(&repaired.repairs);
+        let what = if repairs.is_empty() { "nothing".to_owned() } else { input::counts(&repairs) };
+        eprintln!("repaired: {what}; written to {}", path.display());
+        if !left_out.is_empty() {
+            eprintln!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -55,13 +63,20 @@ fn text(inspection: &Inspection) -> String {
     let unit = inspection.unit;
     line(
         "patches",
-        format!("{} with {} vertices, area {:.6e}", inspection.patches, inspection.vertices, inspection.area),
+        format!(
+            "{} with {} vertices, area {}",
+            inspection.patches,
+            inspection.vertices,
+            six_digits(inspection.area)
+        ),
     );
-    line("extent", format!("{low:?} to {high:?}; the unit is {unit} m, up is {:?}", inspection.up));
+    let [low, high, up] = [low, high, inspection.up].map(|point| list(&point, own_digits));
+    line("extent", format!("{low} to {high}; the unit is {unit} m, up is {up}"));
     line("bands", inspection.bands.to_string());
     line("cameras", inspection.cameras.to_string());
     for emitter in inspection.emitters.iter().take(EMITTERS) {
-        line("emitter", format!("{} emits {:?} W (in units of {unit} m)", emitter.name, emitter.power));
+        let power = list(&emitter.power, six_digits);
+        line("emitter", format!("{} emits {power} W (in units of {unit} m)", emitter.name));
     }
     if inspection.emitters.len() > EMITTERS {
         line("emitters", format!("{} in all; --json lists them", inspection.emitters.len()));
@@ -76,6 +91,12 @@ fn text(inspection: &Inspection) -> String {
         ),
     );
     text + &findings(inspection)
+}
+
+/// Numbers in brackets.
+fn list(numbers: &[f64], digits: fn(f64) -> String) -> String {
+    let digits: Vec<String> = numbers.iter().map(|number| digits(*number)).collect();
+    format!("[{}]", digits.join(", "))
 }
 
 /// What was found by kind, one line each, then the findings themselves.

@@ -1,6 +1,6 @@
 //! `radiosity report`
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, Reading};
 use crate::outputs::Output;
 use clap::Args;
 use radiosity::{Scene, io, scenes};
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
         Failure::internal(format!("{}: cannot be created: {error}; name another folder", folder.display()))
     })?;
     // Half an hour of work is not begun for a folder that takes no files.
-    Output::new(&folder.join("report.html"))?;
+    Output::new(&folder.join("report.html"), "html")?;
     let report = report(&plan, |next| eprintln!("{next}"))?;
     let files = [
         ("report.html", report.page(peers.as_ref())),
@@ -63,7 +63,9 @@ fn plan(arguments: &Report) -> Result<Plan, Failure> {
 fn scene(name: &str) -> Result<Scene, Failure> {
     let scene = match scenes::scene(name) {
         Some(scene) => scene,
-        None if Path::new(name).extension().is_some() => input::read(Path::new(name))?.0,
+        None if Path::new(name).extension().is_some() => {
+            input::read_repaired(Path::new(name), Reading::default())?.scene
+        }
         None => {
             let known: Vec<_> = scenes::names().collect();
             let known = known.join(", ");

@@ -15,7 +15,7 @@ mod steps;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::outputs::{Output, print};
+use crate::outputs::{Output, is_stream, print};
 use interrupt::{Follower, resume};
 use options::{Solve, options};
 use radiosity::{Scene, Solution};
@@ -29,14 +29,21 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("there is no output; give -o FILE or --json"));
     }
+    if arguments.snapshot_every.is_some() && arguments.output.iter().any(|path| is_stream(path)) {
+        return Err(Failure::usage("stdout takes one result; give --snapshot-every with -o FILE"));
+    }
+    if arguments.json && arguments.output.iter().any(|path| is_stream(path)) {
+        return Err(Failure::usage("--json and -o - both write to stdout; leave out one of them"));
+    }
     let options = options(arguments)?;
-    let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
-    let (scene, source) = input::read(&arguments.scene)?;
-    warn_of_darkness(&scene);
+    let outputs = Output::all(&arguments.output, &arguments.format)?;
+    let input = input::read_repaired(&arguments.scene, arguments.reading)?;
+    let scene = &input.scene;
+    warn_of_darkness(scene);
     let mut state = resume(arguments.resume.as_deref())?;
-    let writer = SolveOutputs { arguments, outputs: &outputs, source: &source, scene: &scene };
+    let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
-    let solution = radiosity::solve_from(&scene, &options, &mut state, |progress| follower.follow(progress));
+    let solution = radiosity::solve_from(scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
@@ -45,7 +52,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json {
         print(&figures)?;
     }
-    report(&scene, &solution);
+    report(scene, &solution);
     Ok(follower.code(&solution))
 }
 

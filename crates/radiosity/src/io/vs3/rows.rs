@@ -1,8 +1,8 @@
 //! Lines to surfaces.
 use super::blast;
-use super::fields::{Fields, Wrong};
+use super::fields::Fields;
 use super::request::Request;
-use crate::io::error::Fault;
+use crate::io::error::{Fault, Wrong};
 use crate::scene::finding::Finding;
 use glam::DVec3;
 
@@ -73,9 +73,9 @@ impl Rows {
                 }
                 'T' | '!' | '/' => {}
                 _ => {
-                    let what = format!("line {}: {:?} is not read", fields.line, fields.words[0]);
-                    rows.warnings
-                        .push(Finding::of_file(what, "correct its first letter, or remove the line"));
+                    let what = "lines with another first letter are not read";
+                    let place = format!("line {}: {:?}", fields.line, fields.words[0]);
+                    Finding::note(&mut rows.warnings, place, what, "correct the letter, or remove the line");
                 }
             }
         }

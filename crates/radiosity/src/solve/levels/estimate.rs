@@ -1,5 +1,6 @@
 //! What the irradiance of every patch may be off by.
 use super::budget::{BandLight, errors};
+use super::cluster_links::ClusterLinks;
 use super::link::Link;
 use super::tiling::Tiling;
 
@@ -10,12 +11,18 @@ const EXPONENT: f64 = 1.2;
 const MOST: usize = 60;
 
 /// The mean error of the irradiance of every patch; patches × `bands`.
-pub(super) fn estimate(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight], bands: usize) -> Vec<f64> {
+pub(super) fn estimate(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    lights: &[BandLight],
+    bands: usize,
+) -> Vec<f64> {
     let exchanges = exchanges(tiling, links);
     let mut found = vec![0.0; tiling.scene.patches.len() * bands];
     for light in lights {
         let unit = tiling.units()[light.band];
-        for (patch, power) in powers(tiling, links, &exchanges, light).into_iter().enumerate() {
+        for (patch, power) in powers(tiling, links, clusters, &exchanges, light).into_iter().enumerate() {
             found[patch * bands + light.band] = unit * power / tiling.scene.patches[patch].polygon.area();
         }
     }
@@ -41,11 +48,12 @@ fn exchanges(tiling: &Tiling<'_>, links: &[Link]) -> Vec<([usize; 2], f64)> {
 fn powers(
     tiling: &Tiling<'_>,
     links: &[Link],
+    clusters: &ClusterLinks,
     exchanges: &[([usize; 2], f64)],
     light: &BandLight,
 ) -> Vec<f64> {
     let area = |tile: usize| tiling.tiles[tile].area;
-    let direct: Vec<f64> = errors(tiling, links, light, EXPONENT)
+    let direct: Vec<f64> = errors(tiling, links, clusters, light, EXPONENT)
         .into_iter()
         .enumerate()
         .map(|(tile, sum)| sum / area(tile).powf(EXPONENT))
@@ -60,7 +68,15 @@ fn powers(
         })
         .collect();
     let mut sums = vec![0.0; tiling.scene.patches.len()];
-    let all = reflected(&direct, &ways);
+    let far = |all: &[f64], next: &mut [f64]| {
+        for (link, end) in clusters.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
+            let sent = |tile: usize| all[tile] * tiling.tiles[tile].reflectance[light.band].powf(EXPONENT);
+            link.carry_powers(&clusters.clusters, end, EXPONENT, sent, |tile, error| {
+                next[tile] += error / area(tile).powf(EXPONENT);
+            });
+        }
+    };
+    let all = reflected(&direct, &ways, far);
     for (tile, error) in tiling.tiles.iter().zip(all).filter(|(tile, _)| tile.parent.is_none()) {
         sums[tile.patch] += tile.area * error.powf(1.0 / EXPONENT);
     }
@@ -68,7 +84,7 @@ fn powers(
 }
 
 /// What is there at once with what comes of it by reflection: pairs, and what each carries to the one and to the other.
-fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])]) -> Vec<f64> {
+fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])], far: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
     let mut all = direct.to_vec();
     for _ in 0..MOST {
         let mut next = direct.to_vec();
@@ -76,6 +92,7 @@ fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])]) -> Vec<f64> {
             next[*one] += here * all[*other];
             next[*other] += there * all[*one];
         }
+        far(&all, &mut next);
         all = next;
     }
     all
