@@ -3,8 +3,9 @@ use super::encoding::Encoding;
 use super::features::Features;
 use crate::error::Error;
 use arrow_array::cast::AsArray;
-use arrow_array::{Array, ArrayRef};
-use arrow_schema::{DataType, Field};
+use arrow_array::{Array, ArrayRef, GenericListArray, OffsetSizeTrait};
+use arrow_buffer::OffsetBuffer;
+use arrow_schema::{DataType, Field, FieldRef};
 use datafusion_common::{DataFusionError, Result, internal_err};
 use geo_traits::{
     CoordTrait, GeometryTrait, GeometryType, LineStringTrait, MultiPolygonTrait, PointTrait, PolygonTrait,
@@ -13,6 +14,7 @@ use geoarrow_array::GeoArrowArrayAccessor;
 use geoarrow_array::array::{MultiPolygonArray, PointArray, PolygonArray};
 use geoarrow_schema::GeoArrowType;
 use polycsg::DVec2;
+use std::sync::Arc;
 use wkb::reader::Wkb;
 
 /// The features of an array, in its encoding.
@@ -116,6 +118,7 @@ fn finite(point: &impl PointTrait<T = f64>) -> Result<Option<DVec2>, String> {
 
 fn of_native(array: &ArrayRef, kind: &GeoArrowType, field: &Field) -> Result<Features> {
     let mut features = Features::default();
+    let array = trimmed(array)?;
     let array = array.as_ref();
     match kind {
         GeoArrowType::Polygon(_) => {
@@ -142,6 +145,24 @@ fn of_native(array: &ArrayRef, kind: &GeoArrowType, field: &Field) -> Result<Fea
         other => return internal_err!("{other:?} was planned as polygons or points"),
     }
     Ok(features)
+}
+
+/// Lists without what lies before their first offset and behind their last one, at every depth. A slice has both, and the crate
+/// geoarrow-array panics at values that no list holds.
+fn trimmed(array: &ArrayRef) -> Result<ArrayRef> {
+    match array.data_type() {
+        DataType::List(item) => trimmed_list(array.as_list::<i32>(), item),
+        DataType::LargeList(item) => trimmed_list(array.as_list::<i64>(), item),
+        _ => Ok(Arc::clone(array)),
+    }
+}
+
+fn trimmed_list<O: OffsetSizeTrait>(list: &GenericListArray<O>, item: &FieldRef) -> Result<ArrayRef> {
+    let offsets = list.offsets();
+    let (first, last) = (offsets[0], offsets[list.len()]);
+    let values = trimmed(&list.values().slice(first.as_usize(), (last - first).as_usize()))?;
+    let offsets = OffsetBuffer::new(offsets.iter().map(|&at| at - first).collect());
+    Ok(Arc::new(GenericListArray::try_new(Arc::clone(item), offsets, values, list.nulls().cloned())?))
 }
 
 /// Reads each row of an array that is not NULL.
