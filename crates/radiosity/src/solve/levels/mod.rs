@@ -8,6 +8,7 @@
 //! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
+//! convergence   what the change of the light from level to level tells of errors
 //! estimate      what every patch may be off by
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
@@ -27,6 +28,7 @@
 //! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
 //! visibility).
 mod budget;
+mod convergence;
 mod equilibrium;
 mod estimate;
 mod flow;

@@ -1,7 +1,8 @@
 //! Rounds of linking, solving and refining.
 use super::budget::{BandLight, cut, limits};
+use super::convergence::Convergence;
 use super::equilibrium::largest;
-use super::estimate::estimate;
+use super::estimate::means;
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link, UNSEEN};
@@ -15,10 +16,14 @@ use crate::solve::{options::Options, solution::Solution, state::State};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
-/// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
-const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
-/// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
-const SUM: f64 = 2.0;
+/// What the errors of a patch's links may add up to at the first level, in units of what is asked for: errors are of any sign, and what is said of
+/// them is much.
+const COARSE: f64 = 32.0;
+/// The next level has this part of the share that it would need were errors in proportion to it, but no less and no more than such parts of the last one.
+const NEEDED: f64 = 0.9;
+const TIGHTER: [f64; 2] = [0.25, 0.8];
+/// What errors may add up to at the last level.
+const FINEST: f64 = 0.5;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -38,6 +43,7 @@ struct Levels<'l> {
     products: usize,
     /// The light as of the last round.
     light: LeafLight,
+    convergence: Convergence,
     watch: Follower<'l>,
     fault: Option<Error>,
 }
@@ -56,35 +62,61 @@ pub(crate) fn solve(
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
     let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent);
-    let mut levels =
-        Levels { options, start, tiling, links, sent, rounds: 0, products: 0, light, watch, fault: None };
-    let converged = levels.run(state)?;
-    levels.finish(converged, state)
+    let mut levels = Levels {
+        options,
+        start,
+        tiling,
+        links,
+        sent,
+        rounds: 0,
+        products: 0,
+        light,
+        convergence: Convergence::default(),
+        watch,
+        fault: None,
+    };
+    let is_right = levels.run(state)?;
+    levels.finish(is_right, state)
 }
 
 impl Levels<'_> {
-    /// Goes on until every patch is within its budget (true), or the watcher, the time or a defect ends the run (false).
-    fn run(&mut self, state: &mut State) -> Result<bool, Error> {
+    /// Goes on until all is estimated to be right, or nothing finer is to be had: tells which; nothing when the watcher, the time or a defect
+    /// ends the run.
+    fn run(&mut self, state: &mut State) -> Result<Option<bool>, Error> {
         let roots = self.tiling.tiles.len();
         let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
         let all = self.tiling.surfaces();
         let candidates: Vec<Candidate> = pairs
             .map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0, most: f64::INFINITY })
             .collect();
-        let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
+        let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
         self.links.open(&self.tiling, links, self.options.error);
         self.links.refuse_endless(&self.tiling)?;
-        for times in COARSE {
-            loop {
-                let mut lights = self.settle(FEW, false);
-                match self.refine(&mut lights, times * SUM * self.options.error, state)? {
-                    None => return Ok(false),
-                    Some(false) => break,
-                    Some(true) => {}
-                }
+        let (mut share, finest) = (COARSE * self.options.error, FINEST * self.options.error);
+        while let Some(excess) = self.level(share, state)? {
+            if excess <= 1.0 || share <= finest {
+                return Ok(Some(excess <= 1.0));
+            }
+            let [low, high] = TIGHTER;
+            share = (share * (NEEDED / excess).clamp(low, high)).max(finest);
+        }
+        Ok(None)
+    }
+
+    /// Refines until the errors of every patch's links add up to no more than a share of its light; gives by how many times what is asked for is exceeded
+    /// then, or nothing when the run is to end.
+    fn level(&mut self, share: f64, state: &mut State) -> Result<Option<f64>, Error> {
+        loop {
+            let mut lights = self.settle(FEW, false);
+            match self.refine(&mut lights, share, state)? {
+                None => return Ok(None),
+                Some(true) => {}
+                Some(false) => break,
             }
         }
-        Ok(true)
+        let lights = self.settle(ALL, true);
+        self.convergence.reach(&self.tiling, &self.links.all, &lights);
+        Ok(Some(self.convergence.excess(&self.tiling, &self.links.all, &lights, self.options.error)))
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -222,20 +254,21 @@ impl Levels<'_> {
         Ok(None)
     }
 
-    /// The solution, with an estimate of its error.
-    fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
-        let most = if converged { ALL } else { 0 };
+    /// The solution, with an estimate of its error; as it is shown, unless the run was ended.
+    fn finish(mut self, is_right: Option<bool>, state: &State) -> Result<Solution, Error> {
+        let most = if is_right.is_some() { ALL } else { 0 };
         let lights = self.settle(most, true);
         if self.options.record {
             // The run is over: there is nothing to stop.
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
+        let errors = self.convergence.errors(&self.tiling, &self.links.all, &lights);
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = estimate(tiling, &links.all, &lights, sent.len());
-        let shown = match converged.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
+        let estimate = means(tiling, &lights, &errors, sent.len());
+        let shown = match is_right.map(|_| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
                 None
@@ -246,7 +279,7 @@ impl Levels<'_> {
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            converged: is_shown && light.is_within(options.tolerance),
+            converged: is_shown && is_right == Some(true) && light.is_within(options.tolerance),
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,
             ..solution
