@@ -41,6 +41,8 @@ pub(super) struct BandLight {
     /// For each patch: what it receives, and the power that counts as 1.
     pub(super) received: Vec<f64>,
     pub(super) unit: Vec<f64>,
+    /// What all patches send, on average.
+    pub(super) mean: f64,
 }
 
 /// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, the sender's part, and
@@ -157,7 +159,10 @@ impl BandLight {
             level[index] = tile.parent.map_or(level[index], |parent| level[parent]);
         }
         let importance = importances(tiling, links, &unit);
-        BandLight { band, reflected, deviation, sent, level, importance, received: powers, unit }
+        let roots = || tiling.tiles.iter().zip(&sent).filter(|(tile, _)| tile.parent.is_none());
+        let sent_power: f64 = roots().map(|(tile, light)| tile.area * light[0]).sum();
+        let mean = sent_power / areas.iter().sum::<f64>();
+        BandLight { band, reflected, deviation, sent, level, importance, received: powers, unit, mean }
     }
 }
 

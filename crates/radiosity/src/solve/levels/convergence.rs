@@ -10,10 +10,10 @@ use super::estimate::errors;
 use super::link::Link;
 use super::tiling::Tiling;
 
-/// A patch tells something of errors where its sum fell to this share or less.
-const FELL: f64 = 0.7;
-/// Fewer patches than this tell nothing.
-const FEW: usize = 3;
+/// A patch tells something of errors where its sum fell to this share or less: changes are of errors before and after.
+const FELL: f64 = 0.5;
+/// Levels are compared where at least this share of the patches tells something.
+const TELLING: f64 = 0.5;
 /// This share of the patches changed by less than what is believed.
 const MOST: f64 = 0.95;
 /// Of a sum no less than this share is believed, and no more than so many times as much.
@@ -38,12 +38,14 @@ pub(super) struct Convergence {
 }
 
 impl Convergence {
-    /// Takes note of a level.
+    /// Takes note of a level: compares it with the last one that was so much coarser that it tells something.
     pub(super) fn reach(&mut self, tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight]) {
         let received = lights.iter().map(|light| light.received.clone()).collect();
         let level = Level { received, sums: errors(tiling, links, lights) };
-        let believed = self.last.as_ref().and_then(|before| believed(before, &level));
-        self.believed = believed.unwrap_or_else(|| std::mem::take(&mut self.believed));
+        if let Some(before) = &self.last {
+            let Some(believed) = believed(before, &level) else { return };
+            self.believed = believed;
+        }
         self.last = Some(level);
     }
 
@@ -90,7 +92,7 @@ fn most(mut patches: Vec<(f64, f64)>) -> f64 {
 }
 
 /// What share of the sums is believed: as much as nearly all patches changed of what their sums fell by, or as a patch itself did. Nothing
-/// where too few sums fell.
+/// where too few sums fell far.
 fn believed(before: &Level, now: &Level) -> Option<Vec<Vec<f64>>> {
     let of_band = |band: usize| -> Vec<Option<f64>> {
         let change = |patch: usize| {
@@ -102,7 +104,8 @@ fn believed(before: &Level, now: &Level) -> Option<Vec<Vec<f64>>> {
     };
     let shares: Vec<Vec<Option<f64>>> = (0..now.sums.len()).map(of_band).collect();
     let mut all: Vec<f64> = shares.iter().flatten().flatten().copied().collect();
-    if all.len() < FEW {
+    let wrong = before.sums.iter().flatten().filter(|sum| **sum > 0.0).count();
+    if all.is_empty() || (all.len() as f64) < TELLING * wrong as f64 {
         return None;
     }
     all.sort_by(f64::total_cmp);
@@ -137,6 +140,7 @@ mod tests {
         share.iter().for_each(|share| assert!((share - 0.25).abs() < 1e-12));
         assert_eq!(of(level(1.0, 0.5), level(1.0, 0.1)), Some(vec![BELIEVED[0]; 4]));
         assert_eq!(of(level(1.0, 0.5), level(1.1, 0.4)), None, "hardly anything was refined");
+        assert_eq!(of(level(1.0, 0.0), level(1.0, 0.0)), None, "nothing was wrong");
         // One changed by more than the others: of that alone more is believed.
         let mut before = level(1.0, 0.5);
         before.received[0].extend([1.0; 26]);

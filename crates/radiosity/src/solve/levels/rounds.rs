@@ -19,8 +19,8 @@ use std::{ops::ControlFlow, time::Instant};
 /// What the errors of a patch's links may add up to at the first level, in units of what is asked for: errors are of any sign, and what is said of
 /// them is much.
 const COARSE: f64 = 32.0;
-/// The next level has this part of the share that it would need were errors in proportion to it, but no less and no more than such parts of the last one.
-const NEEDED: f64 = 0.9;
+/// The next level has the root of the part of the share that it would need were errors in proportion to it, as they are in proportion to more, but
+/// no less and no more than such parts of the last one.
 const TIGHTER: [f64; 2] = [0.25, 0.8];
 /// What errors may add up to at the last level.
 const FINEST: f64 = 0.5;
@@ -90,15 +90,17 @@ impl Levels<'_> {
             .map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0, most: f64::INFINITY })
             .collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
-        self.links.open(&self.tiling, links, self.options.error);
+        self.links.open(&self.tiling, links);
         self.links.refuse_endless(&self.tiling)?;
+        let lights = self.settle(FEW, false);
+        self.links.total(&self.tiling, &lights, self.options.error);
         let (mut share, finest) = (COARSE * self.options.error, FINEST * self.options.error);
         while let Some(excess) = self.level(share, state)? {
             if excess <= 1.0 || share <= finest {
                 return Ok(Some(excess <= 1.0));
             }
             let [low, high] = TIGHTER;
-            share = (share * (NEEDED / excess).clamp(low, high)).max(finest);
+            share = (share * excess.powf(-0.5).clamp(low, high)).max(finest);
         }
         Ok(None)
     }
