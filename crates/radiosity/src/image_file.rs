@@ -65,7 +65,7 @@ pub(crate) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
 }
 
 /// The linear intensity of an sRGB value, both 0 to 1 (IEC 61966-2-1).
-fn linear(value: f64) -> f64 {
+pub(crate) fn linear(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -92,5 +92,6 @@ fn finding(name: &str) -> Finding {
         patches: vec![name.into()],
         what: "it faces the other way than the patches around it".into(),
         repair: "reverse the order of its vertices; its front gives and takes the light".into(),
+        places: Vec::new(),
     }
 }

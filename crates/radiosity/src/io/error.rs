@@ -28,11 +28,13 @@ pub enum FileError {
         /// Length of the data.
         bytes: usize,
     },
-    /// The bytes are not text in UTF-8.
-    #[error("{file}: byte {position} is not UTF-8; save the file in UTF-8")]
+    /// The bytes are not text in the encoding that the file says.
+    #[error("{file}: byte {position} is not {encoding}; save the file in UTF-8")]
     Encoding {
         /// The file.
         file: String,
+        /// The encoding.
+        encoding: String,
         /// Offset of the first wrong byte.
         position: usize,
     },
@@ -72,11 +74,40 @@ pub enum FileError {
         /// What is wrong with it.
         fault: Fault,
     },
-    /// The file's extension names no format that is read.
-    #[error("{file}: unknown kind of scene; give a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file")]
+    /// Neither the file's extension nor its contents are of a format that is read.
+    #[error(
+        "{file}: unknown kind of scene; give a COLLADA (.dae), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), STL (.stl) or View3D (.vs3) \
+         file"
+    )]
     Unknown {
         /// The file.
         file: String,
+    },
+    /// The extension names no format that scenes are written in.
+    #[error("{}: unknown kind of scene; name it .dae, .glb, .obj, .ply or .stl", path.display())]
+    UnknownOutput {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A format, or a part of one, that is known and not read.
+    #[error("{file}: {feature} is not read; {repair}")]
+    Unread {
+        /// The file.
+        file: String,
+        /// The format or the part.
+        feature: String,
+        /// What to do.
+        repair: &'static str,
+    },
+    /// The bytes are not of the format that the file's name says.
+    #[error("{file}: not {wanted}: {reason}; export the scene again, or correct the file's name")]
+    Garbled {
+        /// The file.
+        file: String,
+        /// The format.
+        wanted: &'static str,
+        /// What is wrong.
+        reason: &'static str,
     },
     /// An element of a COLLADA file has a fault.
     #[error("{file}:{line}:{column}: <{element}>: {fault}")]
@@ -193,6 +224,9 @@ pub enum Fault {
     /// Rows of another width than needed.
     #[error("it has another number of {0} than its use needs; export the file again")]
     Kind(&'static str),
+    /// What a checker says of a part of a file.
+    #[error("{0}; export the file again")]
+    Invalid(String),
     /// A word where another is needed.
     #[error("{found:?} stands where {wanted} is needed; correct the line")]
     Word {
@@ -200,6 +234,16 @@ pub enum Fault {
         found: String,
         /// What is needed.
         wanted: &'static str,
+    },
+    /// A fault in another file that this one names.
+    #[error("{file}:{line}: {fault}")]
+    Within {
+        /// The other file.
+        file: String,
+        /// Its line, from 1.
+        line: usize,
+        /// What is wrong there.
+        fault: Box<Fault>,
     },
     /// A polygon that the form factors refuse.
     #[error("polygon {polygon}: {source}")]

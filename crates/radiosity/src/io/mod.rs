@@ -1,22 +1,36 @@
-//! Reading scene files and writing results: COLLADA, glTF and View3D's format. Files are written completely or not at all.
+//! Reading scene files and writing results: COLLADA, glTF, OBJ, PLY, STL and View3D's format. Files are written completely or not at
+//! all.
 //!
 //! ```text
-//! source     a scene file of any kind
-//! gltf       glTF 2.0, read and written
-//! collada    COLLADA 1.4 and 1.5, read and written
-//! vs3        View3D's input, read
-//! surface    what all readers do with polygons
-//! save       whole files or none
-//! error      what can go wrong
+//! source      a scene file of any kind
+//! scene_file  scenes to files of any kind
+//! format      which kind a file is
+//! gltf        glTF 2.0, read and written
+//! obj         Wavefront OBJ with MTL, read and written
+//! ply         PLY, read and written
+//! stl         STL, read and written
+//! collada     COLLADA 1.4 and 1.5, read and written
+//! vs3         View3D's input, read
+//! surface     what all readers do with polygons
+//! words       lists and numbers as text
+//! save        whole files or none
+//! error       what can go wrong
 //! ```
 pub mod collada;
 pub(crate) mod error;
+mod format;
 pub mod gltf;
+pub mod obj;
+pub mod ply;
 mod save;
+mod scene_file;
 mod source;
+pub mod stl;
 mod surface;
 pub mod vs3;
+mod words;
 
 pub use error::{Fault, FileError};
 pub use save::{save, save_with};
+pub use scene_file::save_scene;
 pub use source::Source;

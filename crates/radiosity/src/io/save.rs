@@ -1,8 +1,13 @@
-//! Files are written completely or not at all.
+//! Files are read as a whole, and written completely or not at all.
 use super::error::FileError;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+/// The bytes of a file.
+pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
+    std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })
+}
 
 /// Writes a file completely or not at all: into a temporary file of the same folder, which is renamed at the end.
 ///

@@ -1,10 +1,13 @@
 //! A scene file of any kind.
-use super::{collada::Collada, error::FileError, gltf::Gltf, vs3::Vs3};
+use super::save::{bytes_of, save};
+use super::{collada::Collada, error::FileError, format::Format, gltf::Gltf};
+use super::{obj::Obj, ply::Ply, scene_file::save_scene, stl::Stl, vs3::Vs3};
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use std::path::Path;
 
-/// A scene file in the format of its extension: COLLADA (`.dae`), glTF (`.gltf`, `.glb`) or View3D (`.vs3`).
+/// A scene file: COLLADA (`.dae`), glTF (`.gltf`, `.glb`), OBJ (`.obj`), PLY (`.ply`), STL (`.stl`) or View3D (`.vs3`). What its first
+/// bytes say counts before its extension.
 ///
 /// ```no_run
 /// use radiosity::io::Source;
@@ -19,24 +22,45 @@ pub enum Source {
     Collada(Collada),
     /// glTF 2.0, text or binary.
     Gltf(Gltf),
+    /// OBJ with MTL.
+    Obj(Obj),
+    /// PLY, text or binary.
+    Ply(Ply),
+    /// STL, text or binary.
+    Stl(Stl),
     /// View3D's vertices and surfaces.
     Vs3(Vs3),
 }
 
 impl Source {
-    /// Reads a file.
+    /// Reads a file. The files that it names are read from its folder, by [`Source::scene`].
     ///
     /// # Errors
-    /// [`FileError::Unknown`] for another extension, and those of the format's own `open`.
+    /// [`FileError::Unknown`] for a file of no known kind, [`FileError::Unread`] for one of a kind that is not read, and those of the
+    /// format's own `open`.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        match extension.as_deref() {
-            Some("dae") => Collada::open(path).map(Self::Collada),
-            Some("gltf" | "glb") => Gltf::open(path).map(Self::Gltf),
-            Some("vs3") => Vs3::open(path).map(Self::Vs3),
-            _ => Err(FileError::Unknown { file: path.display().to_string() }),
-        }
+        Self::read(path.display().to_string(), bytes_of(path)?, path.parent())
+    }
+
+    /// Bytes as the contents of a file, as they come through a pipe; messages show its `name`, whose extension counts where the bytes
+    /// leave a doubt. The files that they name are read from the current folder.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub fn from_bytes(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Result<Self, FileError> {
+        Self::read(name.into(), bytes.into(), Some(Path::new("")))
+    }
+
+    fn read(name: String, bytes: Vec<u8>, folder: Option<&Path>) -> Result<Self, FileError> {
+        Ok(match Format::of(&name, &bytes)? {
+            Format::Collada => Self::Collada(Collada::from_bytes(name, bytes)?),
+            Format::Gltf => Self::Gltf(Gltf::from_bytes(name, bytes).within(folder)),
+            Format::Obj => Self::Obj(Obj::from_bytes(name, bytes)?.within(folder)),
+            Format::Ply => Self::Ply(Ply::from_bytes(name, bytes).within(folder)),
+            Format::Stl => Self::Stl(Stl::from_bytes(name, bytes)),
+            Format::Vs3 => Self::Vs3(Vs3::from_text(name, String::from_utf8_lossy(&bytes))),
+        })
     }
 
     /// The scene: patches, cameras and warnings.
@@ -47,8 +71,37 @@ impl Source {
         match self {
             Self::Collada(file) => file.scene(),
             Self::Gltf(file) => file.scene(),
+            Self::Obj(file) => file.scene(),
+            Self::Ply(file) => file.scene(),
+            Self::Stl(file) => file.scene(),
             Self::Vs3(file) => file.scene(),
         }
+    }
+
+    /// Writes this file with the polygons of a repaired scene. A COLLADA file stays COLLADA, and glTF stays glTF: polygons that were cut give
+    /// way to their pieces, and everything else stays, see [`Collada::repaired`] and [`Gltf::repaired`]. Other formats, and another extension
+    /// than the file's own, are written anew by [`save_scene`]; returns what they cannot hold.
+    ///
+    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()).
+    ///
+    /// # Errors
+    /// As [`Source::scene`] and [`save_scene`].
+    pub fn save_repaired(
+        &self,
+        before: &Scene,
+        after: &Scene,
+        path: impl AsRef<Path>,
+    ) -> Result<Vec<&'static str>, FileError> {
+        let path = path.as_ref();
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match self {
+            Self::Collada(file) if extension == "dae" => {
+                save(path, file.repaired(before, after)?.as_bytes())?
+            }
+            Self::Gltf(file) if extension == file.extension() => save(path, &file.repaired(before, after)?)?,
+            _ => return save_scene(after, path),
+        }
+        Ok(Vec::new())
     }
 
     /// A COLLADA text in which the mesh's triangles replace the scene's polygons, with `colours` (red, green and blue for each
@@ -61,7 +114,7 @@ impl Source {
     pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
         match self {
             Self::Collada(file) => file.with_light(scene, mesh, colours),
-            Self::Gltf(_) | Self::Vs3(_) => {
+            _ => {
                 let file = Collada::of(scene);
                 file.with_light(&file.scene()?, mesh, colours)
             }

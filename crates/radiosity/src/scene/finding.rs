@@ -1,6 +1,6 @@
 //! What will trouble a solution, and how to repair it.
 use serde::Serialize;
-use std::fmt;
+use std::{collections::BTreeMap, fmt};
 
 /// Something in a scene that will trouble a solution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -13,20 +13,78 @@ pub struct Finding {
     pub what: String,
     /// How to repair it, in a sentence.
     pub repair: String,
+    /// Where in the file, as often as it was met there; empty for what concerns patches.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<String>,
 }
 
 impl Finding {
     /// Something that a reader found odd, which concerns no patch by name.
     pub(crate) fn of_file(what: impl Into<String>, repair: &str) -> Finding {
-        Finding { kind: Kind::File, patches: Vec::new(), what: what.into(), repair: repair.into() }
+        let (what, repair) = (what.into(), repair.into());
+        Finding { kind: Kind::File, patches: Vec::new(), what, repair, places: Vec::new() }
+    }
+
+    /// Notes what a reader met at a place. The same at several places is one finding, so `what` names a feature and no place:
+    /// a file has few of these, however long it is.
+    pub(crate) fn note(findings: &mut Vec<Finding>, place: impl Into<String>, what: &str, repair: &str) {
+        let known = findings.iter().position(|known| known.kind == Kind::File && known.what == what);
+        let index = known.unwrap_or_else(|| {
+            findings.push(Finding::of_file(what, repair));
+            findings.len() - 1
+        });
+        findings[index].places.push(place.into());
+    }
+
+    /// What it is, and how often.
+    fn counted(&self) -> String {
+        match self.places.len() {
+            0 | 1 => self.what.clone(),
+            count => format!("{} ({count} times)", self.what),
+        }
     }
 }
 
 impl fmt::Display for Finding {
-    /// `what; repair`, without the names.
+    /// `place: what; repair`, without the names.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}; {}", self.what, self.repair)
+        match self.places.as_slice() {
+            [] => write!(f, "{}; {}", self.what, self.repair),
+            [place] => write!(f, "{place}: {}; {}", self.what, self.repair),
+            [first, ..] => write!(f, "{}, first at {first}; {}", self.counted(), self.repair),
+        }
     }
+}
+
+/// Everything that was found, in one line: each finding about the file with its count, and how many there are of each other kind. `None`
+/// where nothing was found; a single finding has its repair with it.
+///
+/// ```
+/// use radiosity::{io::Source, inspect::in_one_line};
+/// let room = Source::from_bytes("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\nl 2 3\np 1\n")?.scene()?;
+/// let line = in_one_line(&room.warnings).expect("lines are no surfaces");
+/// assert!(line.contains("lines and points have no area; they are left out (3 times)"), "{line}");
+/// # Ok::<(), radiosity::io::FileError>(())
+/// ```
+#[must_use]
+pub fn in_one_line(findings: &[Finding]) -> Option<String> {
+    if let [only] = findings {
+        return Some(only.to_string());
+    }
+    let mut parts: Vec<String> = Vec::new();
+    let mut others: BTreeMap<Kind, usize> = BTreeMap::new();
+    for finding in findings {
+        match finding.kind {
+            Kind::File => parts.push(finding.counted()),
+            kind => *others.entry(kind).or_default() += 1,
+        }
+    }
+    let counts = others.into_iter().map(|(kind, count)| {
+        let [one, many] = kind.nouns();
+        format!("{count} {}", if count == 1 { one } else { many })
+    });
+    parts.extend(counts);
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// Kinds of findings, those first that trouble a solution most.
@@ -54,6 +112,8 @@ pub enum Kind {
     Sliver,
     /// A polygon without area, which was left out.
     NoArea,
+    /// Vertices that lie beside those of a neighbour, by what single precision rounds away.
+    Crack,
     /// A vertex that ends in the middle of another patch's edge.
     TJunction,
 }
@@ -62,7 +122,22 @@ impl Kind {
     /// Whether it changes the light, so that a solution is not that of the scene which the file's author had in mind.
     #[must_use]
     pub fn matters(self) -> bool {
-        !matches!(self, Kind::NoArea | Kind::TJunction)
+        !matches!(self, Kind::NoArea | Kind::Crack | Kind::TJunction)
+    }
+
+    /// What reading or [`repair()`](crate::repair()) does about it, in a word or two; `None` where it stays as it is.
+    #[must_use]
+    pub fn remedy(self) -> Option<&'static str> {
+        match self {
+            Kind::Reflectance => Some("limited"),
+            Kind::Duplicate => Some("removed"),
+            Kind::EmitterInFace => Some("cut out"),
+            Kind::Overlap => Some("cut"),
+            Kind::NonPlanar => Some("split"),
+            Kind::Sliver | Kind::NoArea => Some("left out"),
+            Kind::Crack => Some("closed"),
+            Kind::Dark | Kind::File | Kind::Flipped | Kind::TJunction => None,
+        }
     }
 
     /// What it does to a solution, in a clause.
@@ -78,6 +153,7 @@ impl Kind {
             Kind::NonPlanar => "their triangles are a guess at the surface",
             Kind::Sliver => "their own light is uncertain",
             Kind::NoArea => "nothing was lost",
+            Kind::Crack => "what leaks is less than rounding of the file",
             Kind::TJunction => "form factors do not mind; interpolated light may show a seam",
         }
     }
@@ -96,6 +172,7 @@ impl Kind {
             Kind::NonPlanar => ["surface that is not planar", "surfaces that are not planar"],
             Kind::Sliver => ["sliver", "slivers"],
             Kind::NoArea => ["surface with empty polygons", "surfaces with empty polygons"],
+            Kind::Crack => ["crack", "cracks"],
             Kind::TJunction => ["T-junction", "T-junctions"],
         }
     }

@@ -169,3 +169,50 @@ fn a_panic_of_a_worker_loses_nothing() {
         assert_eq!(again.radiosity, whole.radiosity, "{method:?}");
     }
 }
+
+/// The rooms of a wall between two, with every wall in so many parts along both sides.
+fn two_rooms(parts: u32) -> Scene {
+    let [x, y, z] = DVec3::AXES;
+    let side = |from: DVec3, [along, up]: [DVec3; 2], emission: f64| {
+        let at = |k: u32| f64::from(k) / f64::from(parts);
+        let part = move |i: u32, j: u32| {
+            let place = |i: u32, j: u32| (from + along * at(i) + up * at(j)).to_array();
+            let corners = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+            patch("part", &corners, 0.5, emission)
+        };
+        (0..parts).flat_map(move |i| (0..parts).map(move |j| part(i, j))).collect::<Vec<Patch>>()
+    };
+    let room = |from: DVec3, lamp: f64| {
+        let to = from + x + y + z;
+        let faces = [
+            (from, [x, y], 0.0),
+            (to, [-y, -x], lamp),
+            (from, [y, z], 0.0),
+            (to, [-z, -y], 0.0),
+            (from, [z, x], 0.0),
+            (to, [-x, -z], 0.0),
+        ];
+        faces.into_iter().flat_map(|(from, ways, emission)| side(from, ways, emission)).collect::<Vec<_>>()
+    };
+    let patches = room(DVec3::ZERO, 1.0).into_iter().chain(room(x, 0.0)).collect();
+    Scene { patches, bands: 1, ..Scene::default() }
+}
+
+#[test]
+fn walls_in_many_parts_are_as_bright_as_whole_ones_and_dark_rooms_are_dark() {
+    let by_levels = Options { method: Method::Hierarchical, error: 0.03, ..Options::default() };
+    let [whole, parts] = [1, 6].map(|parts| {
+        let scene = two_rooms(parts);
+        let solution = quick(&scene, by_levels);
+        let means = solution.patch_means(&solution.irradiance, scene.patches.len());
+        let of_face = means.chunks(scene.patches.len() / 12);
+        of_face
+            .map(|all| all.iter().map(|mean| mean[0]).sum::<f64>() / all.len() as f64)
+            .collect::<Vec<f64>>()
+    });
+    for (one, other) in whole.iter().zip(&parts).take(6) {
+        assert!((one - other).abs() < 0.02 * one, "{one} {other}");
+    }
+    assert_eq!(whole[6..], [0.0; 6]);
+    assert_eq!(parts[6..], [0.0; 6]);
+}

@@ -51,7 +51,7 @@ impl<'o> Follower<'o> {
             outputs,
             bar: Bar::new(tolerance),
             steps: Steps::new(outputs.arguments.steps.as_deref()),
-            recorder: outputs.arguments.record.then(|| Recorder::new(outputs.scene)),
+            recorder: outputs.arguments.record.then(|| Recorder::new(&outputs.input.scene)),
             state: outputs.arguments.output.first().map(|path| {
                 let mut name = path.clone().into_os_string();
                 name.push(".state");

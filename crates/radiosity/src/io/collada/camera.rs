@@ -6,24 +6,30 @@ use crate::scene::{camera::Camera, finding::Finding};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The cameras of the scene; others than perspective ones draw a warning.
+/// The cameras of the scene that have a view in perspective; a warning tells of the others.
 pub(super) fn cameras<'a>(
     file: &File<'a>,
     camera_instances: &[CameraInstance<'a>],
     warnings: &mut Vec<Finding>,
-) -> Result<Vec<Camera>, FileError> {
+) -> Vec<Camera> {
     let mut all = Vec::new();
     for instance in camera_instances {
-        match descend(instance.camera, &["optics", "technique_common", "perspective"]) {
-            Some(perspective) => all.push(camera(file, instance, perspective)?),
-            None => {
-                let place = file.place(instance.camera);
-                let what = format!("{place}: only perspective cameras are read; this one is left out");
-                warnings.push(Finding::of_file(what, "make it a perspective camera, or give --camera"));
+        let Some(perspective) = descend(instance.camera, &["optics", "technique_common", "perspective"])
+        else {
+            let what = "only perspective cameras are read; another kind is left out";
+            Finding::note(warnings, file.place(instance.camera), what, "make it one, or give --camera");
+            continue;
+        };
+        match camera(file, instance, perspective) {
+            Ok(camera) => all.push(camera),
+            // Nobody's light depends on a camera.
+            Err(error) => {
+                let what = "a camera without a view is left out";
+                Finding::note(warnings, error.to_string(), what, "correct it, or give --camera");
             }
         }
     }
-    Ok(all)
+    all
 }
 
 /// A camera looks along its node's −z, with +y up.

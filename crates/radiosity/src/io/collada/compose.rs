@@ -1,8 +1,8 @@
 //! A model as COLLADA 1.4 text: one node, geometry and polygon list per face.
 use super::model::{Face, Material, Model};
 use super::spectra::PROFILE;
-use super::xml::{TOOL, decimal, list};
 use crate::escape::escape;
+use crate::io::words::{TOOL, decimal, list};
 use crate::scene::{asset::Asset, camera::Camera, texture::Texture};
 use glam::DVec3;
 use std::{collections::HashMap, fmt::Write};
@@ -228,7 +228,7 @@ fn node(index: usize, face: &Face, material: &Material) -> String {
 
 fn geometry(index: usize, face: &Face, material: &Material) -> String {
     let (points, numbers) = points(face);
-    let places = material.texture.as_ref().map(|texture| {
+    let places = face.texture.as_ref().or(material.texture.as_ref()).map(|texture| {
         let place = |point: &DVec3| texture.place(*point);
         // COLLADA counts from the lower left corner.
         points.iter().map(place).map(|place| vec![place.x, 1.0 - place.y]).collect::<Vec<_>>()

@@ -1,9 +1,9 @@
 //! Radiosity at the vertices turned to colours that a screen can show.
 use super::file::{File, XmlNode, children, descend};
 use super::primitive::surfaces;
-use super::xml::{decimal, list};
 use crate::expose::Exposure;
 use crate::io::error::{Fault, FileError};
+use crate::io::words::{decimal, list};
 use std::collections::BTreeMap;
 
 /// A colour source's numbers: their element, how many a row has, and themselves.

@@ -35,9 +35,9 @@ impl Images {
             None => Err("its <image> is not in the file".to_owned()),
         };
         let image = image.map(Arc::new).map_err(|reason| {
-            let place = file.place(texture);
-            let what = format!("{place}: the texture cannot be read: {reason}; reflectance 0.5 is taken");
-            warnings.push(Finding::of_file(what, "put the picture beside the file, as PNG or JPEG"));
+            let place = format!("{}: {reason}", file.place(texture));
+            let what = "a texture cannot be read; reflectance 0.5 is taken";
+            Finding::note(warnings, place, what, "put the picture beside the file, as PNG or JPEG");
         });
         self.known.insert(id.into(), image.clone().ok());
         image.ok()

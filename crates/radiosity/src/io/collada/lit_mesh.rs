@@ -1,6 +1,6 @@
 //! A `<mesh>` with a colour at every vertex, as text.
-use super::xml::{decimal, list};
 use crate::escape::escape;
+use crate::io::words::{decimal, list};
 use glam::{DVec2, DVec3};
 
 /// Triangles in a geometry's coordinates, grouped by material symbol.

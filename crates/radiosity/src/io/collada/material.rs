@@ -1,6 +1,6 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
 use super::file::{File, XmlNode, child, children, descend};
-use super::{images::Images, spectra::spectra};
+use super::{images::Images, spectra::spectra, walk::Instance};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Finish;
 use crate::scene::finding::Finding;
@@ -16,27 +16,24 @@ pub(super) fn finish<'a>(
     images: &mut Images,
     warnings: &mut Vec<Finding>,
 ) -> Result<Finish, FileError> {
-    let mut plain = |why: &str| {
-        let place = file.place(instance);
-        let what = format!("{place}: {why}; reflectance {DEFAULT_REFLECTANCE} is taken");
-        warnings.push(Finding::of_file(what, "give it a material with a diffuse colour"));
+    let mut plain = |what: &str| {
+        Finding::note(warnings, file.place(instance), what, "give it a material with a diffuse colour");
         let reflectance = [DEFAULT_REFLECTANCE; 3];
         Ok(Finish { reflectance, emission: [0.0; 3], image: None, spectra: None })
     };
-    let Some(symbol) = symbol else { return plain("polygons without a material") };
+    let Some(symbol) = symbol else { return plain("polygons without a material have a reflectance of 0.5") };
     let Some(material) = bound(file, instance, symbol)? else {
-        return plain(&format!("the material {symbol:?} is not bound"));
+        return plain("polygons whose material is not bound have a reflectance of 0.5");
     };
     let effect = file.target(file.child(material, "instance_effect")?, "url", "effect")?;
     let spectra = spectra(file, effect)?;
     let Some(shader) = shader(effect) else {
-        return plain(&format!("the effect of {symbol:?} has no common shader"));
+        return plain("polygons whose effect has no common shader have a reflectance of 0.5");
     };
     let emission = match slot(effect, shader, "emission") {
         Slot::Texture(texture) => {
-            let place = file.place(texture);
-            let what = format!("{place}: emission textures are not read; emission 0 is taken");
-            warnings.push(Finding::of_file(what, "give it an emission colour"));
+            let what = "emission textures are not read; emission 0 is taken";
+            Finding::note(warnings, file.place(texture), what, "give it an emission colour");
             [0.0; 3]
         }
         other => other.colour(file)?,
@@ -49,6 +46,22 @@ pub(super) fn finish<'a>(
         }
         other => Ok(Finish { reflectance: other.colour(file)?, emission, image: None, spectra }),
     }
+}
+
+/// Whether an `<extra>` of the effect or of the geometry says that the surface has two sides, as exporters say it.
+pub(super) fn is_double_sided<'a>(
+    file: &File<'a>,
+    instance: &Instance<'a>,
+    symbol: Option<&str>,
+) -> Result<bool, FileError> {
+    let material = symbol.map_or(Ok(None), |symbol| bound(file, instance.element, symbol))?;
+    let effect = material.and_then(|material| child(material, "instance_effect"));
+    let effect = effect.and_then(|effect| file.target(effect, "url", "effect").ok());
+    let told = effect.into_iter().flat_map(|effect| effect.descendants());
+    let told = told.chain(children(instance.geometry, "extra").flat_map(|extra| extra.descendants()));
+    let mut flags =
+        told.filter(|node| node.tag_name().name() == "double_sided").filter_map(|node| node.text());
+    Ok(flags.any(|flag| matches!(flag.trim(), "1" | "true")))
 }
 
 /// The `<instance_material>` of that symbol, or, since some exporters bind nothing, the material of that id.

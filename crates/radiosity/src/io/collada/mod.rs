@@ -10,6 +10,7 @@
 //! its outside where a node's transform mirrors it; a node whose transform flattens it is left out, with a warning.
 mod camera;
 pub(crate) mod compose;
+mod encoding;
 mod exposed;
 mod file;
 mod images;
@@ -18,14 +19,18 @@ mod material;
 pub(crate) mod model;
 mod patches;
 mod primitive;
+mod repaired;
 mod spectra;
+mod splice;
 mod transform;
+mod vertices;
 mod walk;
 mod write;
-mod xml;
 
 use super::error::FileError;
+use super::save::bytes_of;
 use crate::expose::Exposure;
+use crate::io::surface::changes::changes;
 use crate::mesh::element::Mesh;
 use crate::scene::{Scene, asset::Asset};
 use compose::text;
@@ -45,15 +50,20 @@ impl Collada {
     /// Reads a file's text.
     ///
     /// # Errors
-    /// [`FileError::Read`] when the file cannot be read, [`FileError::Encoding`] when it is not UTF-8.
+    /// [`FileError::Read`] when the file cannot be read, and those of [`Collada::from_bytes`].
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
-        let name = path.display().to_string();
-        match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { name, text }),
-            Err(wrong) => Err(FileError::Encoding { file: name, position: wrong.utf8_error().valid_up_to() }),
-        }
+        Self::from_bytes(path.display().to_string(), bytes_of(path)?)
+    }
+
+    /// Bytes as the contents of a file: text in UTF-8, UTF-16 or the encoding that its declaration names. Messages show its `name`,
+    /// and pictures are read from the folder that is part of it.
+    ///
+    /// # Errors
+    /// [`FileError::Encoding`] for bytes that are not in that encoding, [`FileError::Garbled`] for what is no XML at all.
+    pub fn from_bytes(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Result<Self, FileError> {
+        let name = name.into();
+        Ok(Self { text: encoding::text(&name, bytes.into())?, name })
     }
 
     /// A new file of a scene, with a node for each patch. Read again, it has the same patches. Spectra are written as such,
@@ -84,7 +94,7 @@ impl Collada {
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
             let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
-            let cameras = camera::cameras(file, &camera_instances, &mut warnings)?;
+            let cameras = camera::cameras(file, &camera_instances, &mut warnings);
             let (bands, wavelengths) = spectra::bands(file, &patches)?;
             Ok(Scene { patches, cameras, bands, wavelengths, warnings, asset: asset(file)? })
         })
@@ -100,6 +110,20 @@ impl Collada {
     /// As [`Collada::scene`].
     pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
         self.with_file(|file| write::with_light(&self.text, file, &write::LitScene { scene, mesh, colours }))
+    }
+
+    /// The file's text with the polygons of a repaired scene: those that were cut give way to their pieces, and everything else stays byte
+    /// for byte. Polygons behind which nothing changed keep their vertices bit for bit.
+    ///
+    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). A file that has no room for more vertices is
+    /// written anew, as by [`Collada::of`].
+    ///
+    /// # Errors
+    /// As [`Collada::scene`].
+    pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<String, FileError> {
+        let changes = changes(before, after);
+        let spliced = self.with_file(|file| repaired::repaired(&self.text, file, &changes))?;
+        Ok(spliced.unwrap_or_else(|| Self::of(after).text))
     }
 
     /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte

@@ -1,9 +1,9 @@
 //! From instances to patches: each primitive with its material, where the node puts it.
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
-use super::{file::File, images::Images, material::finish};
-use crate::io::error::{Fault, FileError};
-use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
+use super::{file::File, images::Images, material::finish, material::is_double_sided};
+use crate::io::error::FileError;
+use crate::io::surface::place::Surfaces;
 use crate::io::{surface::facets, surface::finish::Surface};
 use crate::scene::{
     finding::Finding,
@@ -34,19 +34,12 @@ pub(super) fn patches<'a>(
                 facets: &facets,
                 world: instance.visit.world,
                 finish,
-                two_sided: false,
+                two_sided: is_double_sided(file, instance, primitive.material)?,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
             };
-            surfaces.add(&surface, warnings).map_err(|refusal| fault(file, primitive, refusal))?;
+            let added = surfaces.add(&surface, warnings);
+            added.map_err(|refusal| file.fault(primitive.element, refusal.into()))?;
         }
     }
     Ok(surfaces.named())
-}
-
-fn fault<'a>(file: &File<'a>, primitive: &Primitive<'a>, refusal: Refusal) -> FileError {
-    let fault = match refusal {
-        Refusal::TooMany => Fault::TooMany { what: "polygons", limit: MAX_PATCHES },
-        Refusal::Shape { polygon, source } => Fault::Shape { polygon, source },
-    };
-    file.fault(primitive.element, fault)
 }

@@ -24,8 +24,8 @@ pub(super) fn primitives<'a>(
     warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Primitive<'a>>, FileError> {
     let Some(mesh) = child(geometry, "mesh") else {
-        let what = format!("{}: only <mesh> geometry is read; this one is left out", file.place(geometry));
-        warnings.push(Finding::of_file(what, "turn it into a mesh"));
+        let what = "only <mesh> geometry is read; another kind is left out";
+        Finding::note(warnings, file.place(geometry), what, "turn it into a mesh");
         return Ok(Vec::new());
     };
     let mut sources = HashMap::new();
@@ -35,10 +35,9 @@ pub(super) fn primitives<'a>(
         let is_cut = !matches!(element.tag_name().name(), "polylist" | "polygons");
         all.push(Primitive { element, material: element.attribute("material"), polygons, is_cut });
     }
-    if let Some(line) = mesh.children().find(|node| matches!(node.tag_name().name(), "lines" | "linestrips"))
-    {
-        let what = format!("{}: lines have no area; they are left out", file.place(line));
-        warnings.push(Finding::of_file(what, "remove them, or make them surfaces"));
+    for line in mesh.children().filter(|node| matches!(node.tag_name().name(), "lines" | "linestrips")) {
+        let what = "lines have no area; they are left out";
+        Finding::note(warnings, file.place(line), what, "remove them, or make them surfaces");
     }
     Ok(all)
 }
@@ -67,7 +66,10 @@ fn polygons<'a>(
     let outlines = |rings: Vec<Vec<Corner>>| rings.into_iter().map(|ring| vec![ring]);
     let mut all = Vec::new();
     match element.tag_name().name() {
-        "polylist" => all.extend(outlines(polylist(file, element, &points)?)),
+        "polylist" => {
+            let ring = child(element, "p").map_or(Ok(Vec::new()), |p| points.ring(p))?;
+            all.extend(outlines(polylist(file, element, &ring)?));
+        }
         "polygons" => all = with_holes(file, element, &points)?,
         tag => {
             for p in children(element, "p") {
@@ -81,16 +83,18 @@ fn polygons<'a>(
 
 /// Where the position's index stands among the indices of a vertex, and what it points into; the same for the picture's
 /// coordinates and the normals, where there are any.
-struct Layout<'a> {
-    stride: usize,
+pub(super) struct Layout<'a> {
+    pub(super) stride: usize,
     offset: usize,
-    source: XmlNode<'a>,
+    /// The element that tells what a vertex has.
+    pub(super) vertices: XmlNode<'a>,
+    pub(super) source: XmlNode<'a>,
     places: Option<(XmlNode<'a>, usize)>,
     normals: Option<(XmlNode<'a>, usize)>,
 }
 
 /// `None` for a primitive without any input: it has no polygons either.
-fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>>, FileError> {
+pub(super) fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>>, FileError> {
     let (mut stride, mut vertex, mut places, mut normals) = (0, None, None, None);
     for input in children(element, "input") {
         let offset = file.whole_attribute(input, "offset", 0)?;
@@ -123,11 +127,11 @@ fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>
     };
     let (places, normals) =
         (places.or_else(|| of_vertex("TEXCOORD")), normals.or_else(|| of_vertex("NORMAL")));
-    Ok(Some(Layout { stride, offset, source, places, normals }))
+    Ok(Some(Layout { stride, offset, vertices, source, places, normals }))
 }
 
 /// The rows of a source, of two or three numbers each, through its accessor where it has one; the third of two is 0.
-fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Result<Vec<DVec3>, FileError> {
+pub(super) fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Result<Vec<DVec3>, FileError> {
     let array = file.child(source, "float_array")?;
     let Some(accessor) = descend(source, &["technique_common", "accessor"]) else {
         return points(file, array, [width, width], 0, None);
@@ -205,19 +209,19 @@ impl<'a> Vertices<'_, 'a> {
     }
 }
 
-fn polylist<'a>(
+/// The polygons of a `<polylist>`.
+pub(super) fn polylist<'a, T: Clone>(
     file: &File<'a>,
     element: XmlNode<'a>,
-    points: &Vertices<'_, 'a>,
-) -> Result<Vec<Vec<Corner>>, FileError> {
+    ring: &[T],
+) -> Result<Vec<Vec<T>>, FileError> {
     let Some(p) = child(element, "p") else { return Ok(Vec::new()) };
     let counts = file.wholes(file.child(element, "vcount")?)?;
-    let ring = points.ring(p)?;
     let wanted = counts.iter().fold(0_usize, |sum, count| sum.saturating_add(*count));
     if wanted != ring.len() {
         return Err(file.fault(p, Fault::Count { found: ring.len(), wanted }));
     }
-    let mut rest = ring.as_slice();
+    let mut rest = ring;
     let mut next = |count: usize| {
         let (polygon, after) = rest.split_at(count);
         rest = after;
@@ -247,18 +251,18 @@ fn with_holes<'a>(
 }
 
 /// The triangles of a list, a strip (every second one turned) or a fan.
-fn triangles<'a>(
+pub(super) fn triangles<'a, T: Clone>(
     file: &File<'a>,
     p: XmlNode<'a>,
     tag: &str,
-    ring: &[Corner],
-) -> Result<Vec<Vec<Corner>>, FileError> {
+    ring: &[T],
+) -> Result<Vec<Vec<T>>, FileError> {
     if tag == "triangles" {
         if ring.len() % 3 != 0 {
             let wanted = ring.len().next_multiple_of(3);
             return Err(file.fault(p, Fault::Count { found: ring.len(), wanted }));
         }
-        return Ok(ring.chunks(3).map(<[_]>::to_vec).collect());
+        return Ok(ring.chunks(3).map(<[T]>::to_vec).collect());
     }
     let strip = tag == "tristrips";
     let corners = |i: usize| match (strip, i % 2) {
@@ -266,5 +270,5 @@ fn triangles<'a>(
         (true, _) => [i + 1, i, i + 2],
         (false, _) => [0, i + 1, i + 2],
     };
-    Ok((0..ring.len().saturating_sub(2)).map(|i| corners(i).map(|k| ring[k]).to_vec()).collect())
+    Ok((0..ring.len().saturating_sub(2)).map(|i| corners(i).map(|k| ring[k].clone()).to_vec()).collect())
 }

@@ -76,10 +76,9 @@ fn visual_scene<'a>(file: &File<'a>, warnings: &mut Vec<Finding>) -> Result<XmlN
     };
     if all.len() > 1 {
         let which = if instance.is_some() { "the one that <scene> instances" } else { "the first" };
-        let (place, count) = (file.place(scene), all.len());
-        let what =
-            format!("{place}: the file has {count} visual scenes; {which} is taken, the others are left");
-        warnings.push(Finding::of_file(what, "let <scene> instance the one you want"));
+        let count = all.len();
+        let what = format!("the file has {count} visual scenes; {which} is taken, the others are left");
+        Finding::note(warnings, file.place(scene), &what, "let <scene> instance the one you want");
     }
     Ok(scene)
 }
@@ -114,19 +113,21 @@ fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(
                 let geometry = file.target(element, "url", "geometry")?;
                 walk.instances.push(Instance { visit: visit.clone(), element, geometry });
             }
-            "instance_camera" => {
-                let camera = file.target(element, "url", "camera")?;
-                walk.camera_instances.push(CameraInstance { visit: visit.clone(), camera });
-            }
+            "instance_camera" => match file.target(element, "url", "camera") {
+                Ok(camera) => walk.camera_instances.push(CameraInstance { visit: visit.clone(), camera }),
+                Err(error) => {
+                    let what = "a camera that is not in the file is left out";
+                    Finding::note(&mut walk.warnings, error.to_string(), what, "add it, or give --camera");
+                }
+            },
             "instance_controller" => {
-                let place = file.place(element);
-                let what = format!("{place}: skinned and morphed geometry is left out");
-                walk.warnings.push(Finding::of_file(what, "bake it into plain geometry"));
+                let (place, what) = (file.place(element), "skinned and morphed geometry is left out");
+                Finding::note(&mut walk.warnings, place, what, "bake it into plain geometry");
             }
             "instance_light" => {
-                let place = file.place(element);
-                let what = format!("{place}: lights are left out; only surfaces that emit give light");
-                walk.warnings.push(Finding::of_file(what, "put a surface with an emission in its place"));
+                let (place, what) =
+                    (file.place(element), "lights are left out; only surfaces that emit give light");
+                Finding::note(&mut walk.warnings, place, what, "put a surface with an emission in its place");
             }
             _ => {}
         }

@@ -10,6 +10,10 @@ pub(super) fn chunks<'b>(name: &str, bytes: &'b [u8]) -> Result<(&'b [u8], Optio
     let fault = |part: &str, fault| FileError::Part { file: name.into(), part: part.into(), fault };
     match word(bytes, 4) {
         Some(2) => {}
+        Some(1) => {
+            let repair = "export the scene as glTF 2.0";
+            return Err(FileError::Unread { file: name.into(), feature: "glTF 1.0".into(), repair });
+        }
         version => {
             let found = version.unwrap_or_default().to_string();
             return Err(fault("header", Fault::Word { found, wanted: "container version 2" }));

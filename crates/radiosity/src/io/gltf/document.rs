@@ -1,7 +1,10 @@
 //! The document: parsed, checked by the `gltf` crate, and before that by us where the crate would panic.
 use super::container::chunks;
+use super::prepare::prepare;
 use crate::io::error::{Fault, FileError};
+use crate::scene::finding::Finding;
 use gltf::json::Root;
+use serde_json::Value;
 
 /// A document and the bytes of its binary chunk.
 pub(super) struct GltfFile {
@@ -9,19 +12,50 @@ pub(super) struct GltfFile {
     pub(super) blob: Option<Vec<u8>>,
 }
 
-pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<GltfFile, FileError> {
-    let refused = |source| FileError::Gltf { file: name.into(), source: Box::new(source) };
+/// The document's text as values, and the bytes of the binary chunk.
+pub(super) type Prepared = (Value, Option<Vec<u8>>);
+
+/// The file; notes what is left out of it.
+pub(super) fn prepared(name: &str, bytes: &[u8], warnings: &mut Vec<Finding>) -> Result<Prepared, FileError> {
     let (text, binary) = chunks(name, bytes)?;
-    let root = Root::from_slice(text).map_err(|error| refused(gltf::Error::Deserialize(error)))?;
-    check(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
-    Ok(GltfFile {
-        document: gltf::Document::from_json(root).map_err(refused)?,
-        blob: binary.map(<[u8]>::to_vec),
-    })
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start();
+    if !text.starts_with(b"{") {
+        let reason = "it begins neither with glTF nor with {";
+        return Err(FileError::Garbled { file: name.into(), wanted: "glTF 2.0", reason });
+    }
+    let mut document: Value = serde_json::from_slice(text).map_err(|error| unreadable(name, error))?;
+    prepare(name, &mut document, warnings)?;
+    Ok((document, binary.map(<[u8]>::to_vec)))
+}
+
+/// The document as the `gltf` crate has it.
+pub(super) fn check(name: &str, (document, blob): Prepared) -> Result<GltfFile, FileError> {
+    let root: Root = serde_json::from_value(document).map_err(|error| unreadable(name, error))?;
+    check_root(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
+    // What must be there was seen to; the rest is in the way of what can be read.
+    let document = gltf::Document::from_json(Root { extensions_required: Vec::new(), ..root });
+    let document = document.map_err(|error| first_fault(name, error))?;
+    Ok(GltfFile { document, blob })
+}
+
+fn unreadable(name: &str, error: serde_json::Error) -> FileError {
+    FileError::Gltf { file: name.into(), source: Box::new(gltf::Error::Deserialize(error)) }
+}
+
+/// The first of the faults that the crate found: others may be many, and mostly follow from it.
+fn first_fault(name: &str, error: gltf::Error) -> FileError {
+    match error {
+        gltf::Error::Validation(faults) if !faults.is_empty() => {
+            let (path, fault) = &faults[0];
+            let reason = format!("{fault} ({} such in all)", faults.len());
+            FileError::Part { file: name.into(), part: path.to_string(), fault: Fault::Invalid(reason) }
+        }
+        other => FileError::Gltf { file: name.into(), source: Box::new(other) },
+    }
 }
 
 /// What the crate takes for granted: the version, that attributes name accessors, and that images have a source.
-fn check(root: &Root) -> Result<(), (String, Fault)> {
+fn check_root(root: &Root) -> Result<(), (String, Fault)> {
     if !root.asset.version.starts_with("2.") {
         let found = root.asset.version.chars().take(40).collect();
         return Err(("asset".into(), Fault::Word { found, wanted: "version 2.0" }));

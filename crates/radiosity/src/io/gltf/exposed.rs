@@ -3,6 +3,7 @@ use super::buffer::{container, single};
 use super::container::chunks;
 use crate::expose::Exposure;
 use crate::io::error::{Fault, FileError};
+use crate::io::save::bytes_of;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -14,7 +15,7 @@ use std::path::Path;
 pub fn exposed(path: impl AsRef<Path>, exposure: Option<Exposure>) -> Result<Vec<u8>, FileError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
+    let bytes = bytes_of(path)?;
     let refused = |source: gltf::Error| FileError::Gltf { file: name.clone(), source: Box::new(source) };
     let (text, binary) = chunks(&name, &bytes)?;
     let mut document: Value =

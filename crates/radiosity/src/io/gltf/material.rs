@@ -3,7 +3,9 @@ use super::accessor::Buffers;
 use crate::image_file;
 use crate::io::surface::finish::Finish;
 use crate::scene::{finding::Finding, texture::Image};
+use glam::{DAffine2, DVec2};
 use gltf::material::AlphaMode;
+use gltf::texture::{Info, TextureTransform};
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// A material as patches need it.
@@ -12,6 +14,8 @@ pub(super) struct ReadMaterial {
     pub(super) finish: Finish,
     /// Which set of a picture's coordinates it uses.
     pub(super) places: u32,
+    /// From these coordinates to those in the picture.
+    pub(super) laid: DAffine2,
     pub(super) two_sided: bool,
 }
 
@@ -44,8 +48,7 @@ impl<'f> Materials<'f> {
 
     fn read(&mut self, material: &gltf::Material<'_>, warnings: &mut Vec<Finding>) -> ReadMaterial {
         let name = material.name().map_or_else(|| format!("material {:?}", material.index()), Into::into);
-        let mut warn =
-            |what: &str, repair: &str| warnings.push(Finding::of_file(format!("{name}: {what}"), repair));
+        let mut warn = |what: &str, repair: &str| Finding::note(warnings, name.as_str(), what, repair);
         if material.emissive_texture().is_some() {
             warn(
                 "emissive textures are not read; the emissive factor alone is taken",
@@ -58,16 +61,26 @@ impl<'f> Materials<'f> {
                 "remove surfaces that should let light through",
             );
         }
+        if material.normal_texture().is_some() {
+            warn("bumps are left out", "make them geometry where they matter");
+        }
         let surface = material.pbr_metallic_roughness();
-        let [red, green, blue, _] = surface.base_color_factor().map(f64::from);
-        let strength = f64::from(material.emissive_strength().unwrap_or(1.0));
-        let emission = material.emissive_factor().map(|band| strength * f64::from(band));
+        if surface.metallic_factor() > 0.0 && material.index().is_some() {
+            warn("shine is left out; surfaces reflect diffusely", "check that the light is what you mean");
+        }
+        let [red, green, blue, _] = surface.base_color_factor().map(as_written);
+        let strength = as_written(material.emissive_strength().unwrap_or(1.0));
+        let emission = material.emissive_factor().map(|band| strength * as_written(band));
         let texture = surface.base_color_texture();
         let image = texture.as_ref().and_then(|info| self.image(&info.texture().source(), warnings));
         let finish = Finish { reflectance: [red, green, blue], emission, image, spectra: None };
         ReadMaterial {
             finish,
-            places: texture.map_or(0, |info| info.tex_coord()),
+            places: texture.as_ref().map_or(0, places),
+            laid: texture
+                .as_ref()
+                .and_then(Info::texture_transform)
+                .map_or(DAffine2::IDENTITY, |laid| laid_by(&laid)),
             two_sided: material.double_sided(),
         }
     }
@@ -85,10 +98,28 @@ impl<'f> Materials<'f> {
             gltf::image::Source::Uri { uri, .. } => image_file::fetch(uri, self.folder),
         };
         let read = read.map(Arc::new).map_err(|reason| {
-            let what = format!("{name}: the texture cannot be read: {reason}; its factor alone is taken");
-            warnings.push(Finding::of_file(what, "put the picture beside the file, as PNG or JPEG"));
+            let what = "a texture cannot be read; its factor alone is taken";
+            let repair = "put the picture beside the file, as PNG or JPEG";
+            Finding::note(warnings, format!("{name}: {reason}"), what, repair);
         });
         self.images.insert(image.index(), read.clone().ok());
         read.ok()
     }
+}
+
+/// The set of coordinates: a transform may name another one.
+fn places(info: &Info<'_>) -> u32 {
+    info.texture_transform().and_then(|laid| laid.tex_coord()).unwrap_or_else(|| info.tex_coord())
+}
+
+/// Scaled, turned, moved; u to the right and v down, as KHR_texture_transform has it.
+fn laid_by(laid: &TextureTransform<'_>) -> DAffine2 {
+    let [scale, offset] = [laid.scale(), laid.offset()].map(|pair| DVec2::from(pair.map(as_written)));
+    // A positive angle turns against the clock, and v goes down.
+    DAffine2::from_scale_angle_translation(scale, -as_written(laid.rotation()), offset)
+}
+
+/// A number of the document, which the `gltf` crate rounds to single precision, as it is written there: 0.8 and not 0.800000011920929.
+pub(super) fn as_written(number: f32) -> f64 {
+    number.to_string().parse().unwrap_or_else(|_| f64::from(number))
 }

@@ -6,18 +6,24 @@
 //! `.back`. A warning tells what is not read. Lengths are metres, y is up.
 mod accessor;
 mod buffer;
+mod compose;
 mod container;
 mod document;
 mod exposed;
 mod lit;
 mod material;
+mod prepare;
 mod read;
+mod repaired;
 mod write;
 
+pub use compose::scene_glb;
 pub use exposed::exposed;
 pub use write::glb;
 
 use super::error::FileError;
+use super::save::bytes_of;
+use super::surface::changes::changes;
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -36,9 +42,7 @@ impl Gltf {
     /// [`FileError::Read`] when the file cannot be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
-        let folder = path.parent().map(Into::into);
-        Ok(Self { name: path.display().to_string(), bytes, folder })
+        Ok(Self::from_bytes(path.display().to_string(), bytes_of(path)?).within(path.parent()))
     }
 
     /// Bytes as the contents of a file that is in no folder; messages show its `name`.
@@ -46,12 +50,42 @@ impl Gltf {
         Self { name: name.into(), bytes: bytes.into(), folder: None }
     }
 
+    /// The same file in a folder, from which the files that it names are read.
+    pub(super) fn within(self, folder: Option<&Path>) -> Self {
+        Self { folder: folder.map(Into::into), ..self }
+    }
+
+    /// The extension of its kind.
+    pub(super) fn extension(&self) -> &'static str {
+        if self.bytes.starts_with(b"glTF") { "glb" } else { "gltf" }
+    }
+
     /// The scene: patches, cameras and warnings, in metres, y up.
     ///
     /// # Errors
     /// [`FileError::Gltf`] for bytes that are not glTF 2.0, [`FileError::Part`] for a part with a fault.
     pub fn scene(&self) -> Result<Scene, FileError> {
-        let file = document::parse(&self.name, &self.bytes)?;
-        read::scene(&self.name, &file, self.folder.as_deref())
+        let mut warnings = Vec::new();
+        let document = document::prepared(&self.name, &self.bytes, &mut warnings)?;
+        let file = document::check(&self.name, document)?;
+        Ok(read::read(&self.name, &file, self.folder.as_deref(), warnings)?.0)
+    }
+
+    /// The bytes of this file with the polygons of a repaired scene: triangles of polygons that were cut give way to those of their pieces,
+    /// which are added behind the file's data; everything else stays. Text stays text, and binary stays binary.
+    ///
+    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). Positions are in single precision.
+    ///
+    /// # Errors
+    /// As [`Gltf::scene`], and [`FileError::Size`] when the data exceed the format's 4 GiB.
+    pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<Vec<u8>, FileError> {
+        let changes = changes(before, after);
+        if changes.is_empty() {
+            return Ok(self.bytes.clone());
+        }
+        let (document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
+        let file = document::check(&self.name, (document.clone(), blob.clone()))?;
+        let (_, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
+        repaired::repaired((document, blob), &primitives, &changes)
     }
 }

@@ -1,33 +1,55 @@
 //! The default scene, walked: meshes become patches, cameras cameras.
-use super::{accessor::Buffers, document::GltfFile, material::Materials};
+use super::material::{Materials, ReadMaterial, as_written};
+use super::{accessor::Buffers, document::GltfFile};
 use crate::io::error::{Fault, FileError};
-use crate::io::surface::place::{MAX_PATCHES, Refusal, Surfaces};
+use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::io::{surface::facets, surface::finish::Surface};
 use crate::scene::{Scene, camera::Camera, finding::Finding, patch::Origin};
-use glam::{DMat4, DQuat, DVec2, DVec3};
+use glam::{DAffine2, DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 /// Nodes nested deeper than this are refused: a node that contains itself never ends.
 const MAX_NESTING: usize = 64;
 /// Nodes entered while walking.
 const MAX_NODES: usize = 1_000_000;
 
-pub(super) fn scene(file: &str, gltf: &GltfFile, folder: Option<&Path>) -> Result<Scene, FileError> {
+/// A primitive as it was read.
+pub(super) struct ReadPrimitive {
+    /// The index of its node in the document.
+    pub(super) node: usize,
+    pub(super) origin: Origin,
+    pub(super) world: DMat4,
+    /// From the file's places in a picture to those that it shows.
+    pub(super) laid: DAffine2,
+    /// The indices of each triangle's vertices.
+    pub(super) triangles: Vec<[usize; 3]>,
+    /// The triangles that each polygon was joined from, by its first.
+    pub(super) members: BTreeMap<usize, Vec<usize>>,
+}
+
+/// The scene, and the primitives that it was made of.
+pub(super) fn read(
+    file: &str,
+    gltf: &GltfFile,
+    folder: Option<&Path>,
+    warnings: Vec<Finding>,
+) -> Result<(Scene, Vec<ReadPrimitive>), FileError> {
     let buffers = Buffers::load(file, gltf, folder)?;
     let mut reader = Reader {
         file,
         materials: Materials::new(&buffers, folder),
         surfaces: Surfaces::default(),
         cameras: Vec::new(),
-        warnings: Vec::new(),
+        warnings,
         instances: 0,
+        primitives: Vec::new(),
     };
     reader.walk(&gltf.document)?;
-    let Reader { surfaces, cameras, warnings, .. } = reader;
-    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() })
+    let Reader { surfaces, cameras, warnings, primitives, .. } = reader;
+    Ok((Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() }, primitives))
 }
 
 struct Reader<'f> {
@@ -37,6 +59,7 @@ struct Reader<'f> {
     cameras: Vec<Camera>,
     warnings: Vec<Finding>,
     instances: usize,
+    primitives: Vec<ReadPrimitive>,
 }
 
 impl Reader<'_> {
@@ -44,13 +67,12 @@ impl Reader<'_> {
     fn walk(&mut self, gltf: &gltf::Document) -> Result<(), FileError> {
         let Some(scene) = gltf.default_scene().or_else(|| gltf.scenes().next()) else { return Ok(()) };
         if gltf.scenes().count() > 1 {
-            let index = scene.index();
-            let what = format!("{}: of its scenes number {index} is taken", self.file);
-            self.warn(what, "make the one you want the default scene");
+            let what = format!("of several scenes, number {} is taken", scene.index());
+            self.note(self.file, &what, "make the one you want the default scene");
         }
         if gltf.extensions_used().any(|name| name == "KHR_lights_punctual") {
-            let what = format!("{}: lights are left out; only surfaces that emit give light", self.file);
-            self.warn(what, "put a surface with an emission in their place");
+            let what = "lights are left out; only surfaces that emit give light";
+            self.note(self.file, what, "put a surface with an emission in their place");
         }
         let mut stack: Vec<(gltf::Node<'_>, DMat4, usize)> =
             scene.nodes().map(|node| (node, DMat4::IDENTITY, 0)).collect();
@@ -84,12 +106,13 @@ impl Reader<'_> {
         }
         let Some(mesh) = node.mesh() else { return Ok(()) };
         if node.skin().is_some() || mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
-            self.warn(format!("{name}: skins and morphs are left out"), "bake them into plain geometry");
+            self.note(&name, "skins and morphs are left out", "bake them into plain geometry");
         }
         let instance = self.instances;
         self.instances += 1;
         for primitive in mesh.primitives() {
-            self.cover(&name, &mesh, &primitive, world, instance)?;
+            let origin = Origin { instance, primitive: primitive.index(), polygon: 0 };
+            self.cover(&name, (node.index(), &mesh), &primitive, world, origin)?;
         }
         Ok(())
     }
@@ -98,17 +121,28 @@ impl Reader<'_> {
     fn cover(
         &mut self,
         name: &str,
-        mesh: &gltf::Mesh<'_>,
+        (node, mesh): (usize, &gltf::Mesh<'_>),
         primitive: &gltf::Primitive<'_>,
         world: DMat4,
-        instance: usize,
+        origin: Origin,
     ) -> Result<(), FileError> {
         let part = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
         let place = format!("{}: {part}", self.file);
         let kind = self.materials.kind(&primitive.material(), &mut self.warnings);
-        let triangles = self.triangles(primitive, kind.places, &part)?;
-        let facets = facets(&triangles, true, kind.finish.image.is_some());
-        let origin = Origin { instance, primitive: primitive.index(), polygon: 0 };
+        let corners = self.corners(primitive, &kind)?;
+        let triangles = self.triangles(primitive, corners.len(), &part)?;
+        let polygons: Vec<Polygon> =
+            triangles.iter().map(|picks| vec![picks.map(|index| corners[index]).to_vec()]).collect();
+        if primitive.get(&Semantic::Colors(0)).is_some() {
+            self.note(
+                &place,
+                "vertex colours are left out; the material's colour is taken",
+                "give it a texture",
+            );
+        }
+        let facets = facets(&polygons, true, kind.finish.image.is_some());
+        let members = facets.iter().map(|facet| (facet.number, facet.members.clone())).collect();
+        self.primitives.push(ReadPrimitive { node, origin, world, laid: kind.laid, triangles, members });
         let surface = Surface {
             name,
             place: &place,
@@ -119,49 +153,44 @@ impl Reader<'_> {
             origin,
         };
         let added = self.surfaces.add(&surface, &mut self.warnings);
-        added.map_err(|refusal| {
-            let fault = match refusal {
-                Refusal::TooMany => Fault::TooMany { what: "polygons", limit: MAX_PATCHES },
-                Refusal::Shape { polygon, source } => Fault::Shape { polygon, source },
-            };
-            self.fault(part, fault)
-        })
+        added.map_err(|refusal| self.fault(part, refusal.into()))
     }
 
+    /// The indices of each triangle's vertices.
     fn triangles(
         &mut self,
         primitive: &gltf::Primitive<'_>,
-        set: u32,
+        len: usize,
         part: &str,
-    ) -> Result<Vec<Polygon>, FileError> {
+    ) -> Result<Vec<[usize; 3]>, FileError> {
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            let what = format!("{}: {part}: points and lines have no area; they are left out", self.file);
-            self.warn(what, "remove them, or make them surfaces");
+            let what = "lines and points have no area; they are left out";
+            self.note(&format!("{}: {part}", self.file), what, "remove them, or make them surfaces");
             return Ok(Vec::new());
         }
-        let corners = self.corners(primitive, set)?;
         let indices = match primitive.indices() {
             Some(accessor) => self.materials.buffers.wholes(&accessor)?,
-            None => (0..corners.len()).collect(),
+            None => (0..len).collect(),
         };
-        let corner = |index: usize| {
-            let found = corners.get(index).copied();
-            found.ok_or_else(|| self.fault(part.into(), Fault::Index { index, len: corners.len() }))
-        };
-        let picks = picks(mode, indices.len());
-        let triangle = |pick: [usize; 3]| {
-            Ok(vec![pick.iter().map(|&at| corner(indices[at])).collect::<Result<Vec<_>, FileError>>()?])
-        };
-        picks.map(triangle).collect()
+        let triangles: Vec<[usize; 3]> =
+            picks(mode, indices.len()).map(|picks| picks.map(|at| indices[at])).collect();
+        match triangles.iter().flatten().find(|index| **index >= len) {
+            Some(&index) => Err(self.fault(part.into(), Fault::Index { index, len })),
+            None => Ok(triangles),
+        }
     }
 
     /// Positions with the picture's coordinates and normals, where there are any.
-    fn corners(&self, primitive: &gltf::Primitive<'_>, set: u32) -> Result<Vec<Corner>, FileError> {
+    fn corners(
+        &self,
+        primitive: &gltf::Primitive<'_>,
+        material: &ReadMaterial,
+    ) -> Result<Vec<Corner>, FileError> {
         let buffers = self.materials.buffers;
         let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(Vec::new()) };
         let points = buffers.rows::<3>(&positions, Dimensions::Vec3)?;
-        let places = primitive.get(&Semantic::TexCoords(set));
+        let places = primitive.get(&Semantic::TexCoords(material.places));
         let places = places.map(|rows| buffers.rows::<2>(&rows, Dimensions::Vec2)).transpose()?;
         let normals = primitive.get(&Semantic::Normals);
         let normals = normals.map(|rows| buffers.rows::<3>(&rows, Dimensions::Vec3)).transpose()?;
@@ -170,7 +199,7 @@ impl Reader<'_> {
             let normal = normals.as_ref().and_then(|rows| rows.get(index));
             Corner {
                 point: point.into(),
-                place: place.map_or(DVec2::ZERO, |row| (*row).into()),
+                place: place.map_or(DVec2::ZERO, |row| material.laid.transform_point2((*row).into())),
                 normal: normal.map_or(DVec3::ZERO, |row| (*row).into()),
             }
         };
@@ -180,17 +209,14 @@ impl Reader<'_> {
     /// A camera looks along its node's −z, with +y up.
     fn look(&mut self, camera: &gltf::Camera<'_>, name: &str, world: DMat4) {
         let gltf::camera::Projection::Perspective(lens) = camera.projection() else {
-            let what = format!("{name}: only perspective cameras are read; this one is left out");
-            self.warn(what, "make it a perspective camera, or give --camera");
+            let what = "only perspective cameras are read; another kind is left out";
+            self.note(name, what, "make it one, or give --camera");
             return;
         };
         let turned = |axis| world.transform_vector3(axis).try_normalize();
-        let (fov, aspect) = (f64::from(lens.yfov()), f64::from(lens.aspect_ratio().unwrap_or(4.0 / 3.0)));
+        let (fov, aspect) = (as_written(lens.yfov()), lens.aspect_ratio().map_or(4.0 / 3.0, as_written));
         let (Some(direction), Some(up)) = (turned(DVec3::NEG_Z), turned(DVec3::Y)) else {
-            self.warn(
-                format!("{name}: the camera has no view; it is left out"),
-                "correct it, or give --camera",
-            );
+            self.note(name, "a camera without a view is left out", "correct it, or give --camera");
             return;
         };
         let position = world.w_axis.truncate();
@@ -198,15 +224,12 @@ impl Reader<'_> {
         if camera.is_sound() {
             self.cameras.push(camera);
         } else {
-            self.warn(
-                format!("{name}: the camera has no view; it is left out"),
-                "correct it, or give --camera",
-            );
+            self.note(name, "a camera without a view is left out", "correct it, or give --camera");
         }
     }
 
-    fn warn(&mut self, what: String, repair: &str) {
-        self.warnings.push(Finding::of_file(what, repair));
+    fn note(&mut self, place: &str, what: &str, repair: &str) {
+        Finding::note(&mut self.warnings, place, what, repair);
     }
 
     fn fault(&self, part: String, fault: Fault) -> FileError {
@@ -218,12 +241,12 @@ impl Reader<'_> {
 fn local(node: &gltf::Node<'_>) -> DMat4 {
     match node.transform() {
         gltf::scene::Transform::Matrix { matrix } => {
-            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
+            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(as_written)))
         }
         gltf::scene::Transform::Decomposed { translation, rotation, scale } => {
-            let turn = DQuat::from_array(rotation.map(f64::from));
+            let turn = DQuat::from_array(rotation.map(as_written));
             let turn = if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY };
-            let [scale, translation] = [scale, translation].map(|row| DVec3::from(row.map(f64::from)));
+            let [scale, translation] = [scale, translation].map(|row| DVec3::from(row.map(as_written)));
             DMat4::from_scale_rotation_translation(scale, turn, translation)
         }
     }

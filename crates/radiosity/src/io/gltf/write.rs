@@ -54,7 +54,7 @@ pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
 }
 
 /// The middle of the box around some points, as readers will have it, in single precision; and half the box's diagonal.
-fn ball(points: &[DVec3]) -> (DVec3, f64) {
+pub(super) fn ball(points: &[DVec3]) -> (DVec3, f64) {
     let boxes = points.iter().map(|point| (*point, *point));
     let around = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     let (low, high) = around.unwrap_or((DVec3::ZERO, DVec3::ONE));
@@ -67,7 +67,7 @@ fn held(place: DVec3) -> DVec3 {
 }
 
 /// From the file's units and axes to metres with y up; right stays right where the format has a right.
-fn upright(asset: &Asset) -> DMat4 {
+pub(super) fn upright(asset: &Asset) -> DMat4 {
     let turn = if asset.up.z > 0.0 {
         DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y)
     } else if asset.up.x > 0.0 {
@@ -78,7 +78,7 @@ fn upright(asset: &Asset) -> DMat4 {
     DMat4::from_mat3(turn * asset.unit.clamp(SMALLEST, LARGEST))
 }
 
-fn lens(camera: &Camera, near: f64) -> Value {
+pub(super) fn lens(camera: &Camera, near: f64) -> Value {
     let near = near.clamp(SMALLEST, LARGEST);
     json!({
         "name": camera.name,
@@ -88,7 +88,7 @@ fn lens(camera: &Camera, near: f64) -> Value {
 }
 
 /// A camera looks along its node's −z with y up.
-fn camera_node(index: usize, camera: &Camera) -> Value {
+pub(super) fn camera_node(index: usize, camera: &Camera) -> Value {
     let back = -camera.direction.normalize();
     let right = camera.up.cross(back).normalize();
     let turn = DMat4::from_mat3(DMat3::from_cols(right, back.cross(right), back));

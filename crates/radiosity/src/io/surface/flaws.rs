@@ -33,12 +33,14 @@ impl Flaws {
             ),
             patches: pieces,
             repair: "move the vertices into one plane, or triangulate it yourself".into(),
+            places: Vec::new(),
         });
         let empty = (!self.empty.is_empty()).then(|| Finding {
             kind: Kind::NoArea,
             what: format!("{place}: {} without area; left out", self.empty.len()),
             patches: self.empty,
             repair: "remove what has no area".into(),
+            places: Vec::new(),
         });
         bent.into_iter().chain(empty)
     }

@@ -2,6 +2,7 @@
 use super::finish::{Finish, Spectra, Surface};
 use super::polygon::{Corner, Facet, Polygon, bits};
 use super::{flaws::Flaws, split::split};
+use crate::io::error::Fault;
 use crate::scene::{
     finding::Finding,
     patch::{Origin, Patch},
@@ -13,7 +14,7 @@ use glam::{DMat4, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// More polygons than any solver takes; what instances multiply must end somewhere.
-pub(crate) const MAX_PATCHES: usize = 1_000_000;
+const MAX_PATCHES: usize = 1_000_000;
 
 /// Why a surface was refused.
 #[derive(Debug)]
@@ -22,6 +23,15 @@ pub(crate) enum Refusal {
     TooMany,
     /// A polygon that the form factors refuse, by its index in the primitive.
     Shape { polygon: usize, source: formfactor::Error },
+}
+
+impl From<Refusal> for Fault {
+    fn from(refusal: Refusal) -> Fault {
+        match refusal {
+            Refusal::TooMany => Fault::TooMany { what: "polygons", limit: MAX_PATCHES },
+            Refusal::Shape { polygon, source } => Fault::Shape { polygon, source },
+        }
+    }
 }
 
 /// The patches so far.
@@ -40,8 +50,6 @@ struct Draft {
     base: String,
     number: usize,
     piece: Option<usize>,
-    /// What follows the name: the side, where a surface has two.
-    side: &'static str,
     patch: Patch,
 }
 
@@ -50,11 +58,9 @@ impl Surfaces {
     pub(crate) fn add(&mut self, surface: &Surface<'_>, warnings: &mut Vec<Finding>) -> Result<(), Refusal> {
         let world = &surface.world;
         if !(world.determinant().is_normal() && world.inverse().is_finite()) {
-            let what = format!(
-                "{}: the transform of {} flattens it to nothing; it is left out",
-                surface.place, surface.name
-            );
-            warnings.push(Finding::of_file(what, "give the node a scale that is not 0"));
+            let place = format!("{}, {}", surface.place, surface.name);
+            let what = "a transform flattens its node to nothing; it is left out";
+            Finding::note(warnings, place, what, "give the node a scale that is not 0");
             return Ok(());
         }
         let groups = self.smoothing(surface.facets);
@@ -84,15 +90,19 @@ impl Surfaces {
         let pieces = planar(&loops, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
         let texture = texture(&loops, facet, surface);
         let origin = Origin { polygon, ..surface.origin };
-        let draft = |(piece, polygon, side)| {
-            let mut patch = finished(polygon, &surface.finish, texture.clone());
-            (patch.origin, patch.smoothing) = (origin, smoothing);
-            Draft { base: surface.name.into(), number, piece, side, patch }
+        let draft = |(piece, polygon, is_back)| {
+            let patch = finished(polygon, &surface.finish, texture.clone());
+            Draft {
+                base: surface.name.into(),
+                number,
+                piece,
+                patch: Patch { origin, smoothing, is_back, ..patch },
+            }
         };
         for (piece, polygon) in pieces {
             let back = if surface.two_sided { turned(&polygon) } else { None };
-            self.drafts.push(draft((piece, polygon, "")));
-            self.drafts.extend(back.map(|polygon| draft((piece, polygon, ".back"))));
+            self.drafts.push(draft((piece, polygon, false)));
+            self.drafts.extend(back.map(|polygon| draft((piece, polygon, true))));
         }
         Ok(())
     }
@@ -127,7 +137,9 @@ impl Surfaces {
                 None if counts[&draft.base] > 1 => format!("{}.{}", draft.base, draft.number),
                 None => draft.base,
             };
-            name.push_str(draft.side);
+            if draft.patch.is_back {
+                name.push_str(".back");
+            }
             while !taken.insert(name.clone()) {
                 name.push('\'');
             }

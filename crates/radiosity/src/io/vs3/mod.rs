@@ -18,6 +18,7 @@ mod rows;
 pub use request::Request;
 
 use super::error::{Fault, FileError};
+use super::save::bytes_of;
 use crate::plane::Plane;
 use crate::scene::{
     Scene,
@@ -45,8 +46,7 @@ impl Vs3 {
     /// [`FileError::Read`] when the file cannot be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
-        Ok(Self::from_text(path.display().to_string(), String::from_utf8_lossy(&bytes)))
+        Ok(Self::from_text(path.display().to_string(), String::from_utf8_lossy(&bytes_of(path)?)))
     }
 
     /// A text as the contents of a file; messages show its `name`.
@@ -138,6 +138,7 @@ fn bent(surface: &Row, pieces: &[Patch], distance: f64) -> Finding {
         ),
         patches: pieces.iter().map(|patch| patch.name.clone()).collect(),
         repair: "move the vertices into one plane, or split it yourself".into(),
+        places: Vec::new(),
     }
 }
 

@@ -73,9 +73,9 @@ impl Rows {
                 }
                 'T' | '!' | '/' => {}
                 _ => {
-                    let what = format!("line {}: {:?} is not read", fields.line, fields.words[0]);
-                    rows.warnings
-                        .push(Finding::of_file(what, "correct its first letter, or remove the line"));
+                    let what = "lines with another first letter are not read";
+                    let place = format!("line {}: {:?}", fields.line, fields.words[0]);
+                    Finding::note(&mut rows.warnings, place, what, "correct the letter, or remove the line");
                 }
             }
         }

@@ -1,4 +1,6 @@
 //! Which links to refine: the errors of the links of every patch add up to no more than its share.
+use super::cluster_links::{ClusterLink, ClusterLinks};
+use super::clusters::Clusters;
 use super::equilibrium::deviations;
 use super::flow::{Linear, square};
 use super::link::Link;
@@ -188,9 +190,21 @@ fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &
 }
 
 /// The errors of all that every whole tile receives, as powers, each raised to `exponent`, added up.
-pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], light: &BandLight, exponent: f64) -> Vec<f64> {
+pub(super) fn errors(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    light: &BandLight,
+    exponent: f64,
+) -> Vec<f64> {
     let root_of = tiling.roots();
     let mut sums = vec![0.0; tiling.tiles.len()];
+    for link in &clusters.all {
+        for end in [0, 1] {
+            let add = |tile: usize, error: f64| sums[tile] += error.powf(exponent);
+            link.errors(&clusters.clusters, end, &light.sent, add);
+        }
+    }
     for link in links {
         for end in [0, 1] {
             let flaw = light.flaw(tiling, link, end);
@@ -201,8 +215,19 @@ pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], light: &BandLight, exp
 }
 
 /// The largest errors that the links of every patch may have, so that they add up to no more than `share` of its light: infinite where all do.
-pub(super) fn limits(tiling: &Tiling<'_>, links: &[Link], bands: &[BandLight], share: f64) -> Vec<f64> {
+pub(super) fn limits(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    bands: &[BandLight],
+    share: f64,
+) -> Vec<f64> {
     let mut of_patch: Vec<Vec<f64>> = vec![Vec::new(); tiling.scene.patches.len()];
+    for link in &clusters.all {
+        worst_of_cluster(tiling, &clusters.clusters, link, bands)
+            .filter(|(_, error)| *error > 0.0)
+            .for_each(|(patch, error)| of_patch[patch].push(error));
+    }
     for link in links {
         for end in [0, 1] {
             of_patch[tiling.tiles[link.ends[end]].patch].push(worst(tiling, link, end, bands).0);
@@ -223,6 +248,42 @@ fn limit(mut errors: Vec<f64>, share: f64) -> f64 {
     });
     // Where even the least is too much, they are to be as small as so many may be.
     kept.last().copied().unwrap_or(0.0).max(share / errors.len() as f64)
+}
+
+/// Whether an error of a link of clusters is beyond the limit of its patch.
+pub(super) fn is_beyond(
+    tiling: &Tiling<'_>,
+    clusters: &Clusters,
+    link: &ClusterLink,
+    bands: &[BandLight],
+    limits: &[f64],
+) -> bool {
+    worst_of_cluster(tiling, clusters, link, bands).any(|(patch, error)| error > limits[patch])
+}
+
+/// The patch of each tile of a link of clusters, and the error of what it receives in the worst band.
+fn worst_of_cluster(
+    tiling: &Tiling<'_>,
+    clusters: &Clusters,
+    link: &ClusterLink,
+    bands: &[BandLight],
+) -> impl Iterator<Item = (usize, f64)> {
+    let mut all: Vec<(usize, f64)> = Vec::new();
+    for end in [0, 1] {
+        let start = all.len();
+        all.extend(clusters.tiles(link.ends[end]).iter().map(|tile| (tiling.tiles[*tile].patch, 0.0)));
+        for light in bands {
+            let mut place = start;
+            link.errors(clusters, end, &light.sent, |_, error| {
+                let (patch, worst) = &mut all[place];
+                if light.unit[*patch] > 0.0 {
+                    *worst = worst.max(error / light.unit[*patch]);
+                }
+                place += 1;
+            });
+        }
+    }
+    all.into_iter()
 }
 
 /// Which end of a link is to be cut, if an error of it is beyond the limit of its patch: that of the error which is furthest beyond.

@@ -6,6 +6,7 @@
 //!                                        it changed by a third of what the sum said it might: so much of the next sum is believed
 //! ```
 use super::budget::BandLight;
+use super::cluster_links::ClusterLinks;
 use super::estimate::errors;
 use super::link::Link;
 use super::tiling::Tiling;
@@ -39,9 +40,15 @@ pub(super) struct Convergence {
 
 impl Convergence {
     /// Takes note of a level: compares it with the last one that was so much coarser that it tells something.
-    pub(super) fn reach(&mut self, tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight]) {
+    pub(super) fn reach(
+        &mut self,
+        tiling: &Tiling<'_>,
+        links: &[Link],
+        clusters: &ClusterLinks,
+        lights: &[BandLight],
+    ) {
         let received = lights.iter().map(|light| light.received.clone()).collect();
-        let level = Level { received, sums: errors(tiling, links, lights) };
+        let level = Level { received, sums: errors(tiling, links, clusters, lights) };
         if let Some(before) = &self.last {
             let Some(believed) = believed(before, &level) else { return };
             self.believed = believed;
@@ -50,8 +57,14 @@ impl Convergence {
     }
 
     /// What the light of every patch may be off by: powers, for each band in which there is light.
-    pub(super) fn errors(&self, tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight]) -> Vec<Vec<f64>> {
-        let mut all = errors(tiling, links, lights);
+    pub(super) fn errors(
+        &self,
+        tiling: &Tiling<'_>,
+        links: &[Link],
+        clusters: &ClusterLinks,
+        lights: &[BandLight],
+    ) -> Vec<Vec<f64>> {
+        let mut all = errors(tiling, links, clusters, lights);
         for (sums, believed) in all.iter_mut().zip(&self.believed) {
             sums.iter_mut().zip(believed).for_each(|(sum, share)| *sum *= share);
         }
@@ -63,11 +76,12 @@ impl Convergence {
         &self,
         tiling: &Tiling<'_>,
         links: &[Link],
+        clusters: &ClusterLinks,
         lights: &[BandLight],
         asked: f64,
     ) -> f64 {
         let mut excesses = vec![0.0f64; tiling.scene.patches.len()];
-        for (errors, light) in self.errors(tiling, links, lights).iter().zip(lights) {
+        for (errors, light) in self.errors(tiling, links, clusters, lights).iter().zip(lights) {
             for (excess, (error, unit)) in excesses.iter_mut().zip(errors.iter().zip(&light.unit)) {
                 *excess = excess.max(if *unit > 0.0 { error / (asked * unit) } else { 0.0 });
             }

@@ -3,6 +3,7 @@
 //! T takes what the leaves send to what they receive: pull, gather, push. As links carry light both ways by one matrix, it is its own
 //! adjoint, and power adds up. What leaves of closed rooms send and receive is scaled so that ΣF is 1 (Sinkhorn and Knopp 1967), and what
 //! is still missing is taken to be as bright as the receiver: so no room loses or gains light, however bright its finish.
+use super::cluster_links::ClusterLinks;
 use super::flow::{Linear, gather, pull, push, square};
 use super::link::Link;
 use super::roots::Roots;
@@ -20,6 +21,7 @@ const SLIGHT: f64 = 1e-9;
 pub(super) struct Equilibrium<'e> {
     tiling: &'e Tiling<'e>,
     links: &'e [Link],
+    clusters: &'e ClusterLinks,
     leaves: Vec<usize>,
     /// For each leaf, what it sends and receives is multiplied by.
     scales: Vec<f64>,
@@ -39,15 +41,26 @@ impl<'e> Equilibrium<'e> {
     pub(super) fn new(
         tiling: &'e Tiling<'e>,
         links: &'e [Link],
+        clusters: &'e ClusterLinks,
         known: &[Option<f64>],
         is_last: bool,
     ) -> Equilibrium<'e> {
         let leaves: Vec<usize> = tiling.leaves().collect();
-        let (room_of, first_of) = rooms(tiling, links, &leaves);
+        let (room_of, first_of) = rooms(tiling, links, clusters, &leaves);
         let count = leaves.len();
         let (scales, missing, sums) = (vec![1.0; count], vec![[0.0; 3]; count], Vec::new());
-        let mut equilibrium =
-            Equilibrium { tiling, links, leaves, scales, missing, sums, room_of, first_of, scaling: 0.0 };
+        let mut equilibrium = Equilibrium {
+            tiling,
+            links,
+            clusters,
+            leaves,
+            scales,
+            missing,
+            sums,
+            room_of,
+            first_of,
+            scaling: 0.0,
+        };
         equilibrium.close(known, if is_last { ROUNDS } else { FEW_ROUNDS });
         equilibrium
     }
@@ -55,7 +68,7 @@ impl<'e> Equilibrium<'e> {
     /// Scales what the leaves exchange until ΣF is what it is known to be; in closed rooms what remains goes to their own light.
     fn close(&mut self, known: &[Option<f64>], rounds: usize) {
         let even = vec![[1.0, 0.0, 0.0]; self.leaves.len()];
-        let roots = Roots::new(self.tiling, self.links, &self.leaves, known);
+        let roots = Roots::new(self.tiling, self.links, self.clusters, &self.leaves, known);
         for round in 0..rounds {
             let sums: Vec<f64> = self.receive(&even).iter().map(|sums| sums[0]).collect();
             let rights = roots.rights(&sums);
@@ -159,7 +172,9 @@ impl<'e> Equilibrium<'e> {
     pub(super) fn receive(&self, sent: &[Linear]) -> Vec<Linear> {
         let scaled: Vec<Linear> =
             sent.iter().zip(&self.scales).map(|(light, scale)| light.map(|l| l * scale)).collect();
-        let mut received = gather(self.tiling, self.links, &self.spread(&scaled));
+        let spread = self.spread(&scaled);
+        let mut received = gather(self.tiling, self.links, &spread);
+        self.clusters.gather(self.tiling, &spread, &mut received);
         push(self.tiling, &mut received);
         let here = |(((&leaf, scale), own), missing): (((&usize, &f64), &Linear), &Linear)| {
             let [mean, first, second] = received[leaf].map(|l| l * scale);
@@ -228,7 +243,12 @@ pub(super) fn largest(light: &[Linear]) -> f64 {
 }
 
 /// Which leaves exchange light, at once or through others: the room of each, and the first leaf of each room.
-fn rooms(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize]) -> (Vec<usize>, Vec<usize>) {
+fn rooms(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    leaves: &[usize],
+) -> (Vec<usize>, Vec<usize>) {
     let root_of = tiling.roots();
     let mut groups = UnionFind::new(tiling.tiles.len());
     for (tile, root) in root_of.iter().enumerate() {
@@ -237,6 +257,12 @@ fn rooms(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize]) -> (Vec<usize>, 
     for link in links.iter().filter(|link| link.exchange[0] > 0.0) {
         let [one, other] = link.ends;
         groups.join(one, other);
+    }
+    for link in &clusters.all {
+        let mut lit = link.lit(&clusters.clusters);
+        if let Some(first) = lit.next() {
+            lit.for_each(|tile| groups.join(first, tile));
+        }
     }
     let (numbers, firsts) = groups.number();
     let mut first_of = vec![usize::MAX; firsts.len()];

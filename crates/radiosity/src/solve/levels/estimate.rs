@@ -1,5 +1,6 @@
 //! What the irradiance of every patch may be off by.
 use super::budget::{self, BandLight};
+use super::cluster_links::ClusterLinks;
 use super::link::Link;
 use super::tiling::Tiling;
 
@@ -10,9 +11,14 @@ const EXPONENT: f64 = 1.2;
 const MOST: usize = 60;
 
 /// The sums of what the light of every patch may be off by, as powers, for each band in which there is light.
-pub(super) fn errors(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight]) -> Vec<Vec<f64>> {
+pub(super) fn errors(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    lights: &[BandLight],
+) -> Vec<Vec<f64>> {
     let exchanges = exchanges(tiling, links);
-    lights.iter().map(|light| powers(tiling, links, &exchanges, light)).collect()
+    lights.iter().map(|light| powers(tiling, links, clusters, &exchanges, light)).collect()
 }
 
 /// The mean error of the irradiance of every patch, of the powers of each band in which there is light; patches × `bands`.
@@ -51,11 +57,12 @@ fn exchanges(tiling: &Tiling<'_>, links: &[Link]) -> Vec<([usize; 2], f64)> {
 fn powers(
     tiling: &Tiling<'_>,
     links: &[Link],
+    clusters: &ClusterLinks,
     exchanges: &[([usize; 2], f64)],
     light: &BandLight,
 ) -> Vec<f64> {
     let area = |tile: usize| tiling.tiles[tile].area;
-    let direct: Vec<f64> = budget::errors(tiling, links, light, EXPONENT)
+    let direct: Vec<f64> = budget::errors(tiling, links, clusters, light, EXPONENT)
         .into_iter()
         .enumerate()
         .map(|(tile, sum)| sum / area(tile).powf(EXPONENT))
@@ -70,7 +77,15 @@ fn powers(
         })
         .collect();
     let mut sums = vec![0.0; tiling.scene.patches.len()];
-    let all = reflected(&direct, &ways);
+    let far = |all: &[f64], next: &mut [f64]| {
+        for (link, end) in clusters.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
+            let sent = |tile: usize| all[tile] * tiling.tiles[tile].reflectance[light.band].powf(EXPONENT);
+            link.carry_powers(&clusters.clusters, end, EXPONENT, sent, |tile, error| {
+                next[tile] += error / area(tile).powf(EXPONENT);
+            });
+        }
+    };
+    let all = reflected(&direct, &ways, far);
     for (tile, error) in tiling.tiles.iter().zip(all).filter(|(tile, _)| tile.parent.is_none()) {
         sums[tile.patch] += tile.area * error.powf(1.0 / EXPONENT);
     }
@@ -78,7 +93,7 @@ fn powers(
 }
 
 /// What is there at once with what comes of it by reflection: pairs, and what each carries to the one and to the other.
-fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])]) -> Vec<f64> {
+fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])], far: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
     let mut all = direct.to_vec();
     for _ in 0..MOST {
         let mut next = direct.to_vec();
@@ -86,6 +101,7 @@ fn reflected(direct: &[f64], ways: &[([usize; 2], [f64; 2])]) -> Vec<f64> {
             next[*one] += here * all[*other];
             next[*other] += there * all[*one];
         }
+        far(&all, &mut next);
         all = next;
     }
     all

@@ -1,19 +1,25 @@
 //! All links of a run, found by all threads.
 use super::budget::BandLight;
+use super::cluster_links::{ClusterLink, ClusterLinks};
+use super::clusters::{Clusters, Pairs};
 use super::equilibrium::Equilibrium;
-use super::link::{Candidate, Link};
+use super::link::{Candidate, Link, UNSEEN};
 use super::measure::{between, faces, measure};
 use super::tiling::{Tile, Tiling};
 use super::totals::Totals;
 use crate::error::Error;
-use crate::scene::Scene;
 use crate::solve::{fingerprint, state::State, workers::attempt};
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::sync::Arc;
 
+/// With more whole tiles than this, those that are far from each other are linked in clusters.
+const FEW: usize = 300;
 /// A point is in a closed room when ΣF is 1 within this.
 const CLOSED: f64 = 1e-9;
+
+/// Of many tiles so many tell whether all are in closed rooms.
+const SAMPLES: usize = 64;
 
 /// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not, which parts of a tile that
 /// is crossed may be; of those some see nothing.
@@ -41,6 +47,9 @@ impl Enclosed {
 #[derive(Debug)]
 pub(super) struct Links {
     pub(super) all: Vec<Link>,
+    pub(super) clusters: ClusterLinks,
+    /// How many pairs of whole tiles are linked by themselves.
+    pairs: usize,
     /// The scene's shapes.
     shapes: u64,
     /// Which tiles are in closed rooms.
@@ -56,14 +65,61 @@ impl Links {
     ///
     /// # Errors
     /// [`Error::Foreign`] for a state of other shapes.
-    pub(super) fn new(scene: &Scene, state: &State) -> Result<Links, Error> {
-        let shapes = fingerprint::of_shapes(scene);
+    pub(super) fn new(tiling: &Tiling<'_>, state: &State) -> Result<Links, Error> {
+        let shapes = fingerprint::of_shapes(tiling.scene);
         let foreign = !state.is_empty() && !state.knows_shapes(shapes);
         if foreign {
             Err(Error::Foreign)
         } else {
-            Ok(Links { all: Vec::new(), shapes, enclosed: Vec::new(), totals: Totals::default() })
+            let is_small = tiling.tiles.len() <= FEW;
+            let clusters = if is_small { Clusters::default() } else { Clusters::of(tiling) };
+            Ok(Links {
+                all: Vec::new(),
+                clusters: ClusterLinks { clusters, all: Vec::new() },
+                pairs: 0,
+                shapes,
+                enclosed: Vec::new(),
+                totals: Totals::default(),
+            })
         }
+    }
+
+    /// The pairs to begin with: all, or all that see each other as clusters.
+    pub(super) fn first_pairs(&self, tiling: &Tiling<'_>) -> Pairs {
+        if self.has_clusters() {
+            return self.clusters.clusters.pairs();
+        }
+        let near = (0..tiling.tiles.len()).flat_map(|one| (0..one).map(move |other| [other, one]));
+        Pairs { far: Vec::new(), near: near.collect() }
+    }
+
+    fn has_clusters(&self) -> bool {
+        !self.clusters.clusters.all.is_empty()
+    }
+
+    /// Two whole tiles that are to be linked by themselves.
+    pub(super) fn candidate(&mut self, tiling: &Tiling<'_>, ends: [usize; 2]) -> Candidate {
+        self.pairs += 1;
+        let among = tiling.surfaces_between(ends);
+        Candidate { ends, among, unseen: UNSEEN, pair: self.pairs - 1, most: f64::INFINITY }
+    }
+
+    /// The links of some pairs of clusters, in their order.
+    ///
+    /// # Errors
+    /// [`Error::Defect`] when a form factor fails.
+    pub(super) fn of_clusters(
+        &self,
+        tiling: &Tiling<'_>,
+        pairs: &[[usize; 2]],
+    ) -> Result<Vec<ClusterLink>, Error> {
+        let clusters = &self.clusters.clusters;
+        let measure = |pair: &[usize; 2]| {
+            let name = &tiling.scene.patches[tiling.tiles[clusters.tiles(pair[0])[0]].patch].name;
+            attempt(name, || ClusterLink::measure(tiling, clusters, *pair))
+        };
+        let found: Result<Vec<Option<ClusterLink>>, Error> = pairs.par_iter().map(measure).collect();
+        Ok(found?.into_iter().flatten().collect())
     }
 
     /// The tiles that are linked.
@@ -73,6 +129,13 @@ impl Links {
 
     /// Takes the links of whole tiles, and finds which of these are in closed rooms.
     pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>) {
+        if self.has_clusters() {
+            let is_closed = samples_are_enclosed(tiling);
+            let all = if is_closed { Enclosed::Wholly } else { Enclosed::Nowhere };
+            self.enclosed = vec![all; tiling.tiles.len()];
+            self.all = links;
+            return;
+        }
         let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
         for link in &links {
             for end in [0, 1] {
@@ -82,11 +145,15 @@ impl Links {
         }
         self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
+        self.pairs = links.len();
         self.all = links;
     }
 
-    /// Finds what whole tiles exchange in all, as well as it matters in such light.
+    /// Finds what whole tiles exchange in all, as well as it matters in such light; not where they are too many.
     pub(super) fn total(&mut self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) {
+        if self.has_clusters() {
+            return;
+        }
         self.totals = Totals::of(tiling, &self.all, lights, error);
         self.all.retain(|link| !self.totals.is_hidden(link.pair));
         self.totals.share(&mut self.all);
@@ -123,6 +190,8 @@ impl Links {
             self.enclosed.push(match parent {
                 None => Enclosed::Nowhere,
                 Some((enclosed, false)) if enclosed != Enclosed::Partly => enclosed,
+                // To look at everything from each costs too much where there are many tiles.
+                Some(_) if !self.clusters.clusters.all.is_empty() => Enclosed::Nowhere,
                 Some(_) => {
                     let sums: Vec<f64> = tile.points.par_iter().map(|point| sum(tiling, point)).collect();
                     Enclosed::by(&sums)
@@ -175,7 +244,7 @@ impl Links {
 
     /// The light of all leaves at once; rooms are made to close better at last.
     pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>, is_last: bool) -> Equilibrium<'e> {
-        Equilibrium::new(tiling, &self.all, &self.known(tiling), is_last)
+        Equilibrium::new(tiling, &self.all, &self.clusters, &self.known(tiling), is_last)
     }
 
     /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.
@@ -202,6 +271,13 @@ impl Links {
         }
         Ok(())
     }
+}
+
+/// Whether all of some tiles, taken at equal distances in the scene's order, see nothing but tiles.
+fn samples_are_enclosed(tiling: &Tiling<'_>) -> bool {
+    let step = tiling.tiles.len().div_ceil(SAMPLES);
+    let samples: Vec<&Tile> = tiling.tiles.iter().step_by(step).collect();
+    samples.par_iter().all(|tile| (sum(tiling, &tile.points[0]) - 1.0).abs() <= CLOSED)
 }
 
 /// ΣF of a point.

@@ -15,19 +15,27 @@
 //! equilibrium   what all leaves exchange, made to close
 //! roots         what ΣF of every leaf is to be
 //! flow          light up the tree, across the links, and down
+//! cluster_links light between tiles that are far from each other
+//! cluster_views what clusters see of each other
+//! clusters      the tree of whole tiles
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
 //! nearby        the mean over tiles that touch
 //! transfer      the numbers of that
 //! shaft         what can stand between two tiles
 //! tiling        the tree
+//! boxes         a tree of the boxes around polygons
 //! tile          a convex polygon, its linear functions and its points
 //! ```
 //!
 //! Light is linear on every tile, and not continuous. A link is a matrix of 3 × 3 numbers that serves both directions, found by exact form
 //! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
 //! visibility).
+mod boxes;
 mod budget;
+mod cluster_links;
+mod cluster_views;
+mod clusters;
 mod convergence;
 mod equilibrium;
 mod estimate;

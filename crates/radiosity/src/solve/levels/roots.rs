@@ -5,6 +5,7 @@
 //! |  1  |  1  |  ?  |    on the last one stands something that covers a part of it: the area factors of the whole tell
 //! +-----+-----+--##-+    what is left for it
 //! ```
+use super::cluster_links::ClusterLinks;
 use super::link::Link;
 use super::tiling::Tiling;
 
@@ -23,9 +24,19 @@ pub(super) struct Roots {
 }
 
 impl Roots {
-    pub(super) fn new(tiling: &Tiling<'_>, links: &[Link], leaves: &[usize], known: &[Option<f64>]) -> Roots {
+    pub(super) fn new(
+        tiling: &Tiling<'_>,
+        links: &[Link],
+        clusters: &ClusterLinks,
+        leaves: &[usize],
+        known: &[Option<f64>],
+    ) -> Roots {
         let root_of = tiling.roots();
-        let mut wholes = vec![0.0; tiling.tiles.len()];
+        let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
+        let mut of_clusters = vec![[0.0; 3]; tiling.tiles.len()];
+        clusters.gather(tiling, &even, &mut of_clusters);
+        let sums = tiling.tiles.iter().zip(of_clusters);
+        let mut wholes: Vec<f64> = sums.map(|(tile, sum)| tile.area * sum[0]).collect();
         for link in links {
             link.ends.iter().for_each(|&end| wholes[root_of[end]] += link.exchange[0]);
         }

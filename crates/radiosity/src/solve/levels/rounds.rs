@@ -1,11 +1,13 @@
 //! Rounds of linking, solving and refining.
-use super::budget::{BandLight, cut, limits};
+use super::budget::{BandLight, cut, is_beyond, limits};
+use super::cluster_links::ClusterLink;
+use super::clusters::Pairs;
 use super::convergence::Convergence;
 use super::equilibrium::largest;
 use super::estimate::means;
 use super::flow::Linear;
 use super::gradients::Gradients;
-use super::link::{Candidate, Link, UNSEEN};
+use super::link::{Candidate, Link};
 use super::links::Links;
 use super::output::LeafLight;
 use super::stand::{Follower, Stand};
@@ -57,7 +59,7 @@ pub(crate) fn solve(
     watch: Follower<'_>,
 ) -> Result<Solution, Error> {
     let tiling = Tiling::new(scene)?;
-    let links = Links::new(scene, state)?;
+    let links = Links::new(&tiling, state)?;
     let emitted =
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
@@ -83,12 +85,11 @@ impl Levels<'_> {
     /// Goes on until all is estimated to be right, or nothing finer is to be had: tells which; nothing when the watcher, the time or a defect
     /// ends the run.
     fn run(&mut self, state: &mut State) -> Result<Option<bool>, Error> {
-        let roots = self.tiling.tiles.len();
-        let pairs = (0..roots).flat_map(|one| (0..one).map(move |other| [other, one]));
-        let all = self.tiling.surfaces();
-        let candidates: Vec<Candidate> = pairs
-            .map(|ends| Candidate { ends, among: all.clone(), unseen: UNSEEN, pair: 0, most: f64::INFINITY })
-            .collect();
+        let Pairs { far, near } = self.links.first_pairs(&self.tiling);
+        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(None) };
+        self.links.clusters.all = clusters;
+        let candidates: Vec<Candidate> =
+            near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
         self.links.open(&self.tiling, links);
         self.links.refuse_endless(&self.tiling)?;
@@ -117,8 +118,9 @@ impl Levels<'_> {
             }
         }
         let lights = self.settle(ALL, true);
-        self.convergence.reach(&self.tiling, &self.links.all, &lights);
-        Ok(Some(self.convergence.excess(&self.tiling, &self.links.all, &lights, self.options.error)))
+        let Levels { tiling, links, convergence, options, .. } = self;
+        convergence.reach(tiling, &links.all, &links.clusters, &lights);
+        Ok(Some(convergence.excess(tiling, &links.all, &links.clusters, &lights, options.error)))
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -135,6 +137,28 @@ impl Levels<'_> {
                     return Ok(None);
                 }
                 Err(error) => return Err(error),
+            }
+        }
+        Ok(Some(links))
+    }
+
+    /// The links of pairs of clusters; nothing as for [`measure`](Self::measure).
+    fn measure_clusters(
+        &mut self,
+        pairs: &[[usize; 2]],
+        state: &State,
+    ) -> Result<Option<Vec<ClusterLink>>, Error> {
+        let mut links = Vec::new();
+        for batch in pairs.chunks(Links::BATCH) {
+            if self.report(state).is_break() {
+                return Ok(None);
+            }
+            match self.links.of_clusters(&self.tiling, batch) {
+                Ok(found) => links.extend(found),
+                Err(defect) => {
+                    self.fault = Some(defect);
+                    return Ok(None);
+                }
             }
         }
         Ok(Some(links))
@@ -203,9 +227,11 @@ impl Levels<'_> {
         share: f64,
         state: &mut State,
     ) -> Result<Option<bool>, Error> {
-        let limits = limits(&self.tiling, &self.links.all, lights, share);
+        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, share);
         let kept = self.links.all.clone();
         let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
+        let Some(near) = self.part_clusters(lights, &limits, state)? else { return Ok(None) };
+        candidates.extend(near);
         let is_cut = !candidates.is_empty();
         while !candidates.is_empty() {
             let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
@@ -215,6 +241,36 @@ impl Levels<'_> {
         }
         self.links.replace(kept);
         Ok(Some(is_cut))
+    }
+
+    /// Keeps the links of clusters that are within the limits of their patches, or takes links of parts of theirs; gives the pairs of tiles that
+    /// are to be linked by themselves.
+    fn part_clusters(
+        &mut self,
+        lights: &[BandLight],
+        limits: &[f64],
+        state: &State,
+    ) -> Result<Option<Vec<Candidate>>, Error> {
+        let mut open = std::mem::take(&mut self.links.clusters.all);
+        let (mut kept, mut near) = (Vec::with_capacity(open.len()), Vec::new());
+        while !open.is_empty() {
+            let clusters = &self.links.clusters.clusters;
+            let beyond: Vec<bool> =
+                open.par_iter().map(|link| is_beyond(&self.tiling, clusters, link, lights, limits)).collect();
+            let mut pairs = Pairs::default();
+            for (link, is_beyond) in open.into_iter().zip(beyond) {
+                match clusters.halve(link.ends) {
+                    _ if !is_beyond => kept.push(link),
+                    Some(parts) => parts.into_iter().for_each(|part| clusters.part(part, &mut pairs)),
+                    None => near.push(link.ends.map(|end| clusters.tiles(end)[0])),
+                }
+            }
+            near.append(&mut pairs.near);
+            let Some(links) = self.measure_clusters(&pairs.far, state)? else { return Ok(None) };
+            open = links;
+        }
+        self.links.clusters.all = kept;
+        Ok(Some(near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect()))
     }
 
     /// The links that are within the limits of their patches, and what takes the place of the others.
@@ -265,7 +321,7 @@ impl Levels<'_> {
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
-        let errors = self.convergence.errors(&self.tiling, &self.links.all, &lights);
+        let errors = self.convergence.errors(&self.tiling, &self.links.all, &self.links.clusters, &lights);
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);

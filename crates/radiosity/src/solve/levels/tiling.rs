@@ -1,4 +1,5 @@
 //! The tree of tiles of a scene, which grows where light is not resolved.
+use super::boxes::Boxes;
 use super::tile::{Outline, SQUARE};
 use crate::error::Error;
 use crate::extent::Extent;
@@ -63,6 +64,7 @@ pub(super) struct Tiling<'s> {
     pub(super) enclosure: Enclosure,
     /// The boxes around the polygons of the enclosure.
     pub(super) extents: Vec<Extent>,
+    pub(super) boxes: Boxes,
     pub(super) tiles: Vec<Tile>,
     bases: Vec<Base>,
     surface_of: Vec<usize>,
@@ -88,9 +90,11 @@ impl<'s> Tiling<'s> {
                 contacts: lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect(),
             }
         };
+        let around: Vec<Extent> = polygons.iter().map(Extent::around).collect();
         let mut tiling = Tiling {
             scene,
-            extents: polygons.iter().map(Extent::around).collect(),
+            boxes: Boxes::around(&around),
+            extents: around,
             enclosure: Enclosure::new(polygons),
             tiles: Vec::new(),
             bases: scene.patches.iter().map(|patch| &patch.polygon).enumerate().map(base).collect(),
@@ -229,9 +233,11 @@ impl<'s> Tiling<'s> {
         (longest.0 > 1e-4 * outline.axes[0].length()).then_some(*longest.1)
     }
 
-    /// All surfaces that may hide something.
-    pub(super) fn surfaces(&self) -> Arc<[u32]> {
-        (0..).take(self.enclosure.polygons().len()).collect()
+    /// The surfaces that may stand between two tiles, by their boxes.
+    pub(super) fn surfaces_between(&self, ends: [usize; 2]) -> Arc<[u32]> {
+        let [one, other] = ends.map(|end| Extent::of_points(self.tiles[end].outline.places()));
+        let hull = one.with(&other);
+        self.boxes.find(|extent| !extent.is_near(&hull, 0.0)).into()
     }
 
     /// The names of two tiles.

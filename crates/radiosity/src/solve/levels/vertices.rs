@@ -53,7 +53,7 @@ impl<'s> Sights<'s> {
         sent: &[Vec<Linear>],
         fine: &[f64],
     ) -> Sights<'s> {
-        let (known, links) = (links.known(tiling), &links.all[..]);
+        let (known, clusters, links) = (links.known(tiling), &links.clusters, &links.all[..]);
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
         let sent: Vec<Vec<Linear>> = sent.iter().cloned().chain([even]).collect();
         let mut of_tile = vec![Vec::new(); tiling.tiles.len()];
@@ -85,7 +85,12 @@ impl<'s> Sights<'s> {
             let rest = sent.iter().map(|sent| received(tiling, links, &flaws[..count], sent)).collect();
             Sight { looks: flaws[count..].iter().map(|(_, at)| *at).collect(), rest }
         };
-        let of_tile = of_tile.into_iter().enumerate().map(sight).collect();
+        let mut of_tile: Vec<Sight> = of_tile.into_iter().enumerate().map(sight).collect();
+        for (band, sent) in sent.iter().enumerate() {
+            let mut far = vec![[0.0; 3]; sent.len()];
+            clusters.gather(tiling, sent, &mut far);
+            of_tile.iter_mut().zip(far).for_each(|(sight, light)| sight.rest[band][0] += light[0]);
+        }
         Sights { tiling, links, of_tile, sent, known }
     }
 

@@ -1,11 +1,11 @@
-//! Lists and numbers as XML text.
+//! Lists and numbers as text.
 use std::fmt::{Display, Write};
 
 /// What files say they were made with.
-pub(super) const TOOL: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
+pub(crate) const TOOL: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
 
 /// Words with a space between them.
-pub(super) fn list(words: impl Iterator<Item = impl Display>) -> String {
+pub(crate) fn list(words: impl Iterator<Item = impl Display>) -> String {
     let mut text = String::new();
     for (index, word) in words.enumerate() {
         let gap = if index == 0 { "" } else { " " };
@@ -16,7 +16,7 @@ pub(super) fn list(words: impl Iterator<Item = impl Display>) -> String {
 }
 
 /// The shortest decimal that reads back as the same number; −0 is written as 0.
-pub(super) fn decimal(number: &f64) -> String {
+pub(crate) fn decimal(number: &f64) -> String {
     let text = format!("{:?}", number + 0.0);
     text.strip_suffix(".0").map(Into::into).unwrap_or(text)
 }

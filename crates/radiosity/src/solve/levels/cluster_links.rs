@@ -1,0 +1,219 @@
+//! Links between clusters: light between tiles that are far from each other for the size of their clusters.
+//!
+//! ```text
+//!  i .---.                              .---. j     what i and j exchange is
+//!   /  x  \ -------------------------- /  y  \      (what y sees of i) × (what x sees of j) × π d²
+//!   '-----'             d              '-----'
+//! ```
+//!
+//! What is seen is exact, past all that stands in between and within both clusters: n + m form factors tell what n × m pairs exchange.
+//! Where both clusters are small for their distance, the error is of second order: the product of their radii over its square.
+use super::cluster_views::{ClusterView, stands_between, views};
+use super::clusters::Clusters;
+use super::flow::Linear;
+use super::tiling::Tiling;
+use std::f64::consts::PI;
+
+/// How many times the product of the radii over the squared distance an exchange may be off by.
+const BILINEAR: f64 = 3.0;
+/// What share of what could be exchanged may be wrong where something stands in between, however all points agree.
+const BETWEEN: f64 = 0.15;
+/// How much of what some points see and others do not may be wrong.
+const PARTLY: f64 = 0.5;
+
+/// Two clusters that exchange light.
+#[derive(Clone, Debug)]
+pub(super) struct ClusterLink {
+    pub(super) ends: [usize; 2],
+    /// For each tile of each end, what the other end sees of it.
+    seen: [Vec<f64>; 2],
+    /// The same without what stands between the clusters, where something does.
+    open: Option<[Vec<f64>; 2]>,
+    /// What is seen of two tiles times this is what they exchange.
+    scale: f64,
+    open_scale: f64,
+    /// How wrong that may be, as a share of it, and of what could be exchanged were nothing in between.
+    error: f64,
+    open_error: f64,
+}
+
+/// The links between clusters, and their clusters.
+#[derive(Debug)]
+pub(super) struct ClusterLinks {
+    pub(super) clusters: Clusters,
+    pub(super) all: Vec<ClusterLink>,
+}
+
+impl ClusterLink {
+    /// Measures what two clusters exchange; nothing where no light can pass.
+    pub(super) fn measure(tiling: &Tiling<'_>, clusters: &Clusters, ends: [usize; 2]) -> Option<ClusterLink> {
+        let is_past_others = stands_between(tiling, clusters, ends);
+        let [of_first, of_second] = views(tiling, clusters, ends, is_past_others)?;
+        let [first, second] = ends.map(|end| &clusters.all[end]);
+        let open_scale = PI * first.centre.distance_squared(second.centre);
+        let visible = (of_first.visible() * of_second.visible()).sqrt();
+        let doubt = [&of_first, &of_second].map(ClusterView::doubt).into_iter().fold(0.0, f64::max);
+        let partly = doubt.max((of_first.visible() - of_second.visible()).abs());
+        let link = ClusterLink {
+            ends,
+            scale: if visible > 0.0 { open_scale / visible } else { 0.0 },
+            open_scale,
+            error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt,
+            open_error: if is_past_others {
+                BETWEEN + PARTLY * partly.max((visible * (1.0 - visible)).max(0.0).sqrt())
+            } else {
+                0.0
+            },
+            seen: [of_first.seen, of_second.seen],
+            open: of_first.open.zip(of_second.open).map(|(one, other)| [one, other]),
+        };
+        let some = |seen: &[Vec<f64>; 2]| seen.iter().all(|seen| seen.iter().any(|seen| *seen > 0.0));
+        link.open.as_ref().map_or_else(|| some(&link.seen), some).then_some(link)
+    }
+
+    /// What each tile of one end receives, as powers, when the tiles send so much.
+    fn carry(&self, clusters: &Clusters, end: usize, sent: &[Linear], mut to: impl FnMut(usize, f64)) {
+        let brings = self.scale * weighed(clusters.tiles(self.ends[1 - end]), &self.seen[1 - end], sent);
+        if brings != 0.0 {
+            let tiles = clusters.tiles(self.ends[end]).iter();
+            tiles.zip(&self.seen[end]).for_each(|(tile, seen)| to(*tile, brings * seen));
+        }
+    }
+
+    /// What may be wrong with that.
+    pub(super) fn errors(
+        &self,
+        clusters: &Clusters,
+        end: usize,
+        sent: &[Linear],
+        mut to: impl FnMut(usize, f64),
+    ) {
+        let others = clusters.tiles(self.ends[1 - end]);
+        let brings = self.error * self.scale * weighed(others, &self.seen[1 - end], sent).abs();
+        let open = self.open.as_ref().map(|open| {
+            let brings = self.open_error * self.open_scale * weighed(others, &open[1 - end], sent).abs();
+            (brings, &open[end])
+        });
+        for (k, tile) in clusters.tiles(self.ends[end]).iter().enumerate() {
+            let hidden = open.map_or(0.0, |(brings, open)| brings * open[k]);
+            to(*tile, brings * self.seen[end][k] + hidden);
+        }
+    }
+
+    /// For each exchange of two of its tiles raised to a power: what each end receives of `sent`.
+    pub(super) fn carry_powers(
+        &self,
+        clusters: &Clusters,
+        end: usize,
+        exponent: f64,
+        sent: impl Fn(usize) -> f64,
+        mut to: impl FnMut(usize, f64),
+    ) {
+        let others = clusters.tiles(self.ends[1 - end]).iter().zip(&self.seen[1 - end]);
+        let sum: f64 = others.map(|(tile, seen)| seen.powf(exponent) * sent(*tile)).sum();
+        let brings = self.scale.powf(exponent) * sum;
+        let tiles = clusters.tiles(self.ends[end]).iter();
+        tiles.zip(&self.seen[end]).for_each(|(tile, seen)| to(*tile, brings * seen.powf(exponent)));
+    }
+
+    /// The tiles that exchange light.
+    pub(super) fn lit(&self, clusters: &Clusters) -> impl Iterator<Item = usize> {
+        let all = self.ends.into_iter().zip(&self.seen);
+        let of_end = |(end, seen)| clusters.tiles(end).iter().zip(seen);
+        let lit = all.flat_map(of_end).filter(|(_, seen)| **seen > 0.0).map(|(tile, _)| *tile);
+        lit.take(if self.scale > 0.0 { usize::MAX } else { 0 })
+    }
+}
+
+impl ClusterLinks {
+    /// Adds what all whole tiles receive when they send so much: irradiance.
+    pub(super) fn gather(&self, tiling: &Tiling<'_>, sent: &[Linear], received: &mut [Linear]) {
+        for link in &self.all {
+            for end in [0, 1] {
+                link.carry(&self.clusters, end, sent, |tile, power| {
+                    received[tile][0] += power / tiling.tiles[tile].area;
+                });
+            }
+        }
+    }
+}
+
+/// What tiles send, each by its weight.
+fn weighed(tiles: &[usize], weights: &[f64], sent: &[Linear]) -> f64 {
+    tiles.iter().zip(weights).map(|(tile, weight)| weight * sent[*tile][0]).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use formfactor::PlanarPolygon;
+    use glam::DVec3;
+
+    fn square(corner: DVec3, [along, up]: [DVec3; 2]) -> Patch {
+        let corners = [corner, corner + along, corner + along + up, corner + up];
+        Patch::new("square", PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![0.0])
+    }
+
+    /// Two corners of two squares each, before each other at a distance, and something between them.
+    fn corners(between: Option<Patch>) -> Scene {
+        let [x, y, z] = DVec3::AXES;
+        let near = [square(DVec3::ZERO, [y, z]), square(DVec3::ZERO, [z, x])];
+        let far = DVec3::new(9.0, 1.0, 0.5);
+        let other = [square(far, [z, y]), square(far, [x * -1.0, z])];
+        Scene {
+            patches: near.into_iter().chain(other).chain(between).collect(),
+            bands: 1,
+            ..Scene::default()
+        }
+    }
+
+    /// What two clusters exchange, by the link of both, what that may be off by, and exactly.
+    fn exchanges(scene: &Scene, ends: [&[usize]; 2]) -> [f64; 3] {
+        let tiling = Tiling::new(scene).unwrap();
+        let clusters = Clusters::of(&tiling);
+        let pair = ends.map(|tiles| {
+            let is_of = |cluster: &usize| {
+                let mut found = clusters.tiles(*cluster).to_vec();
+                found.sort_unstable();
+                found == tiles
+            };
+            (0..clusters.all.len()).find(is_of).expect("halves where tiles lie furthest apart")
+        });
+        let link = ClusterLink::measure(&tiling, &clusters, pair);
+        let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
+        let (mut power, mut back, mut error) = (0.0, 0.0, 0.0);
+        if let Some(link) = link {
+            link.carry(&clusters, 0, &even, |_, received| power += received);
+            link.carry(&clusters, 1, &even, |_, received| back += received);
+            link.errors(&clusters, 0, &even, |_, wrong| error += wrong);
+        }
+        assert!((power - back).abs() <= 1e-14 * power, "both ways alike");
+        let exact = |one: usize, other: usize| {
+            let [one, other] = [one, other].map(|tile| &tiling.tiles[tile]);
+            let limits = formfactor::Limits::default();
+            let found = tiling.enclosure.area_form_factor(one.surface, other.surface, 1e-9, &limits);
+            one.area * found.unwrap().map_or(0.0, |found| found.value)
+        };
+        let pairs = ends[0].iter().flat_map(|one| ends[1].iter().map(|other| exact(*one, *other)));
+        [power, error, pairs.sum()]
+    }
+
+    #[test]
+    fn clusters_exchange_what_their_tiles_do_within_the_error() {
+        let [x, y, z] = DVec3::AXES;
+        let half = square(x * 3.0 + y * 0.8 - z, [y * 4.0, z * 4.0]);
+        for between in [None, Some(half)] {
+            let [found, error, exact] = exchanges(&corners(between), [&[0, 1], &[2, 3]]);
+            assert!(exact > 0.0 && (found - exact).abs() <= error, "{found} ± {error}, {exact}");
+        }
+    }
+
+    #[test]
+    fn nothing_passes_a_wall_between_clusters() {
+        let [x, y, z] = DVec3::AXES;
+        let wall = square(x * 3.0 - y * 12.0 - z * 9.0, [y * 20.0, z * 20.0]);
+        let [found, _, exact] = exchanges(&corners(Some(wall)), [&[0], &[2]]);
+        assert_eq!([found, exact], [0.0; 2]);
+    }
+}

@@ -1,0 +1,247 @@
+//! Clusters: tiles near each other, which exchange light as a whole with what is far away (Smits, Arvo and Greenberg 1994).
+use super::tiling::Tiling;
+use crate::extent::Extent;
+use glam::DVec3;
+use std::ops::Range;
+
+/// Two clusters are far from each other when the product of their radii is less than this share of the square of their distance, …
+const NEAR: f64 = 0.06;
+/// … and neither reaches so much of the way to the other.
+const REACH: f64 = 0.6;
+/// Normals that differ by less than this from the axis of their cone are along it.
+const FLAT: f64 = 1e-12;
+/// What rises above a flat cluster by less than this share of its distance does not.
+const LOW: f64 = 1e-9;
+
+/// Whole tiles near each other.
+#[derive(Clone, Debug)]
+pub(super) struct Cluster {
+    members: Range<usize>,
+    pub(super) halves: Option<[usize; 2]>,
+    pub(super) extent: Extent,
+    pub(super) centre: DVec3,
+    pub(super) radius: f64,
+    /// All normals are within an angle of this, in radians.
+    axis: DVec3,
+    spread: f64,
+    /// The least height of all corners along the axis.
+    low: f64,
+}
+
+/// All whole tiles in a tree, halved where they lie furthest apart.
+#[derive(Debug, Default)]
+pub(super) struct Clusters {
+    order: Vec<usize>,
+    pub(super) all: Vec<Cluster>,
+    /// For each polygon the first and the last place in the order of its tiles.
+    of_surface: Vec<[usize; 2]>,
+}
+
+/// Pairs of clusters that are to be linked, and pairs of tiles that are too near each other for that.
+#[derive(Debug, Default)]
+pub(super) struct Pairs {
+    pub(super) far: Vec<[usize; 2]>,
+    pub(super) near: Vec<[usize; 2]>,
+}
+
+impl Clusters {
+    /// O(n log² n) for n whole tiles.
+    pub(super) fn of(tiling: &Tiling<'_>) -> Clusters {
+        let order: Vec<usize> = (0..tiling.tiles.len()).collect();
+        let extents: Vec<Extent> =
+            tiling.tiles.iter().map(|tile| Extent::of_points(tile.outline.places())).collect();
+        let mut clusters = Clusters { order, ..Clusters::default() };
+        let count = extents.len();
+        if count > 0 {
+            clusters.grow(tiling, &extents, 0..count);
+        }
+        clusters.of_surface = vec![[usize::MAX, 0]; tiling.enclosure.polygons().len()];
+        for (place, tile) in clusters.order.iter().enumerate() {
+            let [first, last] = &mut clusters.of_surface[tiling.tiles[*tile].surface];
+            (*first, *last) = ((*first).min(place), (*last).max(place));
+        }
+        clusters
+    }
+
+    fn grow(&mut self, tiling: &Tiling<'_>, extents: &[Extent], members: Range<usize>) -> usize {
+        let index = self.all.len();
+        self.all.push(Cluster::of(tiling, &self.order[members.clone()], members.clone(), extents));
+        if members.len() > 1 {
+            let axis = self.all[index].extent.longest();
+            let middle = |tile: &usize| extents[*tile].low[axis] + extents[*tile].high[axis];
+            self.order[members.clone()]
+                .sort_unstable_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
+            let half = members.start + members.len() / 2;
+            let halves =
+                [members.start..half, half..members.end].map(|part| self.grow(tiling, extents, part));
+            self.all[index].halves = Some(halves);
+        }
+        index
+    }
+
+    /// The tiles of a cluster.
+    pub(super) fn tiles(&self, cluster: usize) -> &[usize] {
+        &self.order[self.all[cluster].members.clone()]
+    }
+
+    /// All pairs that may see each other, in clusters that are as large as their distance allows.
+    pub(super) fn pairs(&self) -> Pairs {
+        let mut pairs = Pairs::default();
+        let mut within: Vec<usize> = (!self.all.is_empty()).then_some(0).into_iter().collect();
+        while let Some(cluster) = within.pop() {
+            if let Some(halves) = self.all[cluster].halves {
+                within.extend(halves);
+                self.part(halves, &mut pairs);
+            }
+        }
+        pairs
+    }
+
+    /// Adds a pair, or the pairs of its parts that are far enough from each other.
+    pub(super) fn part(&self, pair: [usize; 2], pairs: &mut Pairs) {
+        let mut open = vec![pair];
+        while let Some(pair) = open.pop() {
+            if self.faces(pair) {
+                if self.is_far(pair) {
+                    pairs.far.push(pair);
+                } else {
+                    match self.halve(pair) {
+                        Some(parts) => open.extend(parts),
+                        None => pairs.near.push(pair.map(|cluster| self.tiles(cluster)[0])),
+                    }
+                }
+            }
+        }
+    }
+
+    /// The pairs that take the place of a pair: the larger cluster is halved; nothing for two tiles.
+    pub(super) fn halve(&self, pair: [usize; 2]) -> Option<[[usize; 2]; 2]> {
+        let [one, other] = pair.map(|cluster| &self.all[cluster]);
+        let is_first = other.halves.is_none() || (one.halves.is_some() && one.radius >= other.radius);
+        let halves = if is_first { one.halves } else { other.halves };
+        Some(halves?.map(|half| if is_first { [half, pair[1]] } else { [pair[0], half] }))
+    }
+
+    /// Whether all tiles of a polygon are in one of two clusters.
+    pub(super) fn has_surface(&self, pair: [usize; 2], surface: usize) -> bool {
+        let [first, last] = self.of_surface[surface];
+        pair.into_iter().any(|cluster| {
+            let Range { start, end } = self.all[cluster].members;
+            start <= first && last < end
+        })
+    }
+
+    fn is_far(&self, pair: [usize; 2]) -> bool {
+        let [one, other] = pair.map(|cluster| &self.all[cluster]);
+        self.nearness(pair) < NEAR && one.radius.max(other.radius) < REACH * one.centre.distance(other.centre)
+    }
+
+    /// The product of the radii over the square of the distance.
+    pub(super) fn nearness(&self, pair: [usize; 2]) -> f64 {
+        let [one, other] = pair.map(|cluster| &self.all[cluster]);
+        one.radius * other.radius / one.centre.distance_squared(other.centre)
+    }
+
+    /// Whether some tile of one may be before some tile of the other, and the other way round, as far as normals and boxes tell.
+    fn faces(&self, [one, other]: [usize; 2]) -> bool {
+        let [one, other] = [&self.all[one], &self.all[other]];
+        one.may_see(other) && other.may_see(one)
+    }
+}
+
+impl Cluster {
+    fn of(tiling: &Tiling<'_>, tiles: &[usize], members: Range<usize>, extents: &[Extent]) -> Cluster {
+        let all = || tiles.iter().map(|tile| &tiling.tiles[*tile]);
+        let extent = tiles.iter().map(|tile| &extents[*tile]).fold(Extent::NOTHING, |a, b| a.with(b));
+        let centre = (extent.low + extent.high) / 2.0;
+        let places = || all().flat_map(|tile| tile.outline.places());
+        let axis = all().map(|tile| tile.normal).sum::<DVec3>().normalize_or_zero();
+        let spread = all().map(|tile| (1.0 - axis.dot(tile.normal)).max(0.0)).fold(0.0, f64::max);
+        Cluster {
+            members,
+            halves: None,
+            extent,
+            centre,
+            radius: places().map(|place| place.distance(centre)).fold(0.0, f64::max),
+            axis,
+            low: places().map(|place| axis.dot(place)).fold(f64::INFINITY, f64::min),
+            spread: if spread <= FLAT { 0.0 } else { (1.0 - spread).clamp(-1.0, 1.0).acos() },
+        }
+    }
+
+    /// Whether some tile of it may have a part of another cluster before it.
+    fn may_see(&self, other: &Cluster) -> bool {
+        let way = other.centre - self.centre;
+        if self.spread == 0.0 {
+            // All its tiles lie at least as high as the lowest corner.
+            let low = self.low + LOW * way.length();
+            return other.extent.corners().iter().any(|place| self.axis.dot(*place) > low);
+        }
+        let reach = (self.radius + other.radius) / way.length();
+        if reach >= 1.0 {
+            return true;
+        }
+        let between = self.axis.dot(way / way.length()).clamp(-1.0, 1.0).acos();
+        between - self.spread - reach.asin() < std::f64::consts::FRAC_PI_2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tiling::Tile;
+    use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use formfactor::PlanarPolygon;
+    use std::collections::BTreeMap;
+
+    /// Boxes seen from outside, each 0.4 wide, on a grid of 4 × 3 × 2.
+    fn boxes() -> Scene {
+        let at = |k: u32| DVec3::new(f64::from(k % 4), f64::from(k / 4 % 3), f64::from(k / 12));
+        let faces = [[1, 3, 2, 0], [5, 7, 6, 4], [1, 5, 4, 0], [3, 7, 6, 2], [4, 6, 2, 0], [3, 7, 5, 1]];
+        let face = |k: u32, face: [u32; 4]| {
+            let corner =
+                |c: u32| at(k) + 0.4 * DVec3::new(f64::from(c & 1), f64::from(c >> 1 & 1), f64::from(c >> 2));
+            let mut corners = face.map(corner);
+            let outward = corners.iter().sum::<DVec3>() / 4.0 - at(k) - 0.2;
+            if (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(outward) < 0.0 {
+                corners.reverse();
+            }
+            Patch::new("face", PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![0.0])
+        };
+        let patches = (0..24).flat_map(|k| faces.map(|corners| face(k, corners))).collect();
+        Scene { patches, bands: 1, ..Scene::default() }
+    }
+
+    #[test]
+    fn every_pair_that_may_see_each_other_is_in_one_pair_of_clusters() {
+        let scene = boxes();
+        let tiling = Tiling::new(&scene).unwrap();
+        let clusters = Clusters::of(&tiling);
+        let Pairs { far, near } = clusters.pairs();
+        assert!(
+            far.len() < 144 * 143 / 4
+                && far.iter().any(|pair| pair.iter().any(|&c| clusters.tiles(c).len() > 2))
+        );
+        let mut found: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+        let mut add =
+            |one: usize, other: usize| *found.entry([one.min(other), one.max(other)]).or_default() += 1;
+        for [one, other] in far {
+            for &a in clusters.tiles(one) {
+                clusters.tiles(other).iter().for_each(|&b| add(a, b));
+            }
+        }
+        near.into_iter().for_each(|[one, other]| add(one, other));
+        assert!(found.values().all(|times| *times == 1));
+        let rises = |tile: &Tile, over: &Tile| {
+            let at = over.points[0].position();
+            tile.outline.places().any(|place| over.normal.dot(place - at) > 1e-9)
+        };
+        for a in 0..144 {
+            for b in a + 1..144 {
+                let [one, other] = [a, b].map(|tile| &tiling.tiles[tile]);
+                let sees = rises(other, one) && rises(one, other);
+                assert!(!sees || found.contains_key(&[a, b]), "{a} and {b}");
+            }
+        }
+    }
+}
