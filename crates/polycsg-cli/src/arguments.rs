@@ -17,7 +17,8 @@ use std::process::ExitCode;
 /// Reads and writes GeoJSON, WKT and WKB (a geometry a line), FlatGeobuf and GeoParquet, by the end of a file's name or by --from and
 /// --to; - is stdin or stdout. Data goes to stdout, everything else to stderr. A file is written whole or not at all. Results do not
 /// depend on the number of threads. Exit codes: 0 done, 1 a file cannot be read or written, 2 wrong usage, 3 data that makes no
-/// sense, 4 `validate` found features that are not valid, 130 stopped by Ctrl-C.
+/// sense, 4 `validate` found features that are not valid, 130 stopped by Ctrl-C
+/// or SIGTERM.
 #[derive(Debug, Parser)]
 #[command(name = "polycsg", version, max_term_width = 110)]
 pub(crate) struct Arguments {

@@ -11,7 +11,7 @@ pub(crate) enum Failure {
     Usage(String),
     /// A file's content makes no sense: exit code 3.
     Data(String),
-    /// Somebody pressed Ctrl-C: exit code 130, as a shell reports it.
+    /// Somebody pressed Ctrl-C, or sent SIGTERM: exit code 130, as a shell reports the first.
     Interrupted,
 }
 
@@ -37,7 +37,7 @@ impl Failure {
             Failure::File(message) => (1, message.as_str()),
             Failure::Usage(message) => (2, message.as_str()),
             Failure::Data(message) => (3, message.as_str()),
-            Failure::Interrupted => (130, "stopped by Ctrl-C; nothing was written"),
+            Failure::Interrupted => (130, "stopped by Ctrl-C or a signal; nothing was written"),
         };
         eprintln!("error: {message}");
         ExitCode::from(code)

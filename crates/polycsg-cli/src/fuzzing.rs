@@ -76,7 +76,7 @@ fn read(path: &Path, format: Format) -> Result<(Layer, Vec<Batch>), Failure> {
 }
 
 fn write(path: &Path, format: Format, layer: &Layer, batches: &[Batch]) {
-    let output = Output::open(path).expect("a file");
+    let output = Output::open(path, &Interrupt::default()).expect("a file");
     let mut writer = formats::create(output, format, layer).expect("a writer");
     batches.iter().for_each(|batch| writer.write(batch).expect("what is read can be written"));
     writer.finish().expect("a file");

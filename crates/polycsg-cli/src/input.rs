@@ -1,7 +1,7 @@
-//! Files and stdin to read from, what shows how much is read, and what is said of them.
+//! Files and stdin to read from, and what is said of them.
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::progress::Progress;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub(crate) struct Input {
 /// Bytes that are counted on a terminal, and end where somebody presses Ctrl-C.
 struct Watched<R> {
     bytes: R,
-    bar: ProgressBar,
+    progress: Progress,
     interrupt: Interrupt,
 }
 
@@ -56,7 +56,12 @@ impl Input {
             copy.rewind()?;
             Ok(copy)
         });
-        copied.map_err(|error| self.unreadable(error))
+        copied.map_err(|error| {
+            let folder = std::env::temp_dir();
+            let copied_to =
+                format!("{error}; it is copied to {} first: TMPDIR names another folder", folder.display());
+            self.unreadable(std::io::Error::new(error.kind(), copied_to))
+        })
     }
 
     /// The bytes of such a file from its beginning.
@@ -75,8 +80,8 @@ impl Input {
     }
 
     fn watched(&self, bytes: impl Read + 'static, length: u64) -> Result<Box<dyn BufRead>, Failure> {
-        let bar = bar(length, &self.name());
-        let watched = Watched { bytes, bar, interrupt: self.interrupt.clone() };
+        let progress = Progress::of_bytes(&self.name(), length);
+        let watched = Watched { bytes, progress, interrupt: self.interrupt.clone() };
         let mut bytes = BufReader::with_capacity(1 << 17, watched);
         let start = bytes.fill_buf().map_err(|error| self.unreadable(error))?;
         let mark = if start.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
@@ -91,25 +96,9 @@ impl<R: Read> Read for Watched<R> {
             return Err(io::Error::other("stopped"));
         }
         let count = self.bytes.read(buffer)?;
-        self.bar.inc(count as u64);
+        self.progress.add(count);
         Ok(count)
     }
-}
-
-impl<R> Drop for Watched<R> {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-/// A bar on a terminal, and nothing elsewhere. A length of 0 is an unknown one.
-fn bar(length: u64, name: &str) -> ProgressBar {
-    let template =
-        if length > 0 { "{msg} {bar:40} {percent} % [{elapsed}]" } else { "{msg} {bytes} [{elapsed}]" };
-    let style = ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar());
-    let bar = ProgressBar::new(length).with_style(style);
-    bar.set_message(name.to_owned());
-    bar
 }
 
 /// Says on stderr what a user should know, though the command goes on.

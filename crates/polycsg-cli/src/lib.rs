@@ -6,7 +6,8 @@
 //! operands      features as regions, and which of them meet
 //! formats       readers and writers, a folder or a file for each format
 //! output        files that are written whole or not at all
-//! input         files and stdin, what shows how much is read, and what is said of them
+//! input         files and stdin, and what is said of them
+//! progress      bars on a terminal
 //! layer         features in batches, their columns, and the system of their coordinates
 //! interrupt     Ctrl-C
 //! failure       what went wrong, and the exit code that says so
@@ -26,6 +27,7 @@ mod interrupt;
 mod layer;
 mod operands;
 mod output;
+mod progress;
 
 /// Runs the command line of this process: reads and writes what it names, says on stderr what went wrong, and returns the exit
 /// code that `polycsg --help` lists.

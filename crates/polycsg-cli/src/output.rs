@@ -1,5 +1,6 @@
 //! Files that are written whole or not at all, and stdout.
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use tempfile::NamedTempFile;
 pub(crate) struct Output {
     path: PathBuf,
     place: Place,
+    interrupt: Interrupt,
 }
 
 #[derive(Debug)]
@@ -24,10 +26,10 @@ enum Place {
 
 impl Output {
     /// Opens it, so that a folder that takes no files is found before there is something to write.
-    pub(crate) fn open(path: &Path) -> Result<Output, Failure> {
+    pub(crate) fn open(path: &Path, interrupt: &Interrupt) -> Result<Output, Failure> {
         let refused = |error| Failure::write(path.display(), error);
         if path.as_os_str() == "-" {
-            return Ok(Output { path: "stdout".into(), place: Place::Stdout });
+            return Ok(Output { path: "stdout".into(), place: Place::Stdout, interrupt: interrupt.clone() });
         }
         let place = match path.metadata() {
             Ok(found) if found.is_dir() => {
@@ -41,7 +43,10 @@ impl Output {
             Err(_) => beside(path)
                 .map_err(|error| Failure::write(path.display(), format!("{error}; check the folder")))?,
         };
-        Ok(Output { path: path.to_owned(), place })
+        if let Place::New(file, _) = &place {
+            interrupt.leave_nothing_of(file.path());
+        }
+        Ok(Output { path: path.to_owned(), place, interrupt: interrupt.clone() })
     }
 
     /// How messages call it.
@@ -70,6 +75,9 @@ impl Output {
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.interrupt.is_set() {
+            return Err(io::Error::other("stopped"));
+        }
         match &mut self.place {
             Place::Stdout => kept(io::stdout().write_all(bytes)).map(|()| bytes.len()),
             Place::Device(file) => file.write(bytes),

@@ -3,6 +3,11 @@ mod program;
 
 use program::{Folder, code, document, numbered, parcels, piped, polycsg, printed, stderr, stdout};
 use serde_json::Value;
+#[cfg(unix)]
+use std::{
+    process::{Child, ChildStdin, Command, Stdio},
+    time::Duration,
+};
 
 const SQUARE: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]]]}"#;
 
@@ -77,6 +82,12 @@ fn what_is_no_polygon_is_named_by_file_and_feature() {
         ("a.wkb", "01030000000000000000".into(), "1 bytes too many"),
         ("a.wkb", "0103000000FFFFFFFF".into(), "this is no WKB"),
         ("a.wkb", format!("0106000000010000000101000000{}", "00".repeat(16)), "this is no WKB"),
+        // A MultiPolygon Z of a polygon that says it has no z.
+        (
+            "a.wkb",
+            format!("01EE0300000100000001030000000100000004000000{}", "00".repeat(96)),
+            "a part of a MultiPolygon is no Polygon of its dimension",
+        ),
         (
             "a.wkb",
             format!("01030000000100000004000000{}000000000000F87F{}", "00".repeat(8), "00".repeat(48)),
@@ -227,24 +238,60 @@ fn what_is_lost_is_said_once() {
     assert!(stderr(&output).contains("feature 0: its member \"title\" is left out"), "{}", stderr(&output));
 }
 
+/// A copy of a pipe that finds no room is not the pipe's fault.
+#[cfg(unix)]
+#[test]
+fn a_folder_for_copies_that_is_not_there_is_named() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_polycsg"));
+    command.args(["area", "-", "--from", "geojson"]).env("TMPDIR", "/nowhere").stdin(Stdio::null());
+    let output = command.output().expect("it starts");
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("it is copied to /nowhere first"), "{}", stderr(&output));
+}
+
+/// A repair whose input comes through a pipe.
+#[cfg(unix)]
+fn begun(out: &str) -> (Child, ChildStdin) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_polycsg"));
+    command.args(["repair", "-", "--from", "wkt", "-o", out]).stdin(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("it starts");
+    let pipe = child.stdin.take().expect("a pipe");
+    (child, pipe)
+}
+
+#[cfg(unix)]
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    assert!(sent.expect("kill").success());
+}
+
+/// While it waits for a pipe that says nothing, it sees no signal.
+#[cfg(unix)]
+#[test]
+fn signals_end_it_while_it_waits_and_leave_nothing() {
+    for signal in ["-INT", "-TERM"] {
+        let folder = Folder::new();
+        let (mut child, pipe) = begun(&folder.path("out.wkt"));
+        while folder.names().is_empty() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        send(signal, &child);
+        assert_eq!(child.wait().expect("it ends").code(), Some(130), "{signal}");
+        assert_eq!(folder.names(), Vec::<String>::new(), "{signal}");
+        drop(pipe);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_it_and_leaves_nothing() {
     use std::io::Write;
-    use std::process::{Command, Stdio};
     let folder = Folder::new();
-    let out = folder.path("out.wkt");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_polycsg"))
-        .args(["repair", "-", "--from", "wkt", "-o", &out])
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("it starts");
-    let mut pipe = child.stdin.take().expect("a pipe");
+    let (child, mut pipe) = begun(&folder.path("out.wkt"));
     let line = b"POLYGON((0 0,1 0,1 1,0 0))\n".repeat(1000);
     // It has begun when it has made its file and taken more than a pipe holds.
     (0..20).for_each(|_| pipe.write_all(&line).expect("it reads"));
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill").success());
+    send("-INT", &child);
     while pipe.write_all(&line).is_ok() {}
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(code(&output), 130, "{}", stderr(&output));

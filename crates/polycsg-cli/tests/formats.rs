@@ -13,7 +13,8 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
 use polycsg::{Scratch, flaw};
 use program::{
-    Folder, Random, Ring, areas, code, document, lines, piped, polycsg, printed, sorted, stderr, stdout,
+    Folder, Random, Ring, areas, code, document, lines, numbered, parcels, piped, polycsg, printed, sorted,
+    stderr, stdout,
 };
 use serde_json::{Value, json};
 use std::fs::File;
@@ -300,4 +301,18 @@ fn files_of_other_programs_are_read() {
             "{name}: {text}"
         );
     }
+}
+
+/// What `--from` says is for the file whose name does not tell its format.
+#[test]
+fn a_second_file_keeps_the_format_of_its_name() {
+    let folder = Folder::new();
+    let [a, b] = [0.0, 0.5].map(|at| document(&numbered("n", parcels(2, at, 1.0, 1))));
+    let other = folder.path("b.parquet");
+    printed(&["repair", &folder.put("b.geojson", b), "-o", &other]);
+    let file = folder.put("a.geojson", &a);
+    let pipe = ["overlay", "-", &other, "--from", "geojson", "--op", "union"];
+    assert_eq!(stdout(piped(&pipe, a.as_bytes())), printed(&["overlay", &file, &other, "--op", "union"]));
+    let pipe = ["overlay", &other, "-", "--from", "geojson", "--op", "union"];
+    assert_eq!(code(&piped(&pipe, a.as_bytes())), 3, "the first file is what --from says");
 }

@@ -10,7 +10,7 @@ use crate::commands::solve::{self, options::Solve};
 use crate::commands::view::{self, View};
 use crate::failure::Failure;
 use crate::outputs::print;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Arg, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 use std::process::ExitCode;
 
@@ -23,7 +23,7 @@ use std::process::ExitCode;
 #[command(name = "radiosity", version, max_term_width = 110)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: Task,
     /// Number of threads; the result does not depend on it [default: one per core]
     #[arg(short = 'j', long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
 
 /// The commands.
 #[derive(Debug, Subcommand)]
-enum Command {
+enum Task {
     /// Solve for the light of a scene and write it as a picture, a scene, a page or numbers
     Solve(Solve),
     /// Turn a solution into displayable colours
@@ -57,21 +57,37 @@ enum Command {
     },
 }
 
+impl Arguments {
+    /// The arguments of this run. A number below zero is a value of the option before it, which can then say what it wants.
+    pub(crate) fn of_this_run() -> Arguments {
+        let matches = with_negative_numbers(Arguments::command()).get_matches();
+        Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+}
+
+fn with_negative_numbers(command: Command) -> Command {
+    let takes = |arg: Arg| match arg.get_action().takes_values() && !arg.is_positional() {
+        true => arg.allow_negative_numbers(true),
+        false => arg,
+    };
+    command.mut_args(takes).mut_subcommands(with_negative_numbers)
+}
+
 /// Runs the command; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
     pool.install(|| match arguments.command {
-        Command::Solve(arguments) => solve::run(&arguments),
-        Command::Expose(arguments) => expose::run(&arguments),
-        Command::View(arguments) => view::run(&arguments),
-        Command::Factors(arguments) => factors::run(&arguments),
-        Command::Inspect(arguments) => inspect::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
-        Command::Plot(arguments) => plot::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
-        Command::Scene(arguments) => scene::run(&arguments),
-        Command::Completions { shell } => completions(shell),
+        Task::Solve(arguments) => solve::run(&arguments),
+        Task::Expose(arguments) => expose::run(&arguments),
+        Task::View(arguments) => view::run(&arguments),
+        Task::Factors(arguments) => factors::run(&arguments),
+        Task::Inspect(arguments) => inspect::run(&arguments),
+        Task::Compare(arguments) => compare::run(&arguments),
+        Task::Plot(arguments) => plot::run(&arguments),
+        Task::Report(arguments) => report::run(&arguments),
+        Task::Scene(arguments) => scene::run(&arguments),
+        Task::Completions { shell } => completions(shell),
     })
 }
 

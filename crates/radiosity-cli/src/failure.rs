@@ -50,7 +50,7 @@ impl From<FileError> for Failure {
     fn from(error: FileError) -> Failure {
         let code = match error {
             FileError::Read { .. } | FileError::Write { .. } | FileError::Size { .. } => 1,
-            FileError::Unknown { .. } => 2,
+            FileError::Unknown { .. } | FileError::UnknownOutput { .. } => 2,
             _ => 3,
         };
         Failure { code, message: error.to_string() }

@@ -1,10 +1,13 @@
-//! Scenes from files.
+//! Scenes and solutions from files, or from standard input.
 use crate::failure::Failure;
 use clap::Args;
 use radiosity::inspect::{Finding, KindSummary, in_one_line, summary};
 use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair};
 use serde::Deserialize;
-use std::path::Path;
+use std::{io::Read, path::Path};
+
+/// The name that stands for standard input and output.
+pub(crate) const STREAM: &str = "-";
 
 /// How scenes are read for a solution.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -40,14 +43,23 @@ pub(crate) fn read_repaired(path: &Path, reading: Reading) -> Result<RepairedInp
         return Err(refusal(path, &repairs));
     }
     let notes = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_none()).cloned();
-    if let Some(line) = in_one_line(&notes.collect::<Vec<_>>()) {
-        eprintln!("warning: {line}");
-    }
+    tell(path, &notes.collect::<Vec<_>>());
     let repairs = summary(&repairs);
     if !repairs.is_empty() {
         eprintln!("warning: repaired: {}; inspect lists them, --strict refuses them", counts(&repairs));
     }
     Ok(RepairedInput { scene, source, repairs })
+}
+
+/// One line on stderr for all that the reader had to say.
+fn tell(path: &Path, notes: &[Finding]) {
+    if let Some(line) = in_one_line(notes) {
+        let more = match notes {
+            [_] => String::new(),
+            _ => format!("; `radiosity inspect {}` says where, and what to do", path.display()),
+        };
+        eprintln!("warning: {line}{more}");
+    }
 }
 
 impl Sides {
@@ -82,16 +94,35 @@ pub(crate) fn counts(repairs: &[KindSummary]) -> String {
 /// Reads a scene as it is in its file; prints what the reader had to say on stderr.
 pub(crate) fn read(path: &Path) -> Result<(Scene, Source), Failure> {
     let (scene, source) = read_quietly(path)?;
-    for warning in &scene.warnings {
-        eprintln!("warning: {warning}");
-    }
+    tell(path, &scene.warnings);
     Ok((scene, source))
 }
 
 /// Reads a scene as it is in its file; what the reader had to say stays in the scene.
 pub(crate) fn read_quietly(path: &Path) -> Result<(Scene, Source), Failure> {
-    let source = Source::open(path)?;
+    let source = if path == Path::new(STREAM) {
+        Source::from_bytes("standard input", bytes(path)?)?
+    } else {
+        Source::open(path)?
+    };
     Ok((source.scene()?, source))
+}
+
+/// The bytes of a file, or of standard input.
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    let read = if path == Path::new(STREAM) {
+        std::io::stdin().read_to_end(&mut bytes)
+    } else {
+        std::fs::File::open(path).and_then(|mut file| file.read_to_end(&mut bytes))
+    };
+    match read {
+        Ok(_) => Ok(bytes),
+        Err(error) => {
+            let name = path.display();
+            Err(Failure::internal(format!("{name}: cannot be read: {error}; check its name")))
+        }
+    }
 }
 
 /// A solution's file as `solve` writes it; its other fields are for people and programs.
@@ -103,9 +134,7 @@ struct WrittenSolution {
 /// Reads a written solution.
 pub(crate) fn solution(path: &Path) -> Result<Record, Failure> {
     let name = path.display();
-    let text = std::fs::read(path)
-        .map_err(|error| Failure::internal(format!("{name}: cannot be read: {error}; check its name")))?;
-    let written: WrittenSolution = serde_json::from_slice(&text).map_err(|error| {
+    let written: WrittenSolution = serde_json::from_slice(&bytes(path)?).map_err(|error| {
         Failure::scene(format!("{name}: not a solution: {error}; write one: solve SCENE -o FILE.json"))
     })?;
     written.light.check().map_err(|reason| Failure::scene(format!("{name}: {reason}; solve again")))?;

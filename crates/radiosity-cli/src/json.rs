@@ -1,5 +1,6 @@
 //! What `--json` prints.
-use radiosity::{Record, Scene, Solution, inspect::KindSummary};
+use radiosity::inspect::{Finding, KindSummary};
+use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
 /// The figures of a solution.
@@ -16,6 +17,9 @@ pub(crate) struct Figures<'s> {
     closure: Option<f64>,
     scaling: Option<f64>,
     energy: Energy<'s>,
+    /// What was left out of the file, or read as something else.
+    #[serde(skip_serializing_if = "<[Finding]>::is_empty")]
+    warnings: &'s [Finding],
     patches: Vec<PatchFigures<'s>>,
 }
 
@@ -78,6 +82,7 @@ impl<'s> Figures<'s> {
                 unshot: &ledger.unshot,
                 defect: &ledger.defect,
             },
+            warnings: &scene.warnings,
             patches: patches
                 .map(|(index, ((patch, irradiance), radiosity))| PatchFigures {
                     name: &patch.name,

@@ -8,13 +8,14 @@
 //! input         scenes and solutions from files
 //! json          what --json prints
 //! parse         numbers on the command line
+//! digits        numbers for people
 //! failure       what went wrong, and the exit code that says so
 //! ```
-use clap::Parser;
 use std::process::ExitCode;
 
 mod arguments;
 mod commands;
+mod digits;
 mod failure;
 mod input;
 mod json;
@@ -23,7 +24,7 @@ mod parse;
 mod view_options;
 
 fn main() -> ExitCode {
-    let arguments = arguments::Arguments::parse();
+    let arguments = arguments::Arguments::of_this_run();
     match arguments::run(arguments) {
         Ok(code) => code,
         Err(failure) => failure.report(),

@@ -1,10 +1,11 @@
 //! Results to files, by extension, and data to stdout.
 use crate::failure::Failure;
+use crate::input::STREAM;
 use crate::json;
 use crate::view_options::ViewOptions;
-use radiosity::io::{self, Source, gltf};
+use radiosity::io::{self, Source, gltf, obj, ply};
 use radiosity::{Record, Scene, element_table, patch_table, viewer};
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// A file that a result can be written to.
@@ -22,12 +23,14 @@ enum FileKind {
     Glb,
     Json,
     Page,
+    Obj,
+    Ply,
     Patches,
     Elements,
 }
 
 /// By the end of the file's name.
-const KINDS: [(&str, FileKind); 7] = [
+const KINDS: [(&str, FileKind); 9] = [
     (".elements.csv", FileKind::Elements),
     (".csv", FileKind::Patches),
     (".png", FileKind::Picture),
@@ -35,6 +38,8 @@ const KINDS: [(&str, FileKind); 7] = [
     (".glb", FileKind::Glb),
     (".json", FileKind::Json),
     (".html", FileKind::Page),
+    (".obj", FileKind::Obj),
+    (".ply", FileKind::Ply),
 ];
 
 /// What outputs are written from.
@@ -49,14 +54,34 @@ pub(crate) struct Contents<'s> {
 }
 
 impl Output {
-    /// An output file: its extension must be known, and its folder must take new files, before anything is solved.
-    pub(crate) fn new(path: &Path) -> Result<Output, Failure> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    /// The outputs of a command: their extensions must be known, and their folders must take new files, before anything is solved.
+    /// What goes to stdout is of the kind that `format` names.
+    pub(crate) fn all(paths: &[PathBuf], format: &str) -> Result<Vec<Output>, Failure> {
+        if paths.iter().filter(|path| is_stream(path)).count() > 1 {
+            return Err(Failure::usage("stdout takes one output; give -o - once"));
+        }
+        paths.iter().map(|path| Output::new(path, format)).collect()
+    }
+
+    /// One of these.
+    pub(crate) fn new(path: &Path, format: &str) -> Result<Output, Failure> {
+        let name = match is_stream(path) {
+            true => format!(".{format}"),
+            false => path.file_name().unwrap_or_default().to_string_lossy().to_lowercase(),
+        };
         let found = KINDS.iter().find(|(end, _)| name.ends_with(end));
         let (_, kind) = *found.ok_or_else(|| {
             let ends: Vec<&str> = KINDS.iter().map(|(end, _)| *end).collect();
-            Failure::usage(format!("{}: unknown kind of file; name it {}", path.display(), ends.join(", ")))
+            let hint = if name.ends_with(".stl") { ", since STL holds no light" } else { "" };
+            Failure::usage(format!(
+                "{}: unknown kind of file; name it {}{hint}",
+                path.display(),
+                ends.join(", ")
+            ))
         })?;
+        if is_stream(path) && !matches!(kind, FileKind::Json | FileKind::Patches | FileKind::Elements) {
+            refuse_terminal()?;
+        }
         probe(path)?;
         Ok(Output { path: path.to_owned(), kind })
     }
@@ -76,11 +101,31 @@ impl Output {
             FileKind::Page => {
                 viewer::page(contents.record, contents.view.exposure(contents.record)).into_bytes()
             }
+            FileKind::Obj => obj::lit(contents.record, contents.view.exposure(contents.record)).into_bytes(),
+            FileKind::Ply => ply::lit(contents.record, contents.view.exposure(contents.record)),
             FileKind::Patches => patch_table(contents.record).into_bytes(),
             FileKind::Elements => element_table(contents.record).into_bytes(),
         };
-        Ok(io::save(&self.path, &bytes)?)
+        save(&self.path, &bytes)
     }
+}
+
+/// Whether a path stands for stdout.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    path == Path::new(STREAM)
+}
+
+/// Writes bytes to a file, whole or not at all, or to stdout.
+pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if is_stream(path) { print_bytes(bytes) } else { Ok(io::save(path, bytes)?) }
+}
+
+/// What is not for people would only upset their terminal.
+fn refuse_terminal() -> Result<(), Failure> {
+    if std::io::stdout().is_terminal() {
+        return Err(Failure::usage("stdout is a terminal; send it to a file or to another program"));
+    }
+    Ok(())
 }
 
 impl Contents<'_> {
@@ -120,7 +165,7 @@ pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(refused("it is a folder; name a file".to_owned()));
     }
-    if path.exists() && !path.is_file() {
+    if is_stream(path) || (path.exists() && !path.is_file()) {
         return Ok(());
     }
     match tempfile::tempfile_in(folder) {
@@ -129,9 +174,14 @@ pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Prints data on stdout. A reader that has gone away wants no more of it: that is no error.
+/// Prints text on stdout.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let written = std::io::stdout().write_all(text.as_bytes()).and_then(|()| std::io::stdout().flush());
+    print_bytes(text.as_bytes())
+}
+
+/// Writes data to stdout. A reader that has gone away wants no more of it: that is no error.
+fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
+    let written = std::io::stdout().write_all(bytes).and_then(|()| std::io::stdout().flush());
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(Failure::internal(format!("stdout cannot be written: {error}")))

@@ -27,8 +27,8 @@
 //! # Results
 //!
 //! All decisions are exact and every vertex is rounded once. Results are *regularised*, the closure of their interior: areas that
-//! only touch have an empty intersection. Equal rows that follow one another, as a constant or one side of a nested-loop join gives
-//! them, are read once, and prepared once where they are many.
+//! only touch have an empty intersection. Equal areas that follow one another in a batch, as a constant or one side of a nested-loop
+//! join gives them, are read once, and prepared once where they are many.
 //!
 //! # Joins
 //!

@@ -9,8 +9,10 @@ use datafusion::execution::runtime_env::RuntimeEnvBuilder;
 use datafusion::prelude::{SessionConfig, SessionContext};
 use datafusion_common::{DataFusionError, Result};
 use polycsg_datafusion::{BoxJoin, Error, Functions};
+use std::future::Future;
+use std::pin::pin;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::task::{Context, Waker};
 
 type Rows = Vec<(&'static str, Option<Vec<u8>>)>;
 
@@ -233,16 +235,17 @@ async fn broken_geometries_name_their_row() {
     }
 }
 
-/// A join of two million pairs that all meet would go on for many seconds.
+/// A join of two million pairs that all meet gives way after each step, so that a query that is dropped ends soon.
 #[tokio::test]
-async fn a_join_that_is_dropped_ends_soon() {
+async fn a_join_gives_way_between_its_steps() {
     let mut random = Random(2);
     let rows: Rows = (0..1500).map(|_| ("a", Some(polygon_wkb(&[random.octagon(1.0, 1.0)])))).collect();
     let context = joined(SessionConfig::new().with_target_partitions(1), 1 << 30);
     ["a", "b"].iter().for_each(|name| add_table(&context, name, std::slice::from_ref(&rows)));
     let sql = "SELECT count(st_intersection(a.geom, b.geom)) FROM a JOIN b ON st_intersects(a.geom, b.geom)";
-    let start = Instant::now();
-    let found = tokio::time::timeout(Duration::from_millis(300), answer(&context, sql)).await;
-    assert!(found.is_err(), "it was over before it was dropped");
-    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    let mut query = pin!(answer(&context, sql));
+    for step in 0..10 {
+        let asked = query.as_mut().poll(&mut Context::from_waker(Waker::noop()));
+        assert!(asked.is_pending(), "it was over at step {step} of more than 200");
+    }
 }

@@ -2,7 +2,6 @@
 use super::files::{InputFormat, OutputFile, only_one_stdin};
 use crate::failure::Failure;
 use crate::formats::{self, reader::Source};
-use crate::input::Input;
 use crate::interrupt::Interrupt;
 use crate::layer::areas::Areas;
 use crate::layer::batch::Batch;
@@ -35,8 +34,8 @@ pub(crate) struct Clip {
 /// Writes the part of each feature that lies in the mask.
 pub(crate) fn run(arguments: &Clip, interrupt: &Interrupt) -> Result<ExitCode, Failure> {
     only_one_stdin(&arguments.file, &arguments.by)?;
-    let (output, format) = arguments.output.open(&arguments.file, &arguments.format)?;
-    let mask = formats::open(&Input::new(&arguments.by, interrupt), mask_format(arguments)?)?;
+    let (output, format) = arguments.output.open(&arguments.file, &arguments.format, interrupt)?;
+    let mask = arguments.format.open_other(&arguments.by, interrupt)?;
     let source = arguments.format.open(&arguments.file, interrupt)?;
     let layer = source.layer().clone();
     must_agree((&layer.name, &layer.crs), (&mask.layer().name, &mask.layer().crs))?;
@@ -58,14 +57,6 @@ pub(crate) fn run(arguments: &Clip, interrupt: &Interrupt) -> Result<ExitCode, F
     })?;
     writer.finish()?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// The mask has a format of its own where its name tells it.
-fn mask_format(arguments: &Clip) -> Result<formats::Format, Failure> {
-    match formats::Format::of(&arguments.by) {
-        Some(format) => Ok(format),
-        None => arguments.format.named(&arguments.by),
-    }
 }
 
 /// All features of a layer as one region.

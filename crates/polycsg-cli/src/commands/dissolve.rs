@@ -7,6 +7,7 @@ use crate::layer::areas::Areas;
 use crate::layer::batch::{Batch, Layer};
 use crate::layer::columns::{ordinary, rows};
 use crate::operands::{each, evaluated, operand};
+use crate::progress::Progress;
 use arrow_array::{RecordBatch, UInt32Array};
 use arrow_row::{RowConverter, Rows, SortField};
 use arrow_schema::{ArrowError, Schema};
@@ -43,7 +44,7 @@ struct AllFeatures {
 
 /// Writes one feature for each group, in the order of their keys.
 pub(crate) fn run(arguments: &Dissolve, interrupt: &Interrupt) -> Result<ExitCode, Failure> {
-    let (output, format) = arguments.output.open(&arguments.file, &arguments.format)?;
+    let (output, format) = arguments.output.open(&arguments.file, &arguments.format, interrupt)?;
     let source = arguments.format.open(&arguments.file, interrupt)?;
     let layer = source.layer().clone();
     let (columns, keys) = keys(&layer, &arguments.by)?;
@@ -148,9 +149,12 @@ fn groups(sorted: &[(u32, usize)]) -> Vec<Vec<u32>> {
 }
 
 fn unite(areas: &[Areas], groups: &[Vec<u32>], interrupt: &Interrupt) -> Result<Vec<Region>, Failure> {
+    let progress = Progress::of_features("uniting", areas.len() as u64);
     let one = |scratch: &mut Scratch, group: &Vec<u32>| {
         let operands: Result<Vec<_>, Error> = group.iter().map(|&i| operand(&areas[i as usize])).collect();
-        evaluated(&Csg::union(operands?), scratch, interrupt)
+        let united = evaluated(&Csg::union(operands?), scratch, interrupt);
+        progress.add(group.len());
+        united
     };
     let found: Result<Vec<Region>, Error> = groups.par_iter().map_init(Scratch::default, one).collect();
     // Every operand has been one before.

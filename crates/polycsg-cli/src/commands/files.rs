@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// How inputs are read.
 #[derive(Args, Debug)]
 pub(crate) struct InputFormat {
-    /// The format of the input [default: by the file's name]
+    /// The format of the input [default: by the file's name]; of a second file only where its name tells none
     #[arg(long, value_enum, value_name = "FORMAT")]
     from: Option<Format>,
 }
@@ -34,6 +34,12 @@ impl InputFormat {
         Format::named(path, self.from, "--from")
     }
 
+    /// Opens a second layer, which has a format of its own where its name tells it.
+    pub(crate) fn open_other(&self, path: &Path, interrupt: &Interrupt) -> Result<Box<dyn Source>, Failure> {
+        let format = Format::of(path).map_or_else(|| self.named(path), Ok)?;
+        formats::open(&Input::new(path, interrupt), format)
+    }
+
     /// Opens a layer.
     pub(crate) fn open(&self, path: &Path, interrupt: &Interrupt) -> Result<Box<dyn Source>, Failure> {
         formats::open(&Input::new(path, interrupt), self.named(path)?)
@@ -42,13 +48,18 @@ impl InputFormat {
 
 impl OutputFile {
     /// Opens the output, before anything is read.
-    pub(crate) fn open(&self, like: &Path, input: &InputFormat) -> Result<(Output, Format), Failure> {
+    pub(crate) fn open(
+        &self,
+        like: &Path,
+        input: &InputFormat,
+        interrupt: &Interrupt,
+    ) -> Result<(Output, Format), Failure> {
         let is_stdout = self.output.as_os_str() == "-";
         let format = match (self.to, is_stdout) {
             (None, true) => input.named(like)?,
             (to, _) => Format::named(&self.output, to, "--to")?,
         };
-        Ok((Output::open(&self.output)?, format))
+        Ok((Output::open(&self.output, interrupt)?, format))
     }
 }
 
@@ -62,7 +73,7 @@ pub(crate) fn only_one_stdin(a: &Path, b: &Path) -> Result<(), Failure> {
 
 /// Prints a text on stdout.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut output = Output::open(Path::new("-"))?;
+    let mut output = Output::open(Path::new("-"), &Interrupt::default())?;
     output.write_all(text.as_bytes()).map_err(|error| Failure::write("stdout", error))?;
     output.commit()
 }

@@ -11,9 +11,11 @@ use crate::layer::columns::{joined, rows, side_by_side};
 use crate::layer::crs::must_agree;
 use crate::operands::regions;
 use crate::output::Output;
+use crate::progress::Progress;
 use arrow_array::{RecordBatch, UInt32Array};
 use arrow_schema::SchemaRef;
 use clap::{Args, ValueEnum};
+use polycsg::PreparedRegion;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -61,9 +63,9 @@ const SOME: usize = 1 << 12;
 /// Writes the features of the overlay.
 pub(crate) fn run(arguments: &Overlay, interrupt: &Interrupt) -> Result<ExitCode, Failure> {
     only_one_stdin(&arguments.a, &arguments.b)?;
-    let output = arguments.output.open(&arguments.a, &arguments.format)?;
+    let output = arguments.output.open(&arguments.a, &arguments.format, interrupt)?;
     let a = arguments.format.open(&arguments.a, interrupt)?;
-    let b = arguments.format.open(&arguments.b, interrupt)?;
+    let b = arguments.format.open_other(&arguments.b, interrupt)?;
     must_agree((&a.layer().name, &a.layer().crs), (&b.layer().name, &b.layer().crs))?;
     match arguments.op {
         Operation::Intersection => intersection(a, HeldLayer::read(b, interrupt)?, output, interrupt)?,
@@ -90,7 +92,9 @@ fn intersection(
     let mut joint = Joint::create(output, format, &layer, &b.layer)?;
     a.read(&mut |batch| {
         let regions: Vec<_> = prepared(regions(&layer, &batch, interrupt)?).collect();
-        b.common(&regions, interrupt, &mut |parts| joint.write_both(&batch.attributes, &b.attributes, parts))
+        b.common(&regions, interrupt, &mut |parts| {
+            joint.write_both((&batch.attributes, 0), &b.attributes, parts)
+        })
     })?;
     joint.writer.finish()
 }
@@ -123,20 +127,34 @@ fn both_ways(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let mut joint = Joint::create(output, format, &a.layer, &b.layer)?;
+    let passes = if op == Operation::Union { vec![a, a, b] } else { vec![a, b] };
+    let count = passes.iter().map(|layer| layer.regions.len() as u64).sum();
+    let progress = Progress::of_features("comparing", count);
     if op == Operation::Union {
-        b.common(&a.regions, interrupt, &mut |parts| joint.write_both(&a.attributes, &b.attributes, parts))?;
+        for (start, regions) in in_parts(a) {
+            let mut write = |parts| joint.write_both((&a.attributes, start), &b.attributes, parts);
+            b.common(regions, interrupt, &mut write)?;
+            progress.add(regions.len());
+        }
     }
-    for (start, regions) in (0..).step_by(SOME).zip(a.regions.chunks(SOME)) {
+    for (start, regions) in in_parts(a) {
         let parts = b.apart(regions, interrupt)?;
         let (left, none) = (parts.rows(start), UInt32Array::new_null(parts.areas.len()));
         joint.write((&a.attributes, &left), (&b.attributes, &none), parts)?;
+        progress.add(regions.len());
     }
-    for (start, regions) in (0..).step_by(SOME).zip(b.regions.chunks(SOME)) {
+    for (start, regions) in in_parts(b) {
         let parts = a.apart(regions, interrupt)?;
         let (none, left) = (UInt32Array::new_null(parts.areas.len()), parts.rows(start));
         joint.write((&a.attributes, &none), (&b.attributes, &left), parts)?;
+        progress.add(regions.len());
     }
     joint.writer.finish()
+}
+
+/// Some regions of a layer at a time, with the place of the first.
+fn in_parts(layer: &HeldLayer) -> impl Iterator<Item = (u32, &[PreparedRegion])> {
+    (0..).step_by(SOME).zip(layer.regions.chunks(SOME))
 }
 
 /// A layer with the columns of two.
@@ -154,9 +172,14 @@ impl Joint {
         Ok(Joint { writer: formats::create(output, format, &layer)?, schema: layer.schema, name: layer.name })
     }
 
-    /// Writes parts of which each is of a feature of both.
-    fn write_both(&mut self, a: &RecordBatch, b: &RecordBatch, parts: Parts) -> Result<(), Failure> {
-        let [first, second] = [&parts.first, &parts.second].map(|rows| UInt32Array::from(rows.clone()));
+    /// Writes parts of which each is of a feature of both. Those of A that were asked begin with one.
+    fn write_both(
+        &mut self,
+        (a, start): (&RecordBatch, u32),
+        b: &RecordBatch,
+        parts: Parts,
+    ) -> Result<(), Failure> {
+        let (first, second) = (parts.rows(start), UInt32Array::from(parts.second.clone()));
         self.write((a, &first), (b, &second), parts)
     }
 

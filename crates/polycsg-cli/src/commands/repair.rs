@@ -36,7 +36,7 @@ enum Repaired {
 
 /// Writes all features, those that are not valid made valid.
 pub(crate) fn run(arguments: &Repair, interrupt: &Interrupt) -> Result<ExitCode, Failure> {
-    let (output, format) = arguments.output.open(&arguments.file, &arguments.format)?;
+    let (output, format) = arguments.output.open(&arguments.file, &arguments.format, interrupt)?;
     let source = arguments.format.open(&arguments.file, interrupt)?;
     let layer = source.layer().clone();
     let mut writer = formats::create(output, format, &layer)?;

@@ -12,22 +12,28 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Reading, String> {
         return Err(format!("this is no WKB: {rest} bytes too many"));
     }
     if let GeometryType::MultiPolygon(polygons) = geometry.as_type() {
-        polygons.polygons().try_for_each(|part| is_polygon(part.buf(), bytes[0]))?;
+        polygons.polygons().try_for_each(|part| is_polygon_of(bytes, part.buf()))?;
     }
     Reading::of(&geometry)
 }
 
-/// The parts of a MultiPolygon must be polygons in its order of bytes, else they were misread.
-fn is_polygon(part: &[u8], order: u8) -> Result<(), String> {
-    let [first, word @ ..] = *part.first_chunk::<5>().ok_or("this is no WKB: a part is missing")?;
-    if first != order {
+/// The crate reads the parts of a MultiPolygon in its order of bytes and of its dimension: others would be misread.
+fn is_polygon_of(whole: &[u8], part: &[u8]) -> Result<(), String> {
+    let [whole, part] = [head(whole)?, head(part)?];
+    if whole.0 != part.0 {
         return Err("the parts of a MultiPolygon are in another order of bytes; write it in one".into());
     }
-    let word = if order == 0 { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) };
-    if (word & 0x0fff_ffff) % 1000 != 3 {
-        return Err("this is no WKB: a part of a MultiPolygon is no Polygon".into());
+    if whole.1.wrapping_sub(3) != part.1 {
+        return Err("this is no WKB: a part of a MultiPolygon is no Polygon of its dimension".into());
     }
     Ok(())
+}
+
+/// The order of bytes and the kind, without the bit that tells that the number of a coordinate system follows, which a part may lack.
+fn head(bytes: &[u8]) -> Result<(u8, u32), String> {
+    let [order, kind @ ..] = *bytes.first_chunk::<5>().ok_or("this is no WKB: a part is missing")?;
+    let kind = if order == 0 { u32::from_be_bytes(kind) } else { u32::from_le_bytes(kind) };
+    Ok((order, kind & !(1 << 29)))
 }
 
 /// As ISO writes it, the least significant byte first.

@@ -1,23 +1,26 @@
 //! `radiosity expose`
 use crate::failure::Failure;
 use crate::input;
-use crate::outputs::{Contents, Output};
+use crate::outputs::{self, Contents, Output, is_stream};
 use crate::view_options::ViewOptions;
 use clap::Args;
 use radiosity::expose::Exposure;
-use radiosity::io::{self, collada::Collada, gltf};
+use radiosity::io::{collada::Collada, gltf};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// `radiosity expose`
 #[derive(Args, Debug)]
 pub(crate) struct Expose {
-    /// A solution: a .json, .dae or .glb file of solve
+    /// A solution: a .json, .dae or .glb file of solve; - for .json from standard input
     solution: PathBuf,
     /// Write it with displayable colours to this file: from .json in any format but .dae, otherwise in the same format; may be
     /// given several times
     #[arg(short, long, value_name = "FILE", required = true)]
     output: Vec<PathBuf>,
+    /// What -o - writes to stdout: an extension
+    #[arg(long, value_name = "EXTENSION", default_value = "png")]
+    format: String,
     /// Choose K from the light, as without -k
     #[arg(long, conflicts_with = "exposure")]
     auto: bool,
@@ -27,14 +30,11 @@ pub(crate) struct Expose {
 
 /// Intensity = 1 - exp(-K B), written into copies of a solution.
 pub(crate) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
-    let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let outputs = Output::all(&arguments.output, &arguments.format)?;
     let exposure = arguments.view.exposure.and_then(Exposure::new);
     match end(&arguments.solution).as_str() {
-        "json" => {
-            let record = input::solution(&arguments.solution)?;
-            let contents = Contents { view: &arguments.view, record: &record, source: None, figures: None };
-            outputs.iter().try_for_each(|output| output.write(&contents))?;
-        }
+        "json" => from_json(arguments, &outputs)?,
+        _ if is_stream(&arguments.solution) => from_json(arguments, &outputs)?,
         "dae" => {
             let text = Collada::open(&arguments.solution)?.exposed(exposure)?;
             save(arguments, "dae", text.as_bytes())?;
@@ -48,16 +48,23 @@ pub(crate) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// All outputs from a solution that knows everything.
+fn from_json(arguments: &Expose, outputs: &[Output]) -> Result<(), Failure> {
+    let record = input::solution(&arguments.solution)?;
+    let contents = Contents { view: &arguments.view, record: &record, source: None, figures: None };
+    outputs.iter().try_for_each(|output| output.write(&contents))
+}
+
 /// The same bytes into every output, all of which must be of the solution's kind.
 fn save(arguments: &Expose, kind: &str, bytes: &[u8]) -> Result<(), Failure> {
-    if let Some(path) = arguments.output.iter().find(|path| end(path) != kind) {
+    if let Some(path) = arguments.output.iter().find(|path| end(path) != kind && !is_stream(path)) {
         let message = format!(
             "{}: a .{kind} solution is written as .{kind} only; a .json solution as other kinds",
             path.display()
         );
         return Err(Failure::usage(message));
     }
-    arguments.output.iter().try_for_each(|path| Ok(io::save(path, bytes)?))
+    arguments.output.iter().try_for_each(|path| outputs::save(path, bytes))
 }
 
 /// The extension, in lower case.

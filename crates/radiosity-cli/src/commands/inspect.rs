@@ -1,4 +1,5 @@
 //! `radiosity inspect`
+use crate::digits::{own_digits, six_digits};
 use crate::failure::Failure;
 use crate::input::{self, Sides};
 use crate::json;
@@ -17,7 +18,7 @@ const NAMES: usize = 8;
 /// `radiosity inspect`
 #[derive(Args, Debug)]
 pub(crate) struct Inspect {
-    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), STL (.stl) or View3D (.vs3) file; - for standard input
     scene: PathBuf,
     /// Print JSON instead of text
     #[arg(long)]
@@ -62,13 +63,20 @@ fn text(inspection: &Inspection) -> String {
     let unit = inspection.unit;
     line(
         "patches",
-        format!("{} with {} vertices, area {:.6e}", inspection.patches, inspection.vertices, inspection.area),
+        format!(
+            "{} with {} vertices, area {}",
+            inspection.patches,
+            inspection.vertices,
+            six_digits(inspection.area)
+        ),
     );
-    line("extent", format!("{low:?} to {high:?}; the unit is {unit} m, up is {:?}", inspection.up));
+    let [low, high, up] = [low, high, inspection.up].map(|point| list(&point, own_digits));
+    line("extent", format!("{low} to {high}; the unit is {unit} m, up is {up}"));
     line("bands", inspection.bands.to_string());
     line("cameras", inspection.cameras.to_string());
     for emitter in inspection.emitters.iter().take(EMITTERS) {
-        line("emitter", format!("{} emits {:?} W (in units of {unit} m)", emitter.name, emitter.power));
+        let power = list(&emitter.power, six_digits);
+        line("emitter", format!("{} emits {power} W (in units of {unit} m)", emitter.name));
     }
     if inspection.emitters.len() > EMITTERS {
         line("emitters", format!("{} in all; --json lists them", inspection.emitters.len()));
@@ -83,6 +91,12 @@ fn text(inspection: &Inspection) -> String {
         ),
     );
     text + &findings(inspection)
+}
+
+/// Numbers in brackets.
+fn list(numbers: &[f64], digits: fn(f64) -> String) -> String {
+    let digits: Vec<String> = numbers.iter().map(|number| digits(*number)).collect();
+    format!("[{}]", digits.join(", "))
 }
 
 /// What was found by kind, one line each, then the findings themselves.

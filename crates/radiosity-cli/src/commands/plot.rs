@@ -1,10 +1,9 @@
 //! `radiosity plot`
 use crate::failure::Failure;
 use crate::input;
-use crate::outputs::{print, probe};
+use crate::outputs::{is_stream, print, probe, save};
 use clap::Args;
 use radiosity::glam::DVec3;
-use radiosity::io;
 use radiosity::profile::{Profile, profile};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -51,7 +50,7 @@ pub(crate) fn run(arguments: &Plot) -> Result<ExitCode, Failure> {
         print(&profile.csv())?;
     }
     for (path, form) in arguments.output.iter().zip(forms) {
-        io::save(path, form(&profile).as_bytes())?;
+        save(path, form(&profile).as_bytes())?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -60,6 +59,7 @@ pub(crate) fn run(arguments: &Plot) -> Result<ExitCode, Failure> {
 fn form(path: &Path) -> Result<Form, Failure> {
     let end = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let form: Form = match end.as_str() {
+        _ if is_stream(path) => Profile::csv,
         "csv" => Profile::csv,
         "svg" => Profile::svg,
         _ => {

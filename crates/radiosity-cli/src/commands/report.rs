@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
         Failure::internal(format!("{}: cannot be created: {error}; name another folder", folder.display()))
     })?;
     // Half an hour of work is not begun for a folder that takes no files.
-    Output::new(&folder.join("report.html"))?;
+    Output::new(&folder.join("report.html"), "html")?;
     let report = report(&plan, |next| eprintln!("{next}"))?;
     let files = [
         ("report.html", report.page(peers.as_ref())),

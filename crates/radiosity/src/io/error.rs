@@ -125,6 +125,9 @@ pub enum FileError {
     },
 }
 
+/// A line's number, from 1, and what is wrong there.
+pub(crate) type Wrong = (usize, Fault);
+
 /// What is wrong with an element of a scene file, and how to repair it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]

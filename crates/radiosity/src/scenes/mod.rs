@@ -52,6 +52,13 @@ pub fn write_scene(name: &str) -> Option<String> {
     known.or_else(|| furnace(name)).map(|model| text(&model))
 }
 
+/// What a built-in scene is and where its numbers come from; `None` for a name that is not one of [`names`].
+#[must_use]
+pub fn title(name: &str) -> Option<String> {
+    let known = SCENES.iter().find(|(known, _)| *known == name);
+    known.map(|(_, build)| build().title)
+}
+
 /// A built-in scene; `None` for a name that is not one of [`names`].
 ///
 /// ```

@@ -18,9 +18,7 @@ pub(crate) fn evaluated(
     contacts: usize,
     scratch: &mut Scratch,
 ) -> Result<Option<MultiPolygon>, Error> {
-    let mut features = state::split(bytes)?;
-    features.sort_unstable();
-    features.dedup();
+    let features = state::sorted(bytes)?;
     let boxes: Vec<[DVec2; 2]> =
         features.iter().map(|feature| state::bounds(feature)).collect::<Result<_, _>>()?;
     let parts = match aggregate {

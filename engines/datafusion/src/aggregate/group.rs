@@ -58,12 +58,10 @@ impl Group {
 
     /// Leaves out what changes no bit of the result: all but one of equal features and, for unions, those in the interior of another.
     ///
-    /// Edges that neighbours share stay. To cancel them would keep the set, but a vertex that only they have may lie on a third
-    /// feature's edge, and it would be a vertex of the result or none, depending on which features met in a partition.
+    /// Edges that neighbours share in opposite directions stay. On which side of an edge a feature lies is known only where its rings
+    /// do not cross, and to find that out takes as long as the evaluation, which cancels such edges itself.
     pub(crate) fn reduce(&mut self, aggregate: Aggregate) -> Result<(), Error> {
-        let mut features = state::split(&self.state)?;
-        features.sort_unstable();
-        features.dedup();
+        let mut features = state::sorted(&self.state)?;
         if aggregate == Aggregate::Union {
             features = without_covered(features)?;
         }

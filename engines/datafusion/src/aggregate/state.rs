@@ -62,21 +62,42 @@ pub(crate) fn split(mut state: &[u8]) -> Result<Vec<&[u8]>, Error> {
     Ok(features)
 }
 
+/// The features of a state, each once, from left to right by the first points of their first rings, which are their lowest from the left.
+pub(crate) fn sorted(state: &[u8]) -> Result<Vec<&[u8]>, Error> {
+    let mut features: Vec<(u64, &[u8])> = split(state)?
+        .into_iter()
+        .map(|feature| Ok((rank(feature)?, feature)))
+        .collect::<Result<_, Error>>()?;
+    features.sort_unstable();
+    features.dedup();
+    Ok(features.into_iter().map(|(_, feature)| feature).collect())
+}
+
+/// Where the first x of a feature stands among all numbers.
+fn rank(feature: &[u8]) -> Result<u64, Error> {
+    let (points, _) = feature[COUNT * (counts(feature)?.len() + 1)..].as_chunks::<POINT>();
+    let bits = points.first().map_or(0, |first| point(first).x.to_bits());
+    Ok(if bits >> 63 == 0 { bits | 1 << 63 } else { !bits })
+}
+
 const SHORT: Error = Error::State("it ends within a geometry");
 
 /// How many bytes the first feature takes.
 fn length(state: &[u8]) -> Result<usize, Error> {
     let rings = counts(state)?;
-    let points = rings.iter().try_fold(0_usize, |sum, &ring| sum.checked_add(ring)).ok_or(SHORT)?;
+    let points = rings.iter().try_fold(0_usize, |sum, ring| sum.checked_add(number(ring))).ok_or(SHORT)?;
     points.checked_mul(POINT).and_then(|bytes| bytes.checked_add(COUNT * (rings.len() + 1))).ok_or(SHORT)
 }
 
 /// How many points each ring of the first feature has.
-fn counts(state: &[u8]) -> Result<Vec<usize>, Error> {
+fn counts(state: &[u8]) -> Result<&[[u8; COUNT]], Error> {
     let (words, _) = state.as_chunks::<COUNT>();
     let (rings, rest) = words.split_first().ok_or(SHORT)?;
-    let rings = rest.get(..u32::from_le_bytes(*rings) as usize).ok_or(SHORT)?;
-    Ok(rings.iter().map(|ring| u32::from_le_bytes(*ring) as usize).collect())
+    rest.get(..number(rings)).ok_or(SHORT)
+}
+
+fn number(word: &[u8; COUNT]) -> usize {
+    u32::from_le_bytes(*word) as usize
 }
 
 /// The rings of a feature that [`split`] found.
@@ -84,14 +105,14 @@ pub(crate) fn rings(feature: &[u8]) -> Result<Vec<Vec<DVec2>>, Error> {
     let counts = counts(feature)?;
     let (points, _) = feature[COUNT * (counts.len() + 1)..].as_chunks::<POINT>();
     let mut points = points.iter().map(point);
-    Ok(counts.iter().map(|&count| points.by_ref().take(count).collect()).collect())
+    Ok(counts.iter().map(|count| points.by_ref().take(number(count)).collect()).collect())
 }
 
 fn point(bytes: &[u8; POINT]) -> DVec2 {
     let [x, y] = [0, 8].map(|at| {
-        let mut number = [0; 8];
-        number.copy_from_slice(&bytes[at..at + 8]);
-        f64::from_le_bytes(number)
+        let mut coordinate = [0; 8];
+        coordinate.copy_from_slice(&bytes[at..at + 8]);
+        f64::from_le_bytes(coordinate)
     });
     DVec2::new(x, y)
 }

@@ -190,6 +190,34 @@ impl Features {
         self.rows.push(last);
     }
 
+    /// Lets the last row share the feature of the one before, if both are one area to the bit.
+    pub(crate) fn share_if_equal(&mut self) {
+        let Some([before, Some(last)]) = self.rows.last_chunk().copied() else { return };
+        if before.is_none_or(|before| !self.are_equal_areas(before, last)) {
+            return;
+        }
+        let rings = self.ring_numbers(last).start;
+        let points = rings.checked_sub(1).map_or(0, |ring| self.ring_ends[ring]);
+        self.points.truncate(points);
+        self.ring_ends.truncate(rings);
+        self.ring_bounds.truncate(rings);
+        self.is_outer.truncate(rings);
+        self.features.pop();
+        self.rows.pop();
+        self.repeat();
+    }
+
+    fn are_equal_areas(&self, one: usize, other: usize) -> bool {
+        let is_point = |feature| self.point(feature).is_some();
+        let bits = |point: &DVec2| point.to_array().map(f64::to_bits);
+        let is_equal = |(a, b)| {
+            self.is_outer[a] == self.is_outer[b]
+                && self.ring(a).iter().map(bits).eq(self.ring(b).iter().map(bits))
+        };
+        let (rings, others) = (self.ring_numbers(one), self.ring_numbers(other));
+        !is_point(one) && !is_point(other) && rings.len() == others.len() && rings.zip(others).all(is_equal)
+    }
+
     pub(crate) fn push_null(&mut self) {
         self.rows.push(None);
     }

@@ -153,7 +153,10 @@ fn each<'a, A: GeoArrowArrayAccessor<'a>>(
     for row in 0..array.len() {
         match array.get(row).map_err(unreadable)? {
             None => features.push_null(),
-            Some(item) => push(features, item).map_err(|why| Error::row(row, why))?,
+            Some(item) => {
+                push(features, item).map_err(|why| Error::row(row, why))?;
+                features.share_if_equal();
+            }
         }
     }
     Ok(())

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::formats::reader::{Each, Source, warn_of_flattened};
 use crate::input::Input;
 use crate::layer::batch::{Batch, Gathered, Layer, table};
+use crate::progress::Progress;
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, Schema};
 use parquet::arrow::arrow_reader::{
@@ -22,6 +23,7 @@ const MOST_ROWS: i64 = 1024;
 pub(crate) struct GeoParquet {
     input: Input,
     rows: ParquetRecordBatchReader,
+    progress: Progress,
     layer: Layer,
     encoding: Encoding,
     /// The column of the geometries.
@@ -48,8 +50,10 @@ impl GeoParquet {
         let schema = Arc::new(marked(&projected, marks).map_err(data)?);
         let layer = Layer { name: input.name(), schema, crs: column.system() };
         let size = batch_size(builder.metadata());
+        let count = u64::try_from(builder.metadata().file_metadata().num_rows()).unwrap_or_default();
+        let progress = Progress::of_features(&layer.name, count);
         let rows = builder.with_batch_size(size).build().map_err(|error| failed(input, error))?;
-        Ok(GeoParquet { input: input.clone(), rows, layer, encoding, geometry, attributes })
+        Ok(GeoParquet { input: input.clone(), rows, progress, layer, encoding, geometry, attributes })
     }
 
     fn batch(&self, rows: &RecordBatch, gathered: &mut Gathered) -> Result<Batch, Failure> {
@@ -76,7 +80,9 @@ impl Source for GeoParquet {
             let broken = |error: ArrowError| {
                 Failure::data(&self.layer.name, format!("after feature {}: {error}", gathered.next))
             };
-            each(self.batch(&rows.map_err(broken)?, &mut gathered)?)?;
+            let rows = rows.map_err(broken)?;
+            each(self.batch(&rows, &mut gathered)?)?;
+            self.progress.add(rows.num_rows());
         }
         warn_of_flattened(&self.layer, &gathered);
         let empty = RecordBatch::new_empty(Arc::clone(&self.layer.schema));

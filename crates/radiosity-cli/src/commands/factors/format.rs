@@ -1,6 +1,7 @@
 //! Rows of form factors as text.
 use super::matrix::Found;
 use super::row::{Entry, Row};
+use crate::digits::six_digits;
 use crate::json;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -106,44 +107,5 @@ impl Table<'_> {
         lines.extend(rows.iter().map(|from| row(&from)));
         lines.push(line(&mut emittances.iter().map(|emittance| format!("{emittance:.3}"))));
         lines.join("\n") + "\n"
-    }
-}
-
-/// As C's `%g`: six digits without trailing zeros, with an exponent below 1e-4 and from 1e6 on.
-fn six_digits(number: f64) -> String {
-    let scientific = format!("{number:.5e}");
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or_default();
-    let trimmed = |text: &str| match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text.to_owned(),
-    };
-    match usize::try_from(5 - exponent) {
-        Ok(decimals) if exponent >= -4 => trimmed(&format!("{number:.decimals$}")),
-        _ => format!("{}e{exponent:+03}", trimmed(digits)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::six_digits;
-
-    #[test]
-    fn six_digits_are_those_of_c() {
-        let cases = [
-            (6.25, "6.25"),
-            (0.432_897_4, "0.432897"),
-            (1.0, "1"),
-            (0.0, "0"),
-            (123_456.7, "123457"),
-            (999_999.7, "1e+06"),
-            (1_234_567.0, "1.23457e+06"),
-            (0.000_123_456_78, "0.000123457"),
-            (0.000_012_3, "1.23e-05"),
-            (1e-105, "1e-105"),
-        ];
-        for (number, text) in cases {
-            assert_eq!(six_digits(number), text);
-        }
     }
 }

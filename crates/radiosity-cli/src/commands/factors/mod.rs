@@ -23,7 +23,7 @@ mod tally;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::outputs::print;
+use crate::outputs::{is_stream, print, save};
 use crate::parse::positive;
 use clap::{Args, ValueEnum};
 use format::Table;
@@ -39,7 +39,7 @@ use std::{path::PathBuf, process::ExitCode};
 /// `radiosity factors`
 #[derive(Args, Debug)]
 pub(crate) struct Factors {
-    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), STL (.stl) or View3D (.vs3) file; - for standard input
     scene: PathBuf,
     /// From this point with this normal, in the file's units and axes
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = point_and_normal, allow_hyphen_values = true)]
@@ -65,7 +65,7 @@ pub(crate) struct Factors {
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// Write to this file [default: stdout]
+    /// Write to this file; - for stdout [default: stdout]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -90,6 +90,7 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     let format = if arguments.json { Format::Json } else { arguments.format };
     check(arguments, format)?;
     let (scene, source) = input::read(&arguments.scene)?;
+    let output = arguments.output.as_deref().filter(|path| !is_stream(path));
     let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
     if arguments.area.is_some() {
         inspect::coplanar_overlaps(&scene).iter().for_each(|finding| {
@@ -103,7 +104,7 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
                 _ => None,
             };
             let patience = Patience::new(arguments.time)?;
-            let pairs = pairs::find(&enclosure, tolerance, arguments.output.as_deref(), &patience)?;
+            let pairs = pairs::find(&enclosure, tolerance, output, &patience)?;
             let Some(pairs) = pairs else { return Ok(patience.code()) };
             matrix::finish(&scene, pairs, request, &arguments.changes)?
         }
@@ -117,15 +118,15 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
         Format::View3d => table.view3d(),
         Format::Npz => String::new(),
     };
-    match &arguments.output {
+    match output {
         Some(path) if format == Format::Npz => {
             io::save_with(path, |file| npz::write(&found, file).map_err(std::io::Error::from))?;
         }
-        Some(path) => io::save(path, text.as_bytes())?,
+        Some(path) => save(path, text.as_bytes())?,
         None => print(&text)?,
     }
     if arguments.area.is_some() && is_whole(arguments) {
-        pairs::forget(arguments.output.as_deref());
+        pairs::forget(output);
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -141,7 +142,8 @@ fn check(arguments: &Factors, format: Format) -> Result<(), Failure> {
     if format == Format::View3d && !is_matrix {
         return Err(Failure::usage(format!("View3D's format holds {needs}")));
     }
-    if format == Format::Npz && !(is_matrix && arguments.output.is_some()) {
+    if format == Format::Npz && !(is_matrix && arguments.output.as_ref().is_some_and(|path| !is_stream(path)))
+    {
         return Err(Failure::usage(format!("npz holds {needs}, and is no text; give -o FILE.npz")));
     }
     if arguments.changes.are_asked() && !is_matrix {

@@ -1,13 +1,16 @@
 //! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
 use super::{progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
 use crate::failure::Failure;
+use crate::outputs::is_stream;
 use radiosity::{Progress, Recorder, Recording, Solution, State, io};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::{ops::ControlFlow, process::ExitCode, sync::Arc, time::Instant};
+use std::{io::Read, ops::ControlFlow, process::ExitCode, sync::Arc, time::Instant};
 
 /// What a shell reports of a program that Ctrl-C ended.
 const INTERRUPTED: u8 = 130;
+/// What every state begins with.
+const STATE: &[u8; 16] = b"radiosity state ";
 
 /// The state in a file; an empty one when there is none to go on from.
 pub(super) fn resume(path: Option<&Path>) -> Result<State, Failure> {
@@ -15,6 +18,13 @@ pub(super) fn resume(path: Option<&Path>) -> Result<State, Failure> {
     let bytes = std::fs::read(path)
         .map_err(|error| Failure::internal(format!("{}: cannot be read: {error}", path.display())))?;
     State::from_bytes(&bytes).map_err(|error| Failure::internal(format!("{}: {error}", path.display())))
+}
+
+/// Whether a file is a state, of this version or another: what has its name and is something else stays.
+fn is_state(path: &Path) -> bool {
+    let mut start = [0; STATE.len()];
+    let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut start));
+    read.is_ok() && start == *STATE
 }
 
 /// Follows a run: shows it, notes its steps, saves it, and stops it on Ctrl-C.
@@ -52,7 +62,7 @@ impl<'o> Follower<'o> {
             bar: Bar::new(tolerance),
             steps: Steps::new(outputs.arguments.steps.as_deref()),
             recorder: outputs.arguments.record.then(|| Recorder::new(&outputs.input.scene)),
-            state: outputs.arguments.output.first().map(|path| {
+            state: outputs.arguments.output.iter().find(|path| !is_stream(path)).map(|path| {
                 let mut name = path.clone().into_os_string();
                 name.push(".state");
                 name.into()
@@ -80,8 +90,8 @@ impl<'o> Follower<'o> {
         if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Ends the following: the state of a run that was stopped is saved, one that is no longer needed removed. A run without
-    /// a solution leaves none.
+    /// Ends the following: the state of a run that was stopped is saved; after a full run the state beside the output, of this run or an
+    /// earlier one, is removed. A run without a solution leaves what there is.
     pub(super) fn end(&mut self, state: &State, solution: Option<&Solution>) -> Result<(), Failure> {
         self.bar.clear();
         if let Some(failure) = self.failure.take() {
@@ -89,10 +99,12 @@ impl<'o> Follower<'o> {
         }
         match solution {
             Some(solution) if !solution.converged => self.save(state)?,
-            Some(_) if self.state_written => {
-                self.state.iter().try_for_each(std::fs::remove_file).map_err(Failure::internal)?;
-            }
-            _ => {}
+            Some(_) => self.state.iter().filter(|path| is_state(path)).try_for_each(|path| {
+                let refused =
+                    |error| Failure::internal(format!("{}: cannot be removed: {error}", path.display()));
+                std::fs::remove_file(path).map_err(refused)
+            })?,
+            None => {}
         }
         self.steps.save()
     }

@@ -15,7 +15,7 @@ mod steps;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::outputs::{Output, print};
+use crate::outputs::{Output, is_stream, print};
 use interrupt::{Follower, resume};
 use options::{Solve, options};
 use radiosity::{Scene, Solution};
@@ -29,8 +29,14 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.output.is_empty() && !arguments.json {
         return Err(Failure::usage("there is no output; give -o FILE or --json"));
     }
+    if arguments.snapshot_every.is_some() && arguments.output.iter().any(|path| is_stream(path)) {
+        return Err(Failure::usage("stdout takes one result; give --snapshot-every with -o FILE"));
+    }
+    if arguments.json && arguments.output.iter().any(|path| is_stream(path)) {
+        return Err(Failure::usage("--json and -o - both write to stdout; leave out one of them"));
+    }
     let options = options(arguments)?;
-    let outputs = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let outputs = Output::all(&arguments.output, &arguments.format)?;
     let input = input::read_repaired(&arguments.scene, arguments.reading)?;
     let scene = &input.scene;
     warn_of_darkness(scene);

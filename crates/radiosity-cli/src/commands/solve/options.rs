@@ -10,14 +10,17 @@ use std::path::PathBuf;
 /// `radiosity solve`
 #[derive(Args, Debug)]
 pub(crate) struct Solve {
-    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb) or View3D (.vs3) file
+    /// The scene: a COLLADA (.dae), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), STL (.stl) or View3D (.vs3) file; - for standard input
     pub(super) scene: PathBuf,
     #[command(flatten)]
     pub(super) reading: Reading,
-    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb), a page (.html),
-    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); may be given several times
+    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb, .obj, .ply), a page (.html),
+    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); - for stdout; may be given several times
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
+    /// What -o - writes: an extension as above
+    #[arg(long, value_name = "EXTENSION", default_value = "json")]
+    pub(super) format: String,
     /// Print the result's figures on stdout as JSON
     #[arg(long)]
     pub(super) json: bool,

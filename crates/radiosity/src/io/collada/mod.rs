@@ -23,6 +23,7 @@ mod repaired;
 mod spectra;
 mod splice;
 mod transform;
+mod unread;
 mod vertices;
 mod walk;
 mod write;
@@ -91,6 +92,7 @@ impl Collada {
     pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
             let walk::Walk { instances, camera_instances, mut warnings } = walk::walk(file)?;
+            unread::tell(file, &mut warnings);
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
             let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;

@@ -25,7 +25,8 @@ pub(super) fn patches<'a>(
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => new.insert(primitives(file, instance.geometry, warnings)?),
         };
-        for (number, primitive) in primitives.iter().enumerate() {
+        let filled = primitives.iter().enumerate().filter(|(_, primitive)| !primitive.polygons.is_empty());
+        for (number, primitive) in filled {
             let finish = finish(file, instance.element, primitive.material, images, warnings)?;
             let facets = facets(&primitive.polygons, primitive.is_cut, finish.image.is_some());
             let surface = Surface {

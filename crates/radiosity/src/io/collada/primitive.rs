@@ -31,7 +31,7 @@ pub(super) fn primitives<'a>(
     let mut sources = HashMap::new();
     let mut all = Vec::new();
     for element in surfaces(geometry) {
-        let polygons = polygons(file, element, &mut sources)?;
+        let polygons = polygons(file, element, &mut sources, warnings)?;
         let is_cut = !matches!(element.tag_name().name(), "polylist" | "polygons");
         all.push(Primitive { element, material: element.attribute("material"), polygons, is_cut });
     }
@@ -54,14 +54,23 @@ fn polygons<'a>(
     file: &File<'a>,
     element: XmlNode<'a>,
     sources: &mut HashMap<XmlNode<'a>, Vec<DVec3>>,
+    warnings: &mut Vec<Finding>,
 ) -> Result<Vec<Polygon>, FileError> {
     let Some(layout) = layout(file, element)? else { return Ok(Vec::new()) };
     let positions = match sources.entry(layout.source) {
         Entry::Occupied(known) => known.into_mut(),
         Entry::Vacant(new) => new.insert(rows(file, layout.source, 3)?),
     };
-    let places = layout.places.map(|(source, offset)| Ok((rows(file, source, 2)?, offset))).transpose()?;
-    let normals = layout.normals.map(|(source, offset)| Ok((rows(file, source, 3)?, offset))).transpose()?;
+    // Light does not depend on these: broken ones are as good as none.
+    let mut beside = |source: Option<(XmlNode<'a>, usize)>, width| {
+        let (source, offset) = source?;
+        let read = rows(file, source, width).map_err(|error| {
+            let what = "normals or places in a picture that cannot be read are left out";
+            Finding::note(warnings, error.to_string(), what, "export the file again");
+        });
+        read.ok().map(|rows| (rows, offset))
+    };
+    let (places, normals) = (beside(layout.places, 2), beside(layout.normals, 3));
     let points = Vertices { file, layout: &layout, positions, places, normals };
     let outlines = |rings: Vec<Vec<Corner>>| rings.into_iter().map(|ring| vec![ring]);
     let mut all = Vec::new();
@@ -109,7 +118,10 @@ pub(super) fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option
         }
     }
     let Some((input, offset)) = vertex else {
-        let empty = child(element, "p").is_none() && child(element, "ph").is_none();
+        let is_empty = |p: XmlNode<'_>| {
+            p.descendants().all(|node| node.text().is_none_or(|text| text.trim().is_empty()))
+        };
+        let empty = child(element, "ph").is_none() && children(element, "p").all(is_empty);
         return if empty {
             Ok(None)
         } else {
@@ -140,7 +152,7 @@ pub(super) fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Re
         Some(_) => file.target(accessor, "source", "float_array")?,
         None => array,
     };
-    let stride = file.whole_attribute(accessor, "stride", 1)?;
+    let stride = file.whole_attribute(accessor, "stride", width)?;
     let offset = file.whole_attribute(accessor, "offset", 0)?;
     let count =
         accessor.attribute("count").map(|_| file.whole_attribute(accessor, "count", 0)).transpose()?;

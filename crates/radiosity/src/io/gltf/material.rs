@@ -65,9 +65,6 @@ impl<'f> Materials<'f> {
             warn("bumps are left out", "make them geometry where they matter");
         }
         let surface = material.pbr_metallic_roughness();
-        if surface.metallic_factor() > 0.0 && material.index().is_some() {
-            warn("shine is left out; surfaces reflect diffusely", "check that the light is what you mean");
-        }
         let [red, green, blue, _] = surface.base_color_factor().map(as_written);
         let strength = as_written(material.emissive_strength().unwrap_or(1.0));
         let emission = material.emissive_factor().map(|band| strength * as_written(band));

@@ -7,7 +7,7 @@ use crate::scene::finding::Finding;
 use serde_json::{Value, json};
 
 /// Extensions that are read, that change no light, or whose use is noted where it is met.
-const READ: [&str; 10] = [
+const READ: [&str; 11] = [
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -16,6 +16,7 @@ const READ: [&str; 10] = [
     "KHR_texture_basisu",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
+    "FB_ngon_encoding",
     "EXT_texture_webp",
     "MSFT_texture_dds",
 ];
@@ -30,6 +31,7 @@ pub(super) fn prepare(
 ) -> Result<(), FileError> {
     refuse(name, document)?;
     note_extensions(name, document, warnings);
+    note_metals(name, document, warnings);
     add_bounds(document);
     leave_out_primitives(name, document, warnings);
     leave_out_cameras(name, document, warnings);
@@ -87,6 +89,11 @@ fn is_draco(document: &Value) -> bool {
         || primitives(document).any(is_packed)
 }
 
+/// The elements of a list of the document, where there is one.
+fn elements<'d>(document: &'d mut Value, list: &str) -> impl Iterator<Item = &'d mut Value> {
+    document.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten()
+}
+
 fn primitives(document: &Value) -> impl Iterator<Item = &Value> {
     let meshes = document["meshes"].as_array().into_iter().flatten();
     meshes.filter_map(|mesh| mesh["primitives"].as_array()).flatten()
@@ -104,13 +111,28 @@ fn note_extensions(name: &str, document: &Value, warnings: &mut Vec<Finding>) {
     }
 }
 
+/// Metals. A surface that says nothing about it is metal, and exporters leave the number out that means so.
+fn note_metals(name: &str, document: &Value, warnings: &mut Vec<Finding>) {
+    let is_metal = |material: &Value| {
+        let surface = &material["pbrMetallicRoughness"];
+        let is_lit = material["extensions"]["KHR_materials_unlit"].is_null();
+        surface.is_object() && is_lit && surface["metallicFactor"].as_f64().unwrap_or(1.0) > 0.0
+    };
+    let materials = document["materials"].as_array().into_iter().flatten().enumerate();
+    for (index, _) in materials.filter(|(_, material)| is_metal(material)) {
+        let (place, what) =
+            (format!("{name}: material {index}"), "shine is left out; surfaces reflect diffusely");
+        Finding::note(warnings, place, what, "check that the light is what you mean");
+    }
+}
+
 /// Bounds of positions: nothing here reads them.
 fn add_bounds(document: &mut Value) {
     let positions: Vec<usize> = primitives(document)
         .filter_map(|primitive| usize::try_from(primitive["attributes"]["POSITION"].as_u64()?).ok())
         .collect();
     for index in positions {
-        let Some(accessor) = document["accessors"].get_mut(index).and_then(Value::as_object_mut) else {
+        let Some(accessor) = elements(document, "accessors").nth(index).and_then(Value::as_object_mut) else {
             continue;
         };
         for bound in ["min", "max"] {
@@ -120,8 +142,8 @@ fn add_bounds(document: &mut Value) {
 }
 
 fn leave_out_primitives(name: &str, document: &mut Value, warnings: &mut Vec<Finding>) {
-    for (mesh, value) in document["meshes"].as_array_mut().into_iter().flatten().enumerate() {
-        let Some(primitives) = value["primitives"].as_array_mut() else { continue };
+    for (mesh, value) in elements(document, "meshes").enumerate() {
+        let Some(primitives) = value.get_mut("primitives").and_then(Value::as_array_mut) else { continue };
         let has_positions = |primitive: &Value| {
             !primitive["attributes"].is_object() || !primitive["attributes"]["POSITION"].is_null()
         };
@@ -143,16 +165,16 @@ fn leave_out_cameras(name: &str, document: &mut Value, warnings: &mut Vec<Findin
         _ => false,
     };
     let mut whole = Vec::new();
-    for camera in document["cameras"].as_array_mut().into_iter().flatten() {
+    for camera in elements(document, "cameras") {
         whole.push(is_whole(camera));
         if !is_whole(camera) {
             *camera = json!({"type": "perspective", "perspective": {"yfov": 1.0, "znear": 1.0}});
         }
-        if let Some(lens) = camera["perspective"].as_object_mut() {
+        if let Some(lens) = camera.get_mut("perspective").and_then(Value::as_object_mut) {
             lens.entry("znear").or_insert(json!(0.01));
         }
     }
-    for (index, node) in document["nodes"].as_array_mut().into_iter().flatten().enumerate() {
+    for (index, node) in elements(document, "nodes").enumerate() {
         let camera = node["camera"].as_u64().and_then(|camera| usize::try_from(camera).ok());
         let is_there = camera.is_none_or(|camera| whole.get(camera).copied().unwrap_or(false));
         if let (false, Some(node)) = (is_there, node.as_object_mut()) {
@@ -170,8 +192,9 @@ fn leave_out_textures(name: &str, document: &mut Value, warnings: &mut Vec<Findi
     if textures.iter().all(has_source) {
         return;
     }
-    for (index, material) in document["materials"].as_array_mut().into_iter().flatten().enumerate() {
-        let Some(surface) = material["pbrMetallicRoughness"].as_object_mut() else { continue };
+    for (index, material) in elements(document, "materials").enumerate() {
+        let surface = material.get_mut("pbrMetallicRoughness").and_then(Value::as_object_mut);
+        let Some(surface) = surface else { continue };
         let texture = surface.get("baseColorTexture").and_then(|info| info["index"].as_u64());
         let texture =
             texture.and_then(|texture| usize::try_from(texture).ok()).and_then(|index| textures.get(index));

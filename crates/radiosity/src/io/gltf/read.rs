@@ -190,10 +190,11 @@ impl Reader<'_> {
         let buffers = self.materials.buffers;
         let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(Vec::new()) };
         let points = buffers.rows::<3>(&positions, Dimensions::Vec3)?;
+        // Light does not depend on these: broken ones are as good as none.
         let places = primitive.get(&Semantic::TexCoords(material.places));
-        let places = places.map(|rows| buffers.rows::<2>(&rows, Dimensions::Vec2)).transpose()?;
+        let places = places.and_then(|rows| buffers.rows::<2>(&rows, Dimensions::Vec2).ok());
         let normals = primitive.get(&Semantic::Normals);
-        let normals = normals.map(|rows| buffers.rows::<3>(&rows, Dimensions::Vec3)).transpose()?;
+        let normals = normals.and_then(|rows| buffers.rows::<3>(&rows, Dimensions::Vec3).ok());
         let corner = |(index, point): (usize, [f64; 3])| {
             let place = places.as_ref().and_then(|rows| rows.get(index));
             let normal = normals.as_ref().and_then(|rows| rows.get(index));

@@ -1,10 +1,10 @@
 //! MTL: what the materials of an OBJ file reflect and emit.
-use super::statements::{Statement, Wrong};
+use super::statements::Statement;
 use crate::image_file;
-use crate::io::error::Fault;
+use crate::io::error::{Fault, Wrong};
 use crate::io::surface::finish::Finish;
 use crate::scene::{finding::Finding, texture::Image};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// The reflectance of a surface that says nothing.
@@ -125,10 +125,13 @@ fn map(statement: &Statement<'_>) -> Result<(DVec2, DVec2, String), Wrong> {
 
 /// Notes what would change the light and is not read.
 fn unread(statement: &Statement<'_>, place: String, warnings: &mut Vec<Finding>) {
-    let value = statement.vector().or_else(|_| statement.number(0).map(DVec3::splat));
-    let above_zero = value.is_ok_and(|value| value.max_element() > 0.0);
+    let number = statement.number(0).unwrap_or_default();
     let (what, repair) = match statement.keyword {
-        "Ks" | "Pm" if above_zero => {
+        "Pm" if number > 0.0 => {
+            ("shine is left out; surfaces reflect diffusely", "check that the light is what you mean")
+        }
+        // Models from 3 on mirror; the highlights of model 2 are what every exporter writes.
+        "illum" if number >= 3.0 => {
             ("shine is left out; surfaces reflect diffusely", "check that the light is what you mean")
         }
         "d" | "Tr" if is_clear(statement) => (

@@ -1,8 +1,8 @@
 //! Faces to patches: one surface for all faces of a name and a material.
 use super::material::{Mtl, materials};
-use super::statements::{Statement, Wrong, shortened};
+use super::statements::{Statement, shortened};
 use crate::image_file;
-use crate::io::error::{Fault, FileError};
+use crate::io::error::{Fault, FileError, Wrong};
 use crate::io::surface::finish::Surface;
 use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 pub(super) fn scene(file: &str, text: &str, folder: Option<&Path>) -> Result<Scene, FileError> {
-    let mut reader = Reader { file, folder, ..Reader::default() };
+    let mut reader = ObjReader { file, folder, ..ObjReader::default() };
     for statement in Statement::all(text) {
         reader.read(&statement).map_err(|wrong| fault(file, wrong))?;
     }
@@ -30,7 +30,7 @@ fn fault(file: &str, (line, fault): Wrong) -> FileError {
 
 /// The faces of one name and material.
 #[derive(Debug, Default)]
-struct Group {
+struct ObjGroup {
     name: String,
     material: String,
     /// The line of its first face.
@@ -39,7 +39,7 @@ struct Group {
 }
 
 #[derive(Default)]
-struct Reader<'f> {
+struct ObjReader<'f> {
     file: &'f str,
     folder: Option<&'f Path>,
     points: Vec<DVec3>,
@@ -48,12 +48,12 @@ struct Reader<'f> {
     materials: HashMap<String, Mtl>,
     name: String,
     material: String,
-    groups: Vec<Group>,
+    groups: Vec<ObjGroup>,
     numbers: HashMap<(String, String), usize>,
     warnings: Vec<Finding>,
 }
 
-impl Reader<'_> {
+impl ObjReader<'_> {
     fn read(&mut self, statement: &Statement<'_>) -> Result<(), Wrong> {
         match statement.keyword {
             "v" => {
@@ -63,7 +63,12 @@ impl Reader<'_> {
                 self.points.push(statement.vector()?);
             }
             "vt" => self.places.push(statement.place()?),
-            "vn" => self.normals.push(statement.vector()?),
+            "vn" => {
+                if statement.vector().is_err() {
+                    self.note(statement, "normals that cannot be read are left out", "export the file again");
+                }
+                self.normals.push(statement.vector().unwrap_or_default());
+            }
             "f" | "fo" => self.face(statement)?,
             "o" | "g" => self.name = statement.name(),
             "usemtl" => self.material = statement.name(),
@@ -134,7 +139,7 @@ impl Reader<'_> {
         let key = (self.name.clone(), self.material.clone());
         let number = *self.numbers.entry(key).or_insert_with(|| {
             let (name, material) = (self.name.clone(), self.material.clone());
-            self.groups.push(Group { name, material, line: statement.line, polygons: Vec::new() });
+            self.groups.push(ObjGroup { name, material, line: statement.line, polygons: Vec::new() });
             self.groups.len() - 1
         });
         self.groups[number].polygons.push(vec![corners]);

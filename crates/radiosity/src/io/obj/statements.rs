@@ -1,9 +1,6 @@
 //! Statements of OBJ and MTL files: words on a line, which a backslash at its end continues.
-use crate::io::error::Fault;
+use crate::io::error::{Fault, Wrong};
 use glam::{DVec2, DVec3};
-
-/// A line's number, from 1, and what is wrong there.
-pub(super) type Wrong = (usize, Fault);
 
 /// A statement: a keyword and what follows it.
 #[derive(Debug)]

@@ -1,18 +1,18 @@
 //! The numbers behind the header, one after the other, as text or as bytes.
-use super::header::{Element, Header, NumberType, Property, Writing};
+use super::header::{Header, NumberType, PlyElement, Property, Writing};
 use crate::io::error::Fault;
 
 /// Where the next number stands.
-pub(super) struct Body<'b> {
+pub(super) struct PlyBody<'b> {
     bytes: &'b [u8],
     at: usize,
     writing: Writing,
     line: usize,
 }
 
-impl<'b> Body<'b> {
-    pub(super) fn new(bytes: &'b [u8], header: &Header) -> Body<'b> {
-        Body { bytes, at: header.length, writing: header.writing, line: header.lines + 1 }
+impl<'b> PlyBody<'b> {
+    pub(super) fn new(bytes: &'b [u8], header: &Header) -> PlyBody<'b> {
+        PlyBody { bytes, at: header.length, writing: header.writing, line: header.lines + 1 }
     }
 
     /// The line, where there are lines.
@@ -23,7 +23,7 @@ impl<'b> Body<'b> {
     /// The rows of an element, each handed over property by property. The fault comes with the row's index.
     pub(super) fn rows(
         &mut self,
-        element: &Element,
+        element: &PlyElement,
         mut take: impl FnMut(usize, &Property, &[f64]) -> Result<(), Fault>,
     ) -> Result<(), (usize, Fault)> {
         // A row without properties takes no bytes: a hostile file may claim any number of these.

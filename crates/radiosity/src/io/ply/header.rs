@@ -1,8 +1,5 @@
 //! The header of a PLY file: which elements follow, and the properties of each.
-use crate::io::error::Fault;
-
-/// A line's number, from 1, and what is wrong there.
-type Wrong = (usize, Fault);
+use crate::io::error::{Fault, Wrong};
 
 /// How the rows behind the header are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +30,7 @@ pub(super) struct Property {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Element {
+pub(super) struct PlyElement {
     pub(super) name: String,
     pub(super) count: usize,
     pub(super) properties: Vec<Property>,
@@ -42,7 +39,7 @@ pub(super) struct Element {
 #[derive(Clone, Debug)]
 pub(super) struct Header {
     pub(super) writing: Writing,
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Vec<PlyElement>,
     /// The picture that a comment names, as many programs have it.
     pub(super) picture: Option<String>,
     /// How many bytes and lines the header has.
@@ -82,7 +79,7 @@ impl Header {
             ["comment", ..] => {}
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| Fault::Whole(count.chars().take(40).collect()))?;
-                self.elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+                self.elements.push(PlyElement { name: name.to_owned(), count, properties: Vec::new() });
             }
             ["property", "list", length, number, name] => {
                 let (length, number) = (Some(number_type(length)?), number_type(number)?);

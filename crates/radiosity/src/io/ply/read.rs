@@ -1,6 +1,6 @@
 //! Vertices and faces to patches: one surface for all faces of a colour.
-use super::body::{Body, whole};
-use super::header::{Element, Header, NumberType, Property};
+use super::body::{PlyBody, whole};
+use super::header::{Header, NumberType, PlyElement, Property};
 use crate::image_file;
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::{Finish, Surface};
@@ -84,7 +84,7 @@ impl PlyMesh {
             fault,
         })?;
         let mut mesh = PlyMesh { picture: header.picture.clone(), ..PlyMesh::default() };
-        let mut body = Body::new(bytes, &header);
+        let mut body = PlyBody::new(bytes, &header);
         for element in &header.elements {
             mesh.element(element, &mut body).map_err(|(row, fault)| match body.line() {
                 Some(line) => FileError::Line { file: file.into(), line, fault },
@@ -94,7 +94,7 @@ impl PlyMesh {
         Ok(mesh)
     }
 
-    fn element(&mut self, element: &Element, body: &mut Body<'_>) -> Result<(), (usize, Fault)> {
+    fn element(&mut self, element: &PlyElement, body: &mut PlyBody<'_>) -> Result<(), (usize, Fault)> {
         match element.name.as_str() {
             "vertex" => body.rows(element, |row, property, numbers| {
                 self.vertices.resize_with(row + 1, PlyVertex::default);

@@ -1,6 +1,6 @@
 //! Binary STL: 80 bytes of anything, the number of triangles, then for each twelve numbers in single precision (the normal, three
 //! vertices) and two bytes that some programs fill with a colour.
-use super::Solid;
+use super::solid::Solid;
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::scene::finding::Finding;

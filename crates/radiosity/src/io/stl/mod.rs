@@ -5,6 +5,7 @@
 //! write   scenes, binary
 //! binary  a header, a number, 50 bytes a triangle
 //! text    solids, facets, vertices
+//! solid   what both have
 //! ```
 //! Triangles of a plane are joined. The front is the side from which the vertices are counter-clockwise; the file's own normals are not
 //! read. The format has no material, no unit and no up axis: the reflectance is 0.5, lengths are metres, z is up, as in the programs for
@@ -12,6 +13,7 @@
 //!
 //! A binary file may begin with the word that begins a text, so its length decides which it is.
 mod binary;
+mod solid;
 mod text;
 mod write;
 
@@ -20,9 +22,10 @@ pub use write::stl;
 use super::error::{Fault, FileError};
 use super::save::bytes_of;
 use super::surface::finish::{Finish, Surface};
-use super::surface::{facets, place::Surfaces, polygon::Polygon};
+use super::surface::{facets, place::Surfaces};
 use crate::scene::{Scene, finding::Finding, patch::Origin};
 use glam::{DMat4, DVec3};
+use solid::Solid;
 use std::path::Path;
 
 /// The bytes of an STL file.
@@ -30,13 +33,6 @@ use std::path::Path;
 pub struct Stl {
     name: String,
     bytes: Vec<u8>,
-}
-
-/// The triangles of one solid, and where they begin.
-struct Solid {
-    name: String,
-    place: String,
-    triangles: Vec<Polygon>,
 }
 
 impl Stl {

@@ -1,11 +1,8 @@
 //! STL as text: `solid name`, then facets of three vertices, `endsolid`; several solids may follow one another.
-use super::Solid;
-use crate::io::error::Fault;
+use super::solid::Solid;
+use crate::io::error::{Fault, Wrong};
 use crate::io::surface::polygon::{Corner, Polygon};
 use glam::DVec3;
-
-/// A line's number, from 1, and what is wrong there.
-type Wrong = (usize, Fault);
 
 /// The solids of a text. Normals are passed over, and so are letters' cases.
 pub(super) fn solids(text: &str) -> Result<Vec<Solid>, Wrong> {

@@ -3,8 +3,8 @@
 //! Behind a surface's line stand the plane's origin, its azimuth (degrees clockwise from north, which is y) and its tilt (0
 //! faces up, 90 is vertical, 180 faces down); then the width and height of a rectangle, whose lower left corner as seen from
 //! the front is the origin, or the points of a triangle or quadrangle in that plane.
-use super::fields::{Fields, Wrong};
-use crate::io::error::Fault;
+use super::fields::Fields;
+use crate::io::error::{Fault, Wrong};
 use glam::{DVec2, DVec3};
 
 /// The corners of the surface on a line, from the lines behind it, which are passed over.

@@ -1,8 +1,5 @@
 //! The words of a line.
-use crate::io::error::Fault;
-
-/// A line's number, from 1, and what is wrong there.
-pub(super) type Wrong = (usize, Fault);
+use crate::io::error::{Fault, Wrong};
 
 /// A line that says something.
 #[derive(Clone, Debug)]

@@ -17,7 +17,7 @@ mod rows;
 
 pub use request::Request;
 
-use super::error::{Fault, FileError};
+use super::error::{Fault, FileError, Wrong};
 use super::save::bytes_of;
 use crate::plane::Plane;
 use crate::scene::{
@@ -25,7 +25,6 @@ use crate::scene::{
     finding::{Finding, Kind},
     patch::{Origin, Patch},
 };
-use fields::Wrong;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use polycsg::{Csg, FillRule, Region};

@@ -1,6 +1,6 @@
 //! What a file asks of a program beside its geometry.
-use super::fields::{Fields, Wrong};
-use crate::io::error::Fault;
+use super::fields::Fields;
+use crate::io::error::{Fault, Wrong};
 use crate::scene::finding::Finding;
 
 /// What a `.vs3` file asks of a program that computes view factors, beside its geometry.

@@ -1,8 +1,8 @@
 //! Lines to surfaces.
 use super::blast;
-use super::fields::{Fields, Wrong};
+use super::fields::Fields;
 use super::request::Request;
-use crate::io::error::Fault;
+use crate::io::error::{Fault, Wrong};
 use crate::scene::finding::Finding;
 use glam::DVec3;
 

@@ -1,0 +1,185 @@
+//! What people expect of any program: pipes, lists, numbers below zero, nothing left behind.
+
+use serde_json::Value;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+fn radiosity(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_radiosity"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // One that refuses its arguments does not read.
+    let _ = program.stdin.take().expect("a pipe").write_all(input);
+    program.wait_with_output().expect("the program ends")
+}
+
+fn done(output: Output) -> Vec<u8> {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+fn refused(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(2));
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+#[test]
+fn scenes_and_results_go_through_pipes() {
+    let folder = folder();
+    let run = |arguments: &[&str], input: &[u8]| done(radiosity(folder.path(), arguments, input));
+    let scene = run(&["scene", "wall"], b"");
+    let solve = ["solve", "-", "--quality", "draft", "-o", "-"];
+    let solution = run(&solve, &scene);
+    let light: Value = serde_json::from_slice(&solution).expect("everything, as JSON");
+    assert_eq!(light["light"]["patches"].as_array().map(Vec::len), Some(3));
+    for (format, start) in [
+        ("png", &b"\x89PNG"[..]),
+        ("glb", b"glTF"),
+        ("ply", b"ply\n"),
+        ("obj", b"#"),
+        ("dae", b"<?xml"),
+        ("html", b"<!"),
+    ] {
+        let written = run(&[&solve[..], &["--format", format]].concat(), &scene);
+        assert!(written.starts_with(start), "{format}");
+    }
+    assert!(run(&["expose", "-", "-o", "-"], &solution).starts_with(b"\x89PNG"));
+    assert!(run(&["view", "-"], &solution).starts_with(b"<!"));
+    assert!(
+        String::from_utf8_lossy(&run(&["inspect", "-"], &scene)).contains("patches    3 with 12 vertices")
+    );
+    assert!(
+        String::from_utf8_lossy(&run(&["factors", "-", "--format", "csv", "-o", "-"], &scene))
+            .starts_with("from_number")
+    );
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0, "nothing is written beside");
+}
+
+#[test]
+fn stdout_takes_one_result() {
+    let folder = folder();
+    let scene = done(radiosity(folder.path(), &["scene", "wall"], b""));
+    for more in [&["-o", "-"][..], &["--json"], &["--snapshot-every", "1"], &["--format", "xyz"]] {
+        let message =
+            refused(&radiosity(folder.path(), &[&["solve", "-", "-o", "-"][..], more].concat(), &scene));
+        assert!(message.contains("stdout") || message.contains("unknown kind"), "{message}");
+    }
+}
+
+#[test]
+fn scenes_are_listed_and_written_by_the_extension() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    let list = String::from_utf8(done(run(&["scene", "--list"]))).expect("text");
+    assert!(list.lines().count() >= 16 && list.lines().all(|line| line.len() > 20), "{list}");
+    assert!(list.lines().any(|line| line.starts_with("cornell-box ")));
+    for (name, start) in [
+        ("a.glb", &b"glTF"[..]),
+        ("a.obj", b"#"),
+        ("a.ply", b"ply\n"),
+        ("a.stl", b"radiosity"),
+        ("a.dae", b"<?xml"),
+    ] {
+        let output = run(&["scene", "perforated", "-o", name]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        done(output);
+        assert!(std::fs::read(folder.path().join(name)).expect("written").starts_with(start), "{name}");
+        assert_eq!(
+            told.contains("has no place for emitted light"),
+            matches!(name, "a.ply" | "a.stl"),
+            "{name}: {told}"
+        );
+        let inspected = String::from_utf8(done(run(&["inspect", name]))).expect("text");
+        assert!(inspected.starts_with("patches"), "{inspected}");
+    }
+    assert!(folder.path().join("a.mtl").exists());
+    assert!(refused(&run(&["scene", "wall", "-o", "wall.xyz"])).contains("name it .dae, .glb"));
+    assert!(refused(&run(&["scene"])).contains("--list"));
+}
+
+#[test]
+fn a_number_below_zero_is_a_value() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    for arguments in [
+        ["solve", "a.dae", "--json", "--tolerance", "-1"],
+        ["solve", "a.dae", "--json", "--time", "-0.5"],
+        ["solve", "a.dae", "--json", "-k", "-1e3"],
+        ["solve", "a.dae", "--json", "--elements", "-5"],
+        ["expose", "a.json", "-oa.png", "-k", "-2"],
+        ["factors", "a.dae", "--json", "--area", "-1"],
+    ] {
+        let message = refused(&run(&arguments));
+        assert!(message.contains(&format!("invalid value '{}'", arguments[4])), "{message}");
+    }
+    done(run(&["scene", "wall", "-o", "wall.dae"]));
+    let places = run(&["factors", "wall.dae", "--from", "-0.1,0.5,0.5,1,0,0"]);
+    assert!(places.status.success(), "{}", String::from_utf8_lossy(&places.stderr));
+}
+
+#[test]
+fn a_full_run_leaves_no_state() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    done(run(&["scene", "wall", "-o", "wall.dae"]));
+    let stopped = run(&["solve", "wall.dae", "--method", "shoot", "--max-shots", "1", "-o", "a.json"]);
+    assert_eq!(stopped.status.code(), Some(4));
+    let state = folder.path().join("a.json.state");
+    assert!(state.exists());
+    done(run(&["solve", "wall.dae", "--method", "shoot", "-o", "a.json"]));
+    assert!(!state.exists(), "the state of an earlier run is of no use any more");
+    std::fs::write(&state, "my notes").expect("a file");
+    done(run(&["solve", "wall.dae", "--method", "shoot", "-o", "a.json"]));
+    assert_eq!(std::fs::read(&state).expect("still there"), b"my notes");
+}
+
+#[test]
+fn what_was_left_out_is_told_in_one_line_and_in_the_json() {
+    let folder = folder();
+    let text = "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\nl 2 3\np 1\ncurv 0 1 1 2\n";
+    std::fs::write(folder.path().join("a.obj"), text).expect("a file");
+    let output = radiosity(folder.path(), &["solve", "a.obj", "--json", "--quality", "draft"], b"");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let lines: Vec<&str> = told.lines().filter(|line| line.contains("left out")).collect();
+    assert!(
+        lines.len() == 1 && lines[0].contains("(3 times)") && lines[0].contains("inspect a.obj"),
+        "{told}"
+    );
+    let figures: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let places = |index: usize| figures["warnings"][index]["places"].as_array().map(Vec::len);
+    assert_eq!((0..4).filter_map(places).collect::<Vec<_>>(), [1, 3, 1, 1], "{figures}");
+}
+
+#[test]
+fn digits_are_those_of_the_file() {
+    let folder = folder();
+    let run =
+        |arguments: &[&str]| String::from_utf8(done(radiosity(folder.path(), arguments, b""))).expect("text");
+    let facet = |corners: &str| format!("facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n");
+    let ply = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+    let mut bytes = ply.as_bytes().to_vec();
+    for number in [0.1_f32, 0.2, 0.0, 0.9, 0.2, 0.0, 0.1, 0.7, 0.0] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend([3, 0, 1, 2]);
+    std::fs::write(folder.path().join("a.ply"), bytes).expect("a file");
+    let said = run(&["inspect", "a.ply"]);
+    assert!(
+        said.contains("[0.1, 0.2, 0] to [0.9, 0.7, 0]; the unit is 1 m") && said.contains("area 0.2\n"),
+        "{said}"
+    );
+    let text = facet("vertex 0.1 0 0\nvertex 0.4 0 0\nvertex 0.1 0.7 0\n");
+    std::fs::write(folder.path().join("a.stl"), format!("solid\n{text}endsolid\n")).expect("a file");
+    assert!(run(&["inspect", "a.stl"]).contains("[0.1, 0, 0] to [0.4, 0.7, 0]"));
+}
