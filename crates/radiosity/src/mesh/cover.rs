@@ -74,8 +74,9 @@ impl Knots {
         for (flat, place) in corners {
             if let Some(known) = knots.find(flat) {
                 // All patches that meet in a place choose the same of what rounding made of it.
-                let first = |a: DVec3, b: DVec3| if a.to_array() < b.to_array() { a } else { b };
-                knots.places[known] = first(knots.places[known], place);
+                if place.to_array() < knots.places[known].to_array() {
+                    knots.places[known] = place;
+                }
                 continue;
             }
             knots.sorted.push(knots.flat.len());
