@@ -21,6 +21,9 @@ pub(crate) use weld::{PointKey, Welds, key};
 
 use crate::scene::{Scene, finding::Finding};
 
+/// So many rounds after the first one: the second finds nothing but where planes are one in pairs.
+const ROUNDS: usize = 4;
+
 /// A scene after its repair, and what was wrong.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -47,8 +50,26 @@ pub fn repair(scene: &Scene) -> Repaired {
     let read = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_some()).cloned();
     let mut repairs: Vec<Finding> = read.collect();
     repairs.extend(reflectance::limit(&mut scene));
-    repairs.extend(weld::weld(&mut scene));
-    repairs.extend(slivers::leave_out(&mut scene));
-    repairs.extend(cut::cut(&mut scene));
+    let wrong = put_right(&mut scene);
+    if !wrong.is_empty() {
+        settle(&mut scene);
+    }
+    repairs.extend(wrong);
     Repaired { scene, repairs }
+}
+
+/// Repairs the shapes of patches once; tells what was wrong.
+fn put_right(scene: &mut Scene) -> Vec<Finding> {
+    let mut findings = weld::weld(scene);
+    findings.extend(slivers::leave_out(scene));
+    findings.extend(cut::cut(scene));
+    findings
+}
+
+/// Repairs what cuts leave: corners of two pieces at one place that were rounded apart, thin pieces, and overlaps where planes are one in
+/// pairs and not all together. What overlaps after some rounds is left out.
+fn settle(scene: &mut Scene) {
+    if (0..ROUNDS).all(|_| !put_right(scene).is_empty()) {
+        cut::leave_out_covered(scene);
+    }
 }
