@@ -53,11 +53,7 @@ impl Plane {
 
     /// The polygons of a region, in the plane. Corners at one of the `known` points keep its place bit for bit; of two points above each
     /// other the last counts. Where that makes a polygon that is not planar, all its corners are raised to the plane.
-    pub(crate) fn lift(
-        &self,
-        region: &Region,
-        known: impl IntoIterator<Item = DVec3>,
-    ) -> Vec<PlanarPolygon> {
+    pub(crate) fn lift(&self, region: &Region, known: impl IntoIterator<Item = DVec3>) -> Vec<PlanarPolygon> {
         let known: std::collections::HashMap<[u64; 2], DVec3> =
             known.into_iter().map(|point| (bits(self.flatten(point)), point)).collect();
         let place = |flat: &DVec2| known.get(&bits(*flat)).copied().unwrap_or_else(|| self.raise(*flat));

@@ -1,5 +1,5 @@
 //! Faces of one plane cut out of each other.
-use super::{findings, slivers::without_spikes};
+use super::{findings, necks::without_necks};
 use crate::coplanar::{Overlap, SINGLE, overlaps, perimeter};
 use crate::extent::Extent;
 use crate::mesh::subdivide::can_be_divided;
@@ -74,9 +74,10 @@ fn rest(scene: &Scene, index: usize, upper: &[usize]) -> Vec<PlanarPolygon> {
     // What lies on the plane is a corner of both, so that no crack opens between them.
     let corners = above.iter().flat_map(|polygon| polygon.loops().flatten());
     let shared = corners.filter(|corner| plane.height(**corner).abs() <= ON_PLANE * slack(&[**corner]));
-    let pieces = plane.lift(&rest, shared.chain(polygon.loops().flatten()).copied());
-    let smooth = pieces.iter().filter_map(|piece| without_spikes(piece, width));
-    smooth.filter(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece)).collect()
+    let mut pieces =
+        plane.lift(&without_necks(&rest, width), shared.chain(polygon.loops().flatten()).copied());
+    pieces.retain(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece));
+    pieces
 }
 
 /// The pieces under their names: the patch's own for a single one.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cut          faces of one plane cut out of each other
+//! necks        what is thin between a corner and an edge is gone
 //! findings     what is wrong with patches, in words
 //! reflectance  no surface reflects all light
 //! slivers      what is thinner than rounding is left out
@@ -13,10 +14,12 @@
 //! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch.
 mod cut;
 pub(crate) mod findings;
+mod necks;
 mod reflectance;
 mod slivers;
 mod weld;
 
+pub(crate) use reflectance::BRIGHTEST;
 pub(crate) use weld::{PointKey, Welds, key};
 
 use crate::scene::{Scene, finding::Finding};

@@ -55,7 +55,7 @@ fn spike(patch: &mut Patch) -> Option<Finding> {
 ///   │          c─────────┘     so b is left out
 ///   └──────────┘
 /// ```
-pub(super) fn without_spikes(polygon: &PlanarPolygon, width: f64) -> Option<PlanarPolygon> {
+fn without_spikes(polygon: &PlanarPolygon, width: f64) -> Option<PlanarPolygon> {
     let mut loops: Vec<Vec<DVec3>> = polygon.loops().map(|ring| smooth(ring, width)).collect();
     let is_left = |ring: &Vec<DVec3>| ring.len() > 2;
     if !loops.first().is_some_and(is_left) {
