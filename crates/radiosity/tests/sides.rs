@@ -117,6 +117,24 @@ fn a_room_with_a_lamp_keeps_both_sides_whichever_way_it_is_turned() {
     }
 }
 
+/// A floor that is cut around a table touches it at the edges of its foot: the table stays a body of its own.
+#[test]
+fn a_body_that_stands_in_a_cut_stays_closed() {
+    let floor = panel("floor", [0.0; 2], 3.0, 0.0, false);
+    let file = file(&[floor, block("table", [1.0, 1.0, 0.0], [2.0, 2.0, 1.0], false)]);
+    let before = needed_sides(&file.scene().unwrap());
+    let repaired = repair(&before).scene;
+    assert!(area_of(&repaired, "floor") < area_of(&before, "floor"));
+    let read = Gltf::from_bytes("repaired.gltf", file.repaired(&before, &repaired).unwrap()).scene().unwrap();
+    assert_eq!(kept(&read, "table")[0], [6, 0]);
+    assert!(repair(&needed_sides(&read)).repairs.is_empty());
+}
+
+fn area_of(scene: &Scene, body: &str) -> f64 {
+    let of_body = scene.patches.iter().filter(|patch| patch.name.starts_with(body));
+    of_body.map(|patch| patch.polygon.area()).sum()
+}
+
 #[test]
 fn an_open_box_keeps_both_sides() {
     let mut open = block("box", [0.0; 3], [1.0; 3], false);

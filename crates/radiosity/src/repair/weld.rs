@@ -1,6 +1,7 @@
 //! Vertices that nearly meet become one: cracks that rounding opened are closed.
 use crate::coplanar::SINGLE;
 use crate::extent::{BoxTree, Extent};
+use crate::plane::slack;
 use crate::scene::{
     Scene,
     finding::{Finding, Kind},
@@ -94,16 +95,18 @@ pub(crate) fn key(place: DVec3) -> PointKey {
     place.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
 }
 
-/// Moves the vertices; a polygon that would no longer be planar stays as it is.
-pub(super) fn weld(scene: &mut Scene) -> Vec<Finding> {
+/// Moves the vertices; a polygon that would no longer be planar stays as it is. Tells which were further apart than rounding of their
+/// coordinates; returns whether any was moved.
+pub(super) fn weld(scene: &mut Scene, findings: &mut Vec<Finding>) -> bool {
     let welds = Welds::of(scene);
-    let mut findings = Vec::new();
+    let mut is_moved = false;
     for patch in &mut scene.patches {
         let Some(polygon) = welded(patch, &welds) else { continue };
-        findings.push(finding(patch, &welds));
+        findings.extend(finding(patch, &welds));
         patch.polygon = polygon;
+        is_moved = true;
     }
-    findings
+    is_moved
 }
 
 /// The polygon with its vertices moved, if any of them is to.
@@ -124,14 +127,15 @@ fn welded(patch: &Patch, welds: &Welds) -> Option<PlanarPolygon> {
     (polygon.normal().dot(patch.polygon.normal()) > 0.0).then_some(polygon)
 }
 
-fn finding(patch: &Patch, welds: &Welds) -> Finding {
-    let vertices = patch.polygon.loops().flatten();
-    let moved = vertices.map(|vertex| vertex.distance(welds.place(*vertex))).fold(0.0, f64::max);
-    Finding {
+/// Of vertices that were moved further than rounding of a transform moves them.
+fn finding(patch: &Patch, welds: &Welds) -> Option<Finding> {
+    let vertices: Vec<DVec3> = patch.polygon.loops().flatten().copied().collect();
+    let moved = vertices.iter().map(|vertex| vertex.distance(welds.place(*vertex))).fold(0.0, f64::max);
+    (moved > slack(&vertices)).then(|| Finding {
         kind: Kind::Crack,
         patches: vec![patch.name.clone()],
         what: format!("its vertices lie up to {moved:.1e} beside those of its neighbours"),
         repair: "give neighbours the same vertices; or let reading or inspect --repair do it".into(),
         places: Vec::new(),
-    }
+    })
 }
