@@ -85,9 +85,9 @@ fn smooth(ring: &[DVec3], width: f64) -> Vec<DVec3> {
     ring
 }
 
-/// Whether a point is nearer to an edge than the width.
+/// Whether a point is nearer to an edge than the width; to an edge of no length any point is.
 fn is_near(point: DVec3, [a, b]: [DVec3; 2], width: f64) -> bool {
     let (edge, arm) = (b - a, point - a);
     let along = (arm.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-    !(point.distance(a + along * edge) > width)
+    edge.length_squared() == 0.0 || point.distance(a + along * edge) <= width
 }

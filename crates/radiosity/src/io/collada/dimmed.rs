@@ -15,23 +15,26 @@ pub(super) fn dimmed_colours<'a>(
     instances: &[Instance<'a>],
     dimmed: &BTreeSet<[usize; 2]>,
 ) -> Result<Option<Vec<Edit>>, FileError> {
-    let mut edits = BTreeMap::new();
+    let mut edits: BTreeMap<usize, Edit> = BTreeMap::new();
     for &[instance, primitive] in dimmed {
         let Some(instance) = instances.get(instance) else { continue };
         let symbol = surfaces(instance.geometry).nth(primitive).and_then(|node| node.attribute("material"));
         match dimmable(file, instance.element, symbol)? {
             Dimmable::Spectrum => return Ok(None),
-            Dimmable::Colour(element) => edits.extend(lowered(file, element)?),
+            // Many polygons have one colour.
+            Dimmable::Colour(element) => {
+                edits.extend(lowered(file, element)?.map(|edit| (edit.0.start, edit)));
+            }
             Dimmable::Neither => {}
         }
     }
-    Ok(Some(edits.into_iter().map(|(start, (end, text))| (start..end, text)).collect()))
+    Ok(Some(edits.into_values().collect()))
 }
 
-/// Where a colour's numbers begin, where they end, and what takes their place.
-fn lowered<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<(usize, (usize, String))>, FileError> {
+/// New numbers for a colour.
+fn lowered<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Edit>, FileError> {
     let mut numbers = file.numbers(element)?;
     numbers.iter_mut().take(3).for_each(|band| *band = band.min(BRIGHTEST));
     let range = element.first_child().map(|inner| inner.range());
-    Ok(range.map(|range| (range.start, (range.end, list(numbers.iter().map(decimal))))))
+    Ok(range.map(|range| (range, list(numbers.iter().map(decimal)))))
 }
