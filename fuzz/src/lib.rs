@@ -84,7 +84,7 @@ fn facts(patch: &Patch) -> (Vec<Vec<[u64; 3]>>, Vec<u64>) {
 }
 
 /// Writes a scene's outlines as fans of triangles, lit alike, as GLB, and reads that. Such a file holds the places relative
-/// to a place, both in single precision.
+/// to a place, both in single precision: the one in binary, the other in decimal digits.
 ///
 /// # Panics
 /// When the file is refused, or its surfaces, seen from all sides, do not have the fans' vertices and areas.
@@ -98,11 +98,12 @@ pub fn survives_lighting(scene: &Scene) {
         return;
     }
     let single = |p: DVec3| p.as_vec3().as_dvec3();
+    let digits = |p: DVec3| p.map(|c| (c as f32).to_string().parse().expect("a number"));
     let (low, high) = record
         .vertices
         .iter()
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
-    let middle = single(low.midpoint(high));
+    let middle = digits(low.midpoint(high));
     let places: Vec<DVec3> = record.vertices.iter().map(|p| single(*p - middle) + middle).collect();
     let read = || again.patches.iter().flat_map(|patch| patch.polygon.loops());
     assert!(read().flatten().all(|p| places.contains(p)), "another place: {record:?}\n{again:?}");
