@@ -20,8 +20,9 @@ enum Place {
     Stdout,
     /// A device or a pipe, which cannot be replaced.
     Device(File),
-    /// A new file beside the one that it replaces in the end.
-    New(NamedTempFile, PathBuf),
+    /// A new file beside the one that it replaces in the end; made when there is something to write, so that nothing is left behind
+    /// when a process ends before.
+    New(Option<NamedTempFile>, PathBuf),
 }
 
 impl Output {
@@ -39,13 +40,10 @@ impl Output {
                 Place::Device(File::options().write(true).open(path).map_err(refused)?)
             }
             // Of a link, the target is replaced and not the link.
-            Ok(_) => beside(&path.canonicalize().map_err(refused)?).map_err(refused)?,
-            Err(_) => beside(path)
+            Ok(_) => probed(path.canonicalize().map_err(refused)?, interrupt).map_err(refused)?,
+            Err(_) => probed(path.to_owned(), interrupt)
                 .map_err(|error| Failure::write(path.display(), format!("{error}; check the folder")))?,
         };
-        if let Place::New(file, _) = &place {
-            interrupt.leave_nothing_of(file.path());
-        }
         Ok(Output { path: path.to_owned(), place, interrupt: interrupt.clone() })
     }
 
@@ -65,9 +63,9 @@ impl Output {
         let ended = match self.place {
             Place::Stdout => kept(io::stdout().flush()),
             Place::Device(mut file) => file.flush(),
-            Place::New(file, path) => {
-                file.as_file().sync_all().and_then(|()| Ok(file.persist(path).map(|_| ())?))
-            }
+            Place::New(file, path) => file
+                .map_or_else(|| beside(&path, &self.interrupt), Ok)
+                .and_then(|file| file.as_file().sync_all().and_then(|()| Ok(file.persist(path).map(|_| ())?))),
         };
         ended.map_err(|error| Failure::write(name, error))
     }
@@ -81,7 +79,8 @@ impl Write for Output {
         match &mut self.place {
             Place::Stdout => kept(io::stdout().write_all(bytes)).map(|()| bytes.len()),
             Place::Device(file) => file.write(bytes),
-            Place::New(file, _) => file.write(bytes),
+            Place::New(Some(file), _) => file.write(bytes),
+            Place::New(none, path) => none.insert(beside(path, &self.interrupt)?).write(bytes),
         }
     }
 
@@ -89,7 +88,7 @@ impl Write for Output {
         match &mut self.place {
             Place::Stdout => kept(io::stdout().flush()),
             Place::Device(file) => file.flush(),
-            Place::New(file, _) => file.flush(),
+            Place::New(file, _) => file.as_mut().map_or(Ok(()), Write::flush),
         }
     }
 }
@@ -102,9 +101,17 @@ fn kept(written: io::Result<()>) -> io::Result<()> {
     }
 }
 
-fn beside(path: &Path) -> io::Result<Place> {
+/// A place in a folder that takes files.
+fn probed(path: PathBuf, interrupt: &Interrupt) -> io::Result<Place> {
+    beside(&path, interrupt).map(drop)?;
+    Ok(Place::New(None, path))
+}
+
+fn beside(path: &Path, interrupt: &Interrupt) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    Ok(Place::New(temporary().tempfile_in(folder)?, path.to_owned()))
+    let file = temporary().tempfile_in(folder)?;
+    interrupt.leave_nothing_of(file.path());
+    Ok(file)
 }
 
 /// Temporary files are private by default; results get the permissions that any new file gets.

@@ -1,4 +1,5 @@
 //! All functions, and how a session comes by them.
+use crate::aggregate::evaluate::GroupLimits;
 use crate::aggregate::function::AggregateFunction;
 use crate::aggregate::group::Aggregate;
 use crate::page::Page;
@@ -35,12 +36,13 @@ macro_rules! page {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Functions {
     contacts: usize,
+    bytes: usize,
 }
 
 impl Default for Functions {
-    /// At most 2^25 contacts, about 10 GB.
+    /// At most 2^25 contacts, about 10 GB, and groups of any size.
     fn default() -> Functions {
-        Functions { contacts: 1 << 25 }
+        Functions { contacts: 1 << 25, bytes: usize::MAX }
     }
 }
 
@@ -49,7 +51,15 @@ impl Functions {
     /// meets more often ends in an [`Error`](crate::Error), before memory runs out.
     #[must_use]
     pub fn contacts(self, most: usize) -> Functions {
-        Functions { contacts: most }
+        Functions { contacts: most, ..self }
+    }
+
+    /// What evaluating one group may take, in bytes. A group is evaluated in parts whose boxes do not touch, and a part that takes more ends in
+    /// an [`Error`](crate::Error) that names the group. Groups report no more than this to the engine: under a limit of
+    /// its own, the engine refuses a group by what all of it would take at once, and names itself.
+    #[must_use]
+    pub fn bytes(self, most: usize) -> Functions {
+        Functions { bytes: most, ..self }
     }
 
     /// Registers all functions with a session.
@@ -92,8 +102,10 @@ impl Functions {
             (page!("st_union_agg", ONE), Aggregate::Union),
             (page!("st_intersection_agg", ONE), Aggregate::Intersection),
         ];
-        let new =
-            |(page, aggregate)| AggregateUDF::from(AggregateFunction::new(page, aggregate, self.contacts));
+        let new = |(page, aggregate)| {
+            let limits = GroupLimits { contacts: self.contacts, bytes: self.bytes };
+            AggregateUDF::from(AggregateFunction::new(page, aggregate, limits))
+        };
         functions.into_iter().map(new).collect()
     }
 }

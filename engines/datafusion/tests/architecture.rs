@@ -8,11 +8,11 @@ use std::path::Path;
 
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists.
 #[rustfmt::skip]
-const ORDER: [&str; 36] = [
+const ORDER: [&str; 37] = [
     "functions",
     "join", "join/rule", "join/exec", "join/probe", "join/overlaid", "join/condition", "join/sides", "join/collect", "join/build", "join/tree",
     "aggregate", "aggregate/function", "aggregate/accumulator", "aggregate/groups", "aggregate/evaluate", "aggregate/components",
-    "aggregate/group", "aggregate/covered", "aggregate/state",
+    "aggregate/group", "aggregate/outline", "aggregate/covered", "aggregate/state",
     "scalar", "scalar/function", "scalar/overlay", "scalar/relate", "scalar/pairs", "scalar/touch", "scalar/side", "scalar/measure",
     "validity", "column", "column/write", "column/read", "column/features", "column/encoding", "page", "error",
 ];

@@ -49,12 +49,34 @@ fn layers() -> Vec<(&'static str, Vec<Row>)> {
         })
         .collect();
     vec![
+        ("lattice", (0..900).map(|i| (keys[i % 3], Some(lattice(&mut random)))).collect()),
         ("crowd", crowd),
         ("parcels", parcels),
         ("nested", nested),
         ("repeated", repeated),
         ("bow ties", bow_ties),
     ]
+}
+
+/// Squares and frames on few points, some with a corner cut off at a place that rounds: neighbours share edges, others overlap, fill
+/// holes, touch or are equal.
+fn lattice(random: &mut Random) -> Vec<u8> {
+    let mut below = |most: usize| random.below(most) as f64;
+    let (low, size) = ([below(12), below(12)], 1.0 + below(4));
+    let inset = |by: f64| {
+        let [x, y] = low;
+        let (a, b) = (by / 2.0, size - by / 2.0);
+        vec![[x + a, y + a], [x + b, y + a], [x + b, y + b], [x + a, y + b]]
+    };
+    match below(4) as usize {
+        0 if size > 1.0 => polygon_wkb(&[inset(0.0), inset(1.0)]),
+        1 => {
+            let [a, b, c, d] = inset(0.0)[..] else { unreachable!("four corners") };
+            polygon_wkb(&[vec![a, b, [c[0], c[1] - size / 3.0], [c[0] - size / 7.0, c[1]], d]])
+        }
+        2 if size > 1.0 => polygon_wkb(&[inset(1.0)]),
+        _ => polygon_wkb(&[inset(0.0)]),
+    }
 }
 
 /// Cells of a grid whose inner vertices are moved; neighbours share theirs.

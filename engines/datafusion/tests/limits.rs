@@ -61,6 +61,25 @@ async fn a_group_that_is_too_large_is_named() -> Result<()> {
     Ok(())
 }
 
+/// Under a limit of bytes a group of small parts goes through, however large it is, and a large part is refused by its group.
+#[tokio::test]
+async fn a_group_is_evaluated_in_parts_or_named() -> Result<()> {
+    const BYTES: usize = 1 << 20;
+    let limited = |rows: Vec<_>, bytes| {
+        let context = session_of(SessionConfig::new(), Functions::default().bytes(bytes));
+        add_table(&context, "t", &[rows]);
+        context
+    };
+    let sql = "SELECT st_union_agg(geom) FROM t GROUP BY key ORDER BY key";
+    let apart = octagons(20_000, 100_000.0);
+    let whole = answer(&limited(apart.clone(), usize::MAX), sql).await?;
+    assert_eq!(answer(&limited(apart, BYTES), sql).await?, whole);
+    let error = answer(&limited(octagons(20_000, 50.0), BYTES), sql).await.expect_err("it is one part");
+    let Some(Error::Group { features: 2500, why, .. }) = common::own(&error) else { panic!("{error}") };
+    assert!(why.contains("1048576 are allowed"), "{why}");
+    Ok(())
+}
+
 /// Whether a geometry is valid is not asked within fewer contacts than its edges may have, and not refused within more.
 #[tokio::test]
 async fn validity_is_within_the_limit() -> Result<()> {

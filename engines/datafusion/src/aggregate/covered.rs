@@ -1,5 +1,5 @@
 //! Features of a union that lie in the interior of another one: they change no bit of it.
-use super::state::{bounds, rings};
+use super::state::{bounds, is_outline, rings};
 use crate::error::Error;
 use crate::validity::is_exact;
 use polycsg::{Csg, DVec2, FillRule, PreparedRegion, Region, Scratch};
@@ -41,8 +41,8 @@ fn largest(all: &[Boxed]) -> Vec<usize> {
         let size = all[*i].bounds[1] - all[*i].bounds[0];
         -(size.x * size.y)
     };
-    let small_enough = |i: &usize| all[*i].feature.len() <= MOST_BYTES;
-    let mut order: Vec<usize> = (0..all.len()).filter(small_enough).collect();
+    let is_cover = |i: &usize| all[*i].feature.len() <= MOST_BYTES && !is_outline(all[*i].feature);
+    let mut order: Vec<usize> = (0..all.len()).filter(is_cover).collect();
     let by_extent = |i: &usize, j: &usize| extent(i).total_cmp(&extent(j));
     if order.len() > COVERS {
         order.select_nth_unstable_by(COVERS, by_extent);

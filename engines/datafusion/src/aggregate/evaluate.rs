@@ -9,13 +9,38 @@ use std::cmp::Ordering;
 
 /// For each byte of the largest state, evaluating it takes up to so many more, where edges do not meet more often than those of
 /// thousands of stars over one another (`tests/memory.rs`). What meets more often is stopped by the limit on contacts.
-pub(crate) const BYTES_PER_BYTE: usize = 80;
+const BYTES_PER_BYTE: usize = 80;
+
+/// What evaluating a group may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct GroupLimits {
+    pub(crate) contacts: usize,
+    pub(crate) bytes: usize,
+}
+
+impl GroupLimits {
+    /// What evaluating a state of so many bytes may take, in bytes.
+    pub(crate) fn taken_by(self, length: usize) -> usize {
+        length.saturating_mul(BYTES_PER_BYTE).min(self.bytes)
+    }
+
+    fn check(self, length: usize) -> Result<(), String> {
+        let taken = length.saturating_mul(BYTES_PER_BYTE);
+        if taken <= self.bytes {
+            return Ok(());
+        }
+        let most = self.bytes;
+        Err(format!(
+            "its largest part takes up to {taken} bytes, and {most} are allowed; group by more, or raise Functions::bytes"
+        ))
+    }
+}
 
 /// The multipolygon of a group; none, if it holds nothing but NULL. Its polygons stand from left to right.
 pub(crate) fn evaluated(
     aggregate: Aggregate,
     bytes: &[u8],
-    contacts: usize,
+    limits: GroupLimits,
     scratch: &mut Scratch,
 ) -> Result<Option<MultiPolygon>, Error> {
     let features = state::sorted(bytes)?;
@@ -28,37 +53,48 @@ pub(crate) fn evaluated(
     };
     let mut polygons = Vec::new();
     for part in parts {
-        let combined = combined(aggregate, part.iter().map(|&i| features[i]), contacts, scratch);
-        polygons.extend(combined.map_err(|why| named(&boxes, why))?);
+        let part: Vec<&[u8]> = part.into_iter().map(|i| features[i]).collect();
+        let combined = combined(aggregate, &part, limits, scratch);
+        polygons.extend(combined.or_else(|why| Err(named(&features, &boxes, why)?))?);
     }
     polygons.sort_by(from_left_to_right);
     Ok(Some(MultiPolygon::new(polygons)))
 }
 
-fn combined<'s>(
+/// All features, and as one more what the rings of outlines wind around.
+fn combined(
     aggregate: Aggregate,
-    features: impl Iterator<Item = &'s [u8]>,
-    contacts: usize,
+    features: &[&[u8]],
+    limits: GroupLimits,
     scratch: &mut Scratch,
 ) -> Result<MultiPolygon, String> {
-    let operand = |feature| {
-        let rings = state::rings(feature).map_err(|error| error.to_string())?;
-        Csg::from_rings(&rings, FillRule::EvenOdd).map_err(|error| error.to_string())
-    };
-    let operands: Vec<Csg> = features.map(operand).collect::<Result<_, String>>()?;
+    limits.check(features.iter().map(|feature| feature.len()).sum())?;
+    let read = |feature| state::rings(feature).map_err(|error| error.to_string());
+    let operand = |rings: &[_], rule| Csg::from_rings(rings, rule).map_err(|error| error.to_string());
+    let (mut operands, mut outline) = (Vec::new(), Vec::new());
+    for feature in features {
+        match state::is_outline(feature) {
+            true => outline.extend(read(feature)?),
+            false => operands.push(operand(&read(feature)?, FillRule::EvenOdd)?),
+        }
+    }
+    if !outline.is_empty() {
+        operands.push(operand(&outline, FillRule::Positive)?);
+    }
     let expression = match aggregate {
         Aggregate::Union => Csg::union(operands),
         Aggregate::Intersection => Csg::intersection(operands),
     };
-    let found = expression.try_evaluate_with(scratch, contacts).map_err(|error| error.to_string())?;
+    let found = expression.try_evaluate_with(scratch, limits.contacts).map_err(|error| error.to_string())?;
     Ok(MultiPolygon::from(&found))
 }
 
 /// The error of a group, which is named by what it holds.
-fn named(boxes: &[[DVec2; 2]], why: String) -> Error {
+fn named(features: &[&[u8]], boxes: &[[DVec2; 2]], why: String) -> Result<Error, Error> {
     let low = boxes.iter().fold(DVec2::INFINITY, |low, bounds| low.min(bounds[0]));
     let high = boxes.iter().fold(DVec2::NEG_INFINITY, |high, bounds| high.max(bounds[1]));
-    Error::Group { features: boxes.len(), low, high, why }
+    let members = features.iter().map(|feature| Ok(state::members(feature)?.unwrap_or(1) as usize));
+    Ok(Error::Group { features: members.sum::<Result<_, Error>>()?, low, high, why })
 }
 
 /// By the points of the outer rings, which start at their lowest point from the left. So the order does not depend on which parts

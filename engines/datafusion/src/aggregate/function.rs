@@ -1,5 +1,6 @@
 //! What the engine sees of an aggregate: its name, its types, and its accumulators.
 use super::accumulator::One;
+use super::evaluate::GroupLimits;
 use super::group::Aggregate;
 use super::groups::Groups;
 use crate::column::encoding::{Encoding, may_be_geometry};
@@ -19,13 +20,13 @@ pub(crate) struct AggregateFunction {
     page: Page,
     aggregate: Aggregate,
     signature: Signature,
-    contacts: usize,
+    limits: GroupLimits,
 }
 
 impl AggregateFunction {
-    pub(crate) fn new(page: Page, aggregate: Aggregate, contacts: usize) -> AggregateFunction {
+    pub(crate) fn new(page: Page, aggregate: Aggregate, limits: GroupLimits) -> AggregateFunction {
         let signature = Signature::user_defined(Volatility::Immutable);
-        AggregateFunction { page, aggregate, signature, contacts }
+        AggregateFunction { page, aggregate, signature, limits }
     }
 
     fn groups(&self, args: &AccumulatorArgs) -> Result<Groups> {
@@ -33,7 +34,7 @@ impl AggregateFunction {
             return internal_err!("{} was planned with {} arguments", self.page.name, args.expr_fields.len());
         };
         let input = (Encoding::of(self.page.name, field)?, field.clone());
-        Ok(Groups::new(self.aggregate, input, args.return_field.clone(), self.contacts))
+        Ok(Groups::new(self.aggregate, input, args.return_field.clone(), self.limits))
     }
 }
 

@@ -1,5 +1,6 @@
 //! One group in the making.
 use super::covered::without_covered;
+use super::outline::without_shared_edges;
 use super::state;
 use crate::error::Error;
 use polycsg::DVec2;
@@ -56,16 +57,16 @@ impl Group {
         self.reduce(aggregate)
     }
 
-    /// Leaves out what changes no bit of the result: all but one of equal features and, for unions, those in the interior of another.
-    ///
-    /// Edges that neighbours share in opposite directions stay. On which side of an edge a feature lies is known only where its rings
-    /// do not cross, and to find that out takes as long as the evaluation, which cancels such edges itself.
+    /// Leaves out what changes no bit of the result: all but one of equal features and, for unions, those in the interior of another
+    /// and the edges that neighbours share, where these are many.
     pub(crate) fn reduce(&mut self, aggregate: Aggregate) -> Result<(), Error> {
         let mut features = state::sorted(&self.state)?;
+        let mut outlined = None;
         if aggregate == Aggregate::Union {
             features = without_covered(features)?;
+            outlined = without_shared_edges(&features)?;
         }
-        let reduced = features.concat();
+        let reduced = outlined.unwrap_or_else(|| features.concat());
         self.reduced = reduced.len();
         self.state = reduced;
         Ok(())

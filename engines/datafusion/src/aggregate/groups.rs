@@ -1,5 +1,5 @@
 //! The groups of one partition.
-use super::evaluate::{BYTES_PER_BYTE, evaluated};
+use super::evaluate::{GroupLimits, evaluated};
 use super::group::{Aggregate, Group};
 use crate::column::encoding::Encoding;
 use crate::column::features::Features;
@@ -20,7 +20,7 @@ pub(crate) struct Groups {
     aggregate: Aggregate,
     input: (Encoding, FieldRef),
     result: FieldRef,
-    contacts: usize,
+    limits: GroupLimits,
     groups: Vec<Group>,
     /// What the states take together, and the longest of them.
     held: usize,
@@ -32,9 +32,9 @@ impl Groups {
         aggregate: Aggregate,
         input: (Encoding, FieldRef),
         result: FieldRef,
-        contacts: usize,
+        limits: GroupLimits,
     ) -> Groups {
-        Groups { aggregate, input, result, contacts, groups: Vec::new(), held: 0, longest: 0 }
+        Groups { aggregate, input, result, limits, groups: Vec::new(), held: 0, longest: 0 }
     }
 
     /// Makes room for so many groups.
@@ -46,7 +46,7 @@ impl Groups {
     pub(crate) fn results(&self) -> Result<ArrayRef> {
         let (mut written, mut scratch) = (Written::new(&self.result)?, Scratch::default());
         for group in &self.groups {
-            written.push(evaluated(self.aggregate, group.state(), self.contacts, &mut scratch)?.as_ref())?;
+            written.push(evaluated(self.aggregate, group.state(), self.limits, &mut scratch)?.as_ref())?;
         }
         Ok(written.finish())
     }
@@ -107,7 +107,7 @@ impl GroupsAccumulator for Groups {
     fn evaluate(&mut self, emit_to: EmitTo) -> Result<ArrayRef> {
         let (mut written, mut scratch) = (Written::new(&self.result)?, Scratch::default());
         for group in self.take(emit_to) {
-            let found = evaluated(self.aggregate, group.state(), self.contacts, &mut scratch)?;
+            let found = evaluated(self.aggregate, group.state(), self.limits, &mut scratch)?;
             drop(group);
             written.push(found.as_ref())?;
         }
@@ -161,9 +161,9 @@ impl GroupsAccumulator for Groups {
         Ok(vec![Arc::new(states.finish())])
     }
 
-    /// The states, the results that take their places, and what evaluating the largest group takes.
+    /// The states, the results that take their places, and what evaluating the largest group may take.
     fn size(&self) -> usize {
-        self.groups.capacity() * size_of::<Group>() + 2 * self.held + BYTES_PER_BYTE * self.longest
+        self.groups.capacity() * size_of::<Group>() + 2 * self.held + self.limits.taken_by(self.longest)
     }
 }
 

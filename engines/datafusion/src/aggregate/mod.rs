@@ -6,4 +6,5 @@ pub(crate) mod evaluate;
 pub(crate) mod function;
 pub(crate) mod group;
 pub(crate) mod groups;
+pub(crate) mod outline;
 pub(crate) mod state;

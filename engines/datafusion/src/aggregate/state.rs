@@ -3,6 +3,10 @@
 //! Numbers are little-endian, of 32 bits for counts and 64 for coordinates. A feature of no rings is an empty one; a state of no
 //! features is that of a group in which all is NULL. To merge states is to put one behind the other.
 //!
+//! The highest bit of a feature's first number marks one ring of an outline: the boundary of features on top of one another, without the
+//! edges that cancelled. What all such rings of a state wind around is the union of these features. The other bits count the
+//! features that ended in it, at the first of its rings; 0 stands at the others. The ring runs as it must.
+//!
 //! A ring starts at its lowest point from the left and runs towards the lower one of its neighbours, and rings are sorted: features
 //! that differ in where a ring starts, in its direction or in the order of rings have the same bytes.
 use crate::error::Error;
@@ -11,6 +15,7 @@ use std::cmp::Ordering;
 
 const COUNT: usize = 4;
 const POINT: usize = 16;
+const OUTLINE: u32 = 1 << 31;
 
 /// Adds a feature of finite points.
 pub(crate) fn append<'r>(state: &mut Vec<u8>, rings: impl Iterator<Item = &'r [DVec2]>) {
@@ -18,10 +23,31 @@ pub(crate) fn append<'r>(state: &mut Vec<u8>, rings: impl Iterator<Item = &'r [D
     rings.sort_by(|a, b| by_points(a, b));
     state.extend(count(rings.len()));
     rings.iter().for_each(|ring| state.extend(count(ring.len())));
-    for point in rings.iter().flatten() {
+    append_points(state, rings.iter().flatten());
+}
+
+/// Adds the rings of an outline of so many features.
+pub(crate) fn append_outlines(state: &mut Vec<u8>, members: u32, rings: &[Vec<DVec2>]) {
+    let members = std::iter::once(members.min(OUTLINE - 1)).chain(std::iter::repeat(0));
+    for (ring, members) in rings.iter().zip(members) {
+        state.extend((OUTLINE | members).to_le_bytes());
+        state.extend(count(ring.len()));
+        append_points(state, ring.iter());
+    }
+}
+
+fn append_points<'p>(state: &mut Vec<u8>, points: impl Iterator<Item = &'p DVec2>) {
+    for point in points {
         state.extend(point.x.to_le_bytes());
         state.extend(point.y.to_le_bytes());
     }
+}
+
+/// How many features ended in a ring of an outline; none, if it is a feature.
+pub(crate) fn members(feature: &[u8]) -> Result<Option<u32>, Error> {
+    let (words, _) = feature.as_chunks::<COUNT>();
+    let first = u32::from_le_bytes(*words.first().ok_or(SHORT)?);
+    Ok((first & OUTLINE != 0).then_some(first & !OUTLINE))
 }
 
 /// Which of two points is further left, or lower if none is.
@@ -62,15 +88,20 @@ pub(crate) fn split(mut state: &[u8]) -> Result<Vec<&[u8]>, Error> {
     Ok(features)
 }
 
-/// The features of a state, each once, from left to right by the first points of their first rings, which are their lowest from the left.
+/// The features of a state, each once, and the rings of its outlines, from left to right by the first points of their first rings, which are their lowest from the left.
 pub(crate) fn sorted(state: &[u8]) -> Result<Vec<&[u8]>, Error> {
     let mut features: Vec<(u64, &[u8])> = split(state)?
         .into_iter()
         .map(|feature| Ok((rank(feature)?, feature)))
         .collect::<Result<_, Error>>()?;
     features.sort_unstable();
-    features.dedup();
+    features.dedup_by(|a, b| a == b && !is_outline(a.1));
     Ok(features.into_iter().map(|(_, feature)| feature).collect())
+}
+
+/// Whether it is a ring of an outline.
+pub(crate) fn is_outline(feature: &[u8]) -> bool {
+    members(feature).is_ok_and(|members| members.is_some())
 }
 
 /// Where the first x of a feature stands among all numbers.
@@ -92,8 +123,9 @@ fn length(state: &[u8]) -> Result<usize, Error> {
 /// How many points each ring of the first feature has.
 fn counts(state: &[u8]) -> Result<&[[u8; COUNT]], Error> {
     let (words, _) = state.as_chunks::<COUNT>();
-    let (rings, rest) = words.split_first().ok_or(SHORT)?;
-    rest.get(..number(rings)).ok_or(SHORT)
+    let (first, rest) = words.split_first().ok_or(SHORT)?;
+    let rings = if is_outline(state) { 1 } else { number(first) };
+    rest.get(..rings).ok_or(SHORT)
 }
 
 fn number(word: &[u8; COUNT]) -> usize {
