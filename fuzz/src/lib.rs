@@ -3,9 +3,11 @@
 use peak_alloc::PeakAlloc;
 use radiosity::expose::Exposure;
 use radiosity::glam::DVec3;
+use radiosity::inspect::coplanar_overlaps;
+use radiosity::io::Source;
 use radiosity::io::collada::Collada;
 use radiosity::io::gltf::{Gltf, glb};
-use radiosity::{Patch, PatchRecord, Record, Scene};
+use radiosity::{Patch, PatchRecord, Record, Repaired, Scene, needed_sides, repair};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -55,6 +57,24 @@ pub fn survives_writing(scene: &Scene) {
     }
 }
 
+/// Repairs a scene that a file has, writes the file repaired, and reads that.
+///
+/// # Panics
+/// When two repaired patches overlap, or the repaired file is refused.
+pub fn survives_repair(file: &Source, scene: &Scene) {
+    let before = needed_sides(scene);
+    let Repaired { scene: after, .. } = repair(&before);
+    let overlaps = coplanar_overlaps(&after);
+    assert!(overlaps.is_empty(), "{overlaps:?}");
+    let written = match file {
+        Source::Collada(file) => file.repaired(&before, &after).map(String::into_bytes),
+        Source::Gltf(file) => file.repaired(&before, &after),
+        _ => return,
+    };
+    let written = written.expect("a file that was read");
+    Source::from_bytes("repaired", written).and_then(|file| file.scene()).expect("a file that can be read");
+}
+
 /// What a file must keep of a patch, every number to the last bit: −0 is written as 0.
 fn facts(patch: &Patch) -> (Vec<Vec<[u64; 3]>>, Vec<u64>) {
     let bits = |number: f64| (number + 0.0).to_bits();
@@ -64,7 +84,7 @@ fn facts(patch: &Patch) -> (Vec<Vec<[u64; 3]>>, Vec<u64>) {
 }
 
 /// Writes a scene's outlines as fans of triangles, lit alike, as GLB, and reads that. Such a file holds the places relative
-/// to a place, both in single precision.
+/// to a place, both in single precision: the one in binary, the other in decimal digits.
 ///
 /// # Panics
 /// When the file is refused, or its surfaces, seen from all sides, do not have the fans' vertices and areas.
@@ -78,11 +98,12 @@ pub fn survives_lighting(scene: &Scene) {
         return;
     }
     let single = |p: DVec3| p.as_vec3().as_dvec3();
+    let digits = |p: DVec3| p.map(|c| (c as f32).to_string().parse().expect("a number"));
     let (low, high) = record
         .vertices
         .iter()
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
-    let middle = single(low.midpoint(high));
+    let middle = digits(low.midpoint(high));
     let places: Vec<DVec3> = record.vertices.iter().map(|p| single(*p - middle) + middle).collect();
     let read = || again.patches.iter().flat_map(|patch| patch.polygon.loops());
     assert!(read().flatten().all(|p| places.contains(p)), "another place: {record:?}\n{again:?}");

@@ -1,6 +1,7 @@
 //! glTF 2.0 binary: the lit mesh for any viewer.
 use super::buffer::{Buffer, container, single};
 use super::lit::{materials, primitives};
+use super::material::as_written;
 use crate::expose::Exposure;
 use crate::io::error::FileError;
 use crate::record::Record;
@@ -53,7 +54,7 @@ pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
     container(&document, buffer.bytes)
 }
 
-/// The middle of the box around some points, as readers will have it, in single precision; and half the box's diagonal.
+/// The middle of the box around some points, as readers will have it; and half the box's diagonal.
 pub(super) fn ball(points: &[DVec3]) -> (DVec3, f64) {
     let boxes = points.iter().map(|point| (*point, *point));
     let around = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
@@ -61,9 +62,9 @@ pub(super) fn ball(points: &[DVec3]) -> (DVec3, f64) {
     (held(low.midpoint(high)), (high / 2.0 - low / 2.0).length())
 }
 
-/// A place in single precision.
+/// A place as readers will have it: of the digits that single precision needs.
 fn held(place: DVec3) -> DVec3 {
-    place.map(|coordinate| f64::from(single(coordinate)))
+    place.map(|coordinate| as_written(single(coordinate)))
 }
 
 /// From the file's units and axes to metres with y up; right stays right where the format has a right.
