@@ -63,9 +63,11 @@ impl Output {
         let ended = match self.place {
             Place::Stdout => kept(io::stdout().flush()),
             Place::Device(mut file) => file.flush(),
-            Place::New(file, path) => file
-                .map_or_else(|| beside(&path, &self.interrupt), Ok)
-                .and_then(|file| file.as_file().sync_all().and_then(|()| Ok(file.persist(path).map(|_| ())?))),
+            Place::New(file, path) => {
+                file.map_or_else(|| beside(&path, &self.interrupt), Ok).and_then(|file| {
+                    file.as_file().sync_all().and_then(|()| Ok(file.persist(path).map(|_| ())?))
+                })
+            }
         };
         ended.map_err(|error| Failure::write(name, error))
     }
