@@ -5,8 +5,8 @@ use program::{Folder, code, document, numbered, parcels, piped, polycsg, printed
 use serde_json::Value;
 #[cfg(unix)]
 use std::{
+    io::Write,
     process::{Child, ChildStdin, Command, Stdio},
-    time::Duration,
 };
 
 const SQUARE: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]]]}"#;
@@ -260,21 +260,28 @@ fn begun(out: &str) -> (Child, ChildStdin) {
 }
 
 #[cfg(unix)]
+const LINE: &[u8] = b"POLYGON((0 0,1 0,1 1,0 0))\n";
+
+/// It has begun when it has taken more than a pipe holds.
+#[cfg(unix)]
+fn fill(pipe: &mut ChildStdin) {
+    pipe.write_all(&LINE.repeat(20_000)).expect("it reads");
+}
+
+#[cfg(unix)]
 fn send(signal: &str, child: &Child) {
     let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
     assert!(sent.expect("kill").success());
 }
 
-/// While it waits for a pipe that says nothing, it sees no signal.
+/// While it waits for a pipe that says nothing more, it sees no signal.
 #[cfg(unix)]
 #[test]
 fn signals_end_it_while_it_waits_and_leave_nothing() {
     for signal in ["-INT", "-TERM"] {
         let folder = Folder::new();
-        let (mut child, pipe) = begun(&folder.path("out.wkt"));
-        while folder.names().is_empty() {
-            std::thread::sleep(Duration::from_millis(10));
-        }
+        let (mut child, mut pipe) = begun(&folder.path("out.wkt"));
+        fill(&mut pipe);
         send(signal, &child);
         assert_eq!(child.wait().expect("it ends").code(), Some(130), "{signal}");
         assert_eq!(folder.names(), Vec::<String>::new(), "{signal}");
@@ -285,14 +292,11 @@ fn signals_end_it_while_it_waits_and_leave_nothing() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_it_and_leaves_nothing() {
-    use std::io::Write;
     let folder = Folder::new();
     let (child, mut pipe) = begun(&folder.path("out.wkt"));
-    let line = b"POLYGON((0 0,1 0,1 1,0 0))\n".repeat(1000);
-    // It has begun when it has made its file and taken more than a pipe holds.
-    (0..20).for_each(|_| pipe.write_all(&line).expect("it reads"));
+    fill(&mut pipe);
     send("-INT", &child);
-    while pipe.write_all(&line).is_ok() {}
+    while pipe.write_all(LINE).is_ok() {}
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(code(&output), 130, "{}", stderr(&output));
     assert_eq!(folder.names(), Vec::<String>::new());
