@@ -2,9 +2,9 @@
 //! that is the same when it is written and read.
 #![no_main]
 use arbitrary::Arbitrary;
-use fuzz::{survives_writing, within_memory};
+use fuzz::{survives_repair, survives_writing, within_memory};
 use libfuzzer_sys::fuzz_target;
-use radiosity::io::collada::Collada;
+use radiosity::io::{Source, collada::Collada};
 
 #[derive(Arbitrary, Debug)]
 enum Input<'a> {
@@ -51,11 +51,12 @@ fuzz_target!(|input: Input| {
         Ok(scene) => {
             for patch in &scene.patches {
                 assert!(patch.polygon.area() > 0.0, "{} has no area", patch.name);
-                // More than 1 comes through: `inspect` names it, and `solve` refuses it by name.
+                // More than 1 comes through: `inspect` names it, and `repair` limits it.
                 let numbers = patch.reflectance.iter().chain(&patch.emission);
                 assert!(numbers.clone().all(|r| r.is_finite() && *r >= 0.0), "{}: nonsense", patch.name);
             }
             survives_writing(&scene);
+            survives_repair(&Source::Collada(file), &scene);
         }
     }
 });

@@ -2,9 +2,9 @@
 //! that is the same when it is written and read, as COLLADA and, its triangles, as GLB.
 #![no_main]
 use arbitrary::Arbitrary;
-use fuzz::{survives_lighting, survives_writing, within_memory};
+use fuzz::{survives_lighting, survives_repair, survives_writing, within_memory};
 use libfuzzer_sys::fuzz_target;
-use radiosity::io::gltf::Gltf;
+use radiosity::io::{Source, gltf::Gltf};
 use serde_json::{Value, json};
 
 #[derive(Arbitrary, Debug)]
@@ -60,7 +60,8 @@ fuzz_target!(|input: Input| {
         Input::File(file) => container(&file),
     };
     let length = bytes.len();
-    match within_memory(length, || Gltf::from_bytes("fuzz.glb", bytes).scene()) {
+    let file = Gltf::from_bytes("fuzz.glb", bytes);
+    match within_memory(length, || file.scene()) {
         Err(e) => assert!(e.to_string().contains("fuzz.glb"), "which file? {e}"),
         Ok(scene) => {
             for patch in &scene.patches {
@@ -68,6 +69,7 @@ fuzz_target!(|input: Input| {
                 assert!(patch.reflectance.iter().chain(&patch.emission).all(|value| value.is_finite()));
             }
             survives_lighting(&scene);
+            survives_repair(&Source::Gltf(file), &scene);
             // What a picture reflects on the whole is summed over the pieces of a surface.
             if scene.patches.iter().all(|patch| patch.texture.is_none()) {
                 survives_writing(&scene);

@@ -3,9 +3,11 @@
 use peak_alloc::PeakAlloc;
 use radiosity::expose::Exposure;
 use radiosity::glam::DVec3;
+use radiosity::inspect::coplanar_overlaps;
+use radiosity::io::Source;
 use radiosity::io::collada::Collada;
 use radiosity::io::gltf::{Gltf, glb};
-use radiosity::{Patch, PatchRecord, Record, Scene};
+use radiosity::{Patch, PatchRecord, Record, Repaired, Scene, needed_sides, repair};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -53,6 +55,24 @@ pub fn survives_writing(scene: &Scene) {
     if scene.cameras.is_empty() {
         assert_eq!(Collada::of(&again).text(), written.text());
     }
+}
+
+/// Repairs a scene that a file has, writes the file repaired, and reads that.
+///
+/// # Panics
+/// When two repaired patches overlap, or the repaired file is refused.
+pub fn survives_repair(file: &Source, scene: &Scene) {
+    let before = needed_sides(scene);
+    let Repaired { scene: after, .. } = repair(&before);
+    let overlaps = coplanar_overlaps(&after);
+    assert!(overlaps.is_empty(), "{overlaps:?}");
+    let written = match file {
+        Source::Collada(file) => file.repaired(&before, &after).map(String::into_bytes),
+        Source::Gltf(file) => file.repaired(&before, &after),
+        _ => return,
+    };
+    let written = written.expect("a file that was read");
+    Source::from_bytes("repaired", written).and_then(|file| file.scene()).expect("a file that can be read");
 }
 
 /// What a file must keep of a patch, every number to the last bit: −0 is written as 0.

@@ -1,27 +1,104 @@
 //! Scenes and solutions from files, or from standard input.
 use crate::failure::Failure;
-use radiosity::inspect::in_one_line;
-use radiosity::{Record, Scene, io::Source};
+use clap::Args;
+use radiosity::inspect::{Finding, KindSummary, in_one_line, summary};
+use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair};
 use serde::Deserialize;
 use std::{io::Read, path::Path};
 
 /// The name that stands for standard input and output.
 pub(crate) const STREAM: &str = "-";
 
-/// Reads a scene and its file; prints what the reader had to say on stderr, in a line.
-pub(crate) fn read(path: &Path) -> Result<(Scene, Source), Failure> {
+/// How scenes are read for a solution.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(crate) struct Reading {
+    /// Refuse a scene whose surfaces need repair, and list what is wrong with them, instead of repairing them
+    #[arg(long)]
+    pub(crate) strict: bool,
+    #[command(flatten)]
+    pub(crate) sides: Sides,
+}
+
+/// Which sides of surfaces are read.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(crate) struct Sides {
+    /// Take the fronts of double-sided materials alone
+    #[arg(long)]
+    pub(crate) one_sided: bool,
+}
+
+/// A scene that can be solved, its file, and what was repaired.
+#[derive(Debug)]
+pub(crate) struct RepairedInput {
+    pub(crate) scene: Scene,
+    pub(crate) source: Source,
+    pub(crate) repairs: Vec<KindSummary>,
+}
+
+/// Reads a scene and repairs it; prints what the reader had to say on stderr, and in a line what was repaired.
+pub(crate) fn read_repaired(path: &Path, reading: Reading) -> Result<RepairedInput, Failure> {
     let (scene, source) = read_quietly(path)?;
-    if let Some(line) = in_one_line(&scene.warnings) {
-        let more = match scene.warnings.len() {
-            1 => String::new(),
+    let Repaired { scene, repairs, .. } = repair(&reading.sides.of(&scene));
+    if reading.strict && !repairs.is_empty() {
+        return Err(refusal(path, &repairs));
+    }
+    let notes = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_none()).cloned();
+    tell(path, &notes.collect::<Vec<_>>());
+    let repairs = summary(&repairs);
+    if !repairs.is_empty() {
+        eprintln!("warning: repaired: {}; inspect lists them, --strict refuses them", counts(&repairs));
+    }
+    Ok(RepairedInput { scene, source, repairs })
+}
+
+/// One line on stderr for all that the reader had to say.
+fn tell(path: &Path, notes: &[Finding]) {
+    if let Some(line) = in_one_line(notes) {
+        let more = match notes {
+            [_] => String::new(),
             _ => format!("; `radiosity inspect {}` says where, and what to do", path.display()),
         };
         eprintln!("warning: {line}{more}");
     }
+}
+
+impl Sides {
+    /// The scene with the sides that are asked for.
+    pub(crate) fn of(self, scene: &Scene) -> Scene {
+        if self.one_sided { one_sided(scene) } else { needed_sides(scene) }
+    }
+}
+
+/// All findings at once.
+pub(crate) fn refusal(path: &Path, repairs: &[Finding]) -> Failure {
+    let line = |finding: &Finding| {
+        let names = finding.patches.join(", ");
+        let gap = if names.is_empty() { "" } else { ": " };
+        format!("\n  {names}{gap}{finding}")
+    };
+    let (kinds, lines) = (summary(repairs), repairs.iter().map(line).collect::<String>());
+    let counts: Vec<String> = kinds.iter().map(KindSummary::counted).collect();
+    Failure::scene(format!(
+        "{}: {}; leave out --strict to have them repaired{lines}",
+        path.display(),
+        counts.join(", ")
+    ))
+}
+
+/// How many of each kind, and what became of them.
+pub(crate) fn counts(repairs: &[KindSummary]) -> String {
+    let count = |kind: &KindSummary| format!("{} {}", kind.counted(), kind.remedy.unwrap_or_default());
+    repairs.iter().map(count).collect::<Vec<_>>().join(", ")
+}
+
+/// Reads a scene as it is in its file; prints what the reader had to say on stderr.
+pub(crate) fn read(path: &Path) -> Result<(Scene, Source), Failure> {
+    let (scene, source) = read_quietly(path)?;
+    tell(path, &scene.warnings);
     Ok((scene, source))
 }
 
-/// Reads a scene and its file; what the reader had to say stays in the scene.
+/// Reads a scene as it is in its file; what the reader had to say stays in the scene.
 pub(crate) fn read_quietly(path: &Path) -> Result<(Scene, Source), Failure> {
     let source = if path == Path::new(STREAM) {
         Source::from_bytes("standard input", bytes(path)?)?

@@ -1,5 +1,5 @@
 //! What `--json` prints.
-use radiosity::inspect::Finding;
+use radiosity::inspect::{Finding, KindSummary};
 use radiosity::{Record, Scene, Solution};
 use serde::Serialize;
 
@@ -7,6 +7,8 @@ use serde::Serialize;
 #[derive(Debug, Serialize)]
 pub(crate) struct Figures<'s> {
     scene: &'s str,
+    /// What was repaired while reading.
+    repairs: &'s [KindSummary],
     elements: usize,
     shots: usize,
     products: usize,
@@ -52,14 +54,20 @@ struct PatchFigures<'s> {
 }
 
 impl<'s> Figures<'s> {
-    /// The figures of `solution`, the solution of `scene`, read from the file `name`.
-    pub(crate) fn new(name: &'s str, scene: &'s Scene, solution: &'s Solution) -> Figures<'s> {
+    /// The figures of `solution`, the solution of `scene`, read from the file `name` with some repairs.
+    pub(crate) fn new(
+        name: &'s str,
+        scene: &'s Scene,
+        repairs: &'s [KindSummary],
+        solution: &'s Solution,
+    ) -> Figures<'s> {
         let ledger = &solution.ledger;
         let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
         let patches = scene.patches.iter().zip(irradiance).zip(radiosity).enumerate();
         Figures {
             scene: name,
+            repairs,
             elements: solution.mesh.elements.len(),
             shots: solution.shots,
             products: solution.products,

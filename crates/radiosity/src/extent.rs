@@ -1,7 +1,11 @@
-//! Boxes around patches.
+//! Boxes around patches, and which of them meet.
 use crate::scene::patch::Patch;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
+use rstar::{
+    AABB, RTree,
+    primitives::{GeomWithData, Rectangle},
+};
 
 /// The least box with sides along the axes that holds a patch.
 #[derive(Clone, Copy, Debug)]
@@ -18,9 +22,20 @@ impl Extent {
 
     /// The box of a polygon.
     pub(crate) fn around(polygon: &PlanarPolygon) -> Extent {
-        let points = || polygon.loops().flatten().copied();
-        let low = points().fold(DVec3::INFINITY, DVec3::min);
-        Extent { low, high: points().fold(DVec3::NEG_INFINITY, DVec3::max) }
+        Extent::holding(polygon.loops().flatten())
+    }
+
+    /// The box of some points.
+    pub(crate) fn holding<'p>(points: impl IntoIterator<Item = &'p DVec3>) -> Extent {
+        let none = Extent { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        points
+            .into_iter()
+            .fold(none, |Extent { low, high }, point| Extent { low: low.min(*point), high: high.max(*point) })
+    }
+
+    /// The box that is larger by `distance` on every side.
+    pub(crate) fn grown(&self, distance: f64) -> Extent {
+        Extent { low: self.low - distance, high: self.high + distance }
     }
 
     /// The box of some points.
@@ -56,8 +71,32 @@ impl Extent {
         !(self.low.cmpgt(other.high + margin) | other.low.cmpgt(self.high + margin)).any()
     }
 
-    /// The largest magnitude of a coordinate.
-    pub(crate) fn reach(&self) -> f64 {
-        self.low.abs().max(self.high.abs()).max_element()
+    /// The length of the diagonal.
+    pub(crate) fn diagonal(&self) -> f64 {
+        (self.high - self.low).length()
+    }
+}
+
+/// Boxes in a tree: those that meet a box are found in O(log n + k) where they are spread out.
+#[derive(Debug)]
+pub(crate) struct BoxTree(RTree<GeomWithData<Rectangle<[f64; 3]>, usize>>);
+
+impl BoxTree {
+    /// O(n log n).
+    pub(crate) fn new(extents: impl IntoIterator<Item = Extent>) -> BoxTree {
+        let numbered = extents.into_iter().enumerate();
+        let boxes = numbered.map(|(index, Extent { low, high })| {
+            GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index)
+        });
+        BoxTree(RTree::bulk_load(boxes.collect()))
+    }
+
+    /// The indices of the boxes that meet this one, ascending.
+    pub(crate) fn meeting(&self, extent: &Extent) -> Vec<usize> {
+        let envelope = AABB::from_corners(extent.low.to_array(), extent.high.to_array());
+        let found = self.0.locate_in_envelope_intersecting(&envelope);
+        let mut indices: Vec<usize> = found.map(|geometry| geometry.data).collect();
+        indices.sort_unstable();
+        indices
     }
 }

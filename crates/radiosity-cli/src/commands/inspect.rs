@@ -1,11 +1,11 @@
 //! `radiosity inspect`
 use crate::digits::{own_digits, six_digits};
 use crate::failure::Failure;
+use crate::input::{self, Sides};
+use crate::json;
 use crate::outputs::print;
-use crate::{input, json};
 use clap::Args;
-use radiosity::inspect::{Finding, Inspection, KindSummary, inspect};
-use radiosity::io::{self, collada::Collada};
+use radiosity::inspect::{Finding, Inspection, KindSummary, inspect, summary};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
@@ -23,24 +23,31 @@ pub(crate) struct Inspect {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Cut faces that overlap in one plane out of each other; needs -o
+    #[command(flatten)]
+    sides: Sides,
+    /// Repair the surfaces, as solve does while reading; needs -o
     #[arg(long, requires = "output")]
     repair: bool,
-    /// Write the repaired scene to this file, as COLLADA
+    /// Write the repaired file to this file, in the format of its extension; of COLLADA and glTF only what was cut changes
     #[arg(short, long, value_name = "FILE", requires = "repair")]
     output: Option<PathBuf>,
 }
 
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
 pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
-    let (scene, _) = input::read_quietly(&arguments.scene)?;
+    let (scene, source) = input::read_quietly(&arguments.scene)?;
+    let scene = arguments.sides.of(&scene);
     let inspection = inspect(&scene);
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if let Some(path) = &arguments.output {
-        let (repaired, changes) = radiosity::repair(&scene);
-        io::save(path, Collada::of(&repaired).text().as_bytes())?;
-        changes.iter().for_each(|change| eprintln!("{change}"));
-        eprintln!("{} patches changed; written to {}", changes.len(), path.display());
+        let repaired = radiosity::repair(&scene);
+        let left_out = source.save_repaired(&scene, &repaired.scene, path)?;
+        let repairs = summary(&repaired.repairs);
+        let what = if repairs.is_empty() { "nothing".to_owned() } else { input::counts(&repairs) };
+        eprintln!("repaired: {what}; written to {}", path.display());
+        if !left_out.is_empty() {
+            eprintln!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
+        }
     }
     Ok(ExitCode::SUCCESS)
 }

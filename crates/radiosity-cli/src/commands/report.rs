@@ -1,6 +1,6 @@
 //! `radiosity report`
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, Reading};
 use crate::outputs::Output;
 use clap::Args;
 use radiosity::{Scene, io, scenes};
@@ -63,7 +63,9 @@ fn plan(arguments: &Report) -> Result<Plan, Failure> {
 fn scene(name: &str) -> Result<Scene, Failure> {
     let scene = match scenes::scene(name) {
         Some(scene) => scene,
-        None if Path::new(name).extension().is_some() => input::read(Path::new(name))?.0,
+        None if Path::new(name).extension().is_some() => {
+            input::read_repaired(Path::new(name), Reading::default())?.scene
+        }
         None => {
             let known: Vec<_> = scenes::names().collect();
             let known = known.join(", ");

@@ -4,9 +4,9 @@
 //! openness     how much of the view from the patches leaves the scene
 //! cost         how long the form factors will take
 //! junction     vertices that end in the middle of another patch's edge
-//! overlap      patches that cover each other in one plane, duplicates among them
+//! overlap      patches that cover each other in one plane
 //! orientation  neighbours that face opposite ways
-//! surface      impossible reflectances, patches that are thinner than rounding
+//! surface      what the reader told, whether there is light, and what repair finds
 //! summary      findings by kind: how many, and whether they matter
 //! ```
 //! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
@@ -15,7 +15,7 @@ mod cost;
 mod junction;
 mod openness;
 mod orientation;
-pub(crate) mod overlap;
+mod overlap;
 mod summary;
 mod surface;
 
@@ -23,7 +23,7 @@ pub use crate::scene::finding::{Finding, Kind, in_one_line};
 pub use cost::Cost;
 pub use openness::Opening;
 pub use overlap::coplanar_overlaps;
-pub use summary::KindSummary;
+pub use summary::{KindSummary, summary};
 
 use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
@@ -84,12 +84,7 @@ pub struct Emitter {
 /// ```
 #[must_use]
 pub fn inspect(scene: &Scene) -> Inspection {
-    let findings = [
-        surface::findings(scene),
-        orientation::findings(scene),
-        overlap::coplanar_overlaps(scene),
-        junction::findings(scene),
-    ];
+    let findings = [surface::findings(scene), orientation::findings(scene), junction::findings(scene)];
     let mut findings: Vec<Finding> = findings.into_iter().flatten().collect();
     findings.sort_by_key(|finding| finding.kind);
     let (opening, cost) = openness::openness(scene);
@@ -106,7 +101,7 @@ pub fn inspect(scene: &Scene) -> Inspection {
         emitters: emitters(scene),
         closed: opening.as_ref().is_some_and(Opening::is_none),
         opening,
-        summary: summary::summary(&findings),
+        summary: summary(&findings),
         findings,
         cost,
     }

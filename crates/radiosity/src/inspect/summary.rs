@@ -16,19 +16,30 @@ pub struct KindSummary {
     pub matters: bool,
     /// What they do to a solution.
     pub effect: &'static str,
+    /// What reading does about them, as [`Kind::remedy`] says.
+    pub remedy: Option<&'static str>,
+}
+
+impl KindSummary {
+    /// How many of which kind: `93 T-junctions`.
+    #[must_use]
+    pub fn counted(&self) -> String {
+        let [one, many] = self.kind.nouns();
+        let noun = if self.count == 1 { one } else { many };
+        format!("{} {noun}", self.count)
+    }
 }
 
 impl fmt::Display for KindSummary {
     /// `93 T-junctions: form factors do not mind`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [one, many] = self.kind.nouns();
-        let noun = if self.count == 1 { one } else { many };
-        write!(f, "{} {noun}: {}", self.count, self.effect)
+        write!(f, "{}: {}", self.counted(), self.effect)
     }
 }
 
 /// One entry a kind, those first that trouble a solution most.
-pub(super) fn summary(findings: &[Finding]) -> Vec<KindSummary> {
+#[must_use]
+pub fn summary(findings: &[Finding]) -> Vec<KindSummary> {
     let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
     for finding in findings {
         *counts.entry(finding.kind).or_default() += 1;
@@ -38,6 +49,7 @@ pub(super) fn summary(findings: &[Finding]) -> Vec<KindSummary> {
         count,
         matters: kind.matters(),
         effect: kind.effect(),
+        remedy: kind.remedy(),
     };
     counts.into_iter().map(entry).collect()
 }

@@ -4,7 +4,8 @@ use super::element::{Element, Mesh};
 use super::tree::{Node, grow};
 use super::triangulate::triangulate;
 use super::{
-    contacts::contacts, frame::Frame, outline::Flat, plan::Plan, refusal::MeshRefusal, split::split,
+    contacts::contacts, convex::convex_parts, frame::Frame, outline::Flat, plan::Plan, refusal::MeshRefusal,
+    split::split,
 };
 use crate::error::Error;
 use crate::extent::Extent;
@@ -87,4 +88,13 @@ impl Subdivision {
         self.mesh.elements.extend(triangles.into_iter().map(element));
         Ok(())
     }
+}
+
+/// Whether a polygon by itself can be cut: into elements, and into convex parts.
+pub(crate) fn can_be_divided(polygon: &PlanarPolygon) -> bool {
+    let frame = Frame::new(polygon);
+    // A cell as large as the polygon: what is in the way of a coarse mesh is in the way of a fine one.
+    let division = Division { contacts: &[], shadows: &[], spacing: frame.unit(), levels: &[] };
+    divide(polygon, &division, &frame).and_then(|points| triangulate(&points)).is_ok()
+        && convex_parts(polygon, &frame).is_ok()
 }

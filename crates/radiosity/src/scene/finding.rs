@@ -112,6 +112,8 @@ pub enum Kind {
     Sliver,
     /// A polygon without area, which was left out.
     NoArea,
+    /// Vertices that lie beside those of a neighbour, by what single precision rounds away.
+    Crack,
     /// A vertex that ends in the middle of another patch's edge.
     TJunction,
 }
@@ -120,7 +122,22 @@ impl Kind {
     /// Whether it changes the light, so that a solution is not that of the scene which the file's author had in mind.
     #[must_use]
     pub fn matters(self) -> bool {
-        !matches!(self, Kind::NoArea | Kind::TJunction)
+        !matches!(self, Kind::NoArea | Kind::Crack | Kind::TJunction)
+    }
+
+    /// What reading or [`repair()`](crate::repair()) does about it, in a word or two; `None` where it stays as it is.
+    #[must_use]
+    pub fn remedy(self) -> Option<&'static str> {
+        match self {
+            Kind::Reflectance => Some("limited"),
+            Kind::Duplicate => Some("removed"),
+            Kind::EmitterInFace => Some("cut out"),
+            Kind::Overlap => Some("cut"),
+            Kind::NonPlanar => Some("split"),
+            Kind::Sliver | Kind::NoArea => Some("left out"),
+            Kind::Crack => Some("closed"),
+            Kind::Dark | Kind::File | Kind::Flipped | Kind::TJunction => None,
+        }
     }
 
     /// What it does to a solution, in a clause.
@@ -136,6 +153,7 @@ impl Kind {
             Kind::NonPlanar => "their triangles are a guess at the surface",
             Kind::Sliver => "their own light is uncertain",
             Kind::NoArea => "nothing was lost",
+            Kind::Crack => "what leaks is less than rounding of the file",
             Kind::TJunction => "form factors do not mind; interpolated light may show a seam",
         }
     }
@@ -154,6 +172,7 @@ impl Kind {
             Kind::NonPlanar => ["surface that is not planar", "surfaces that are not planar"],
             Kind::Sliver => ["sliver", "slivers"],
             Kind::NoArea => ["surface with empty polygons", "surfaces with empty polygons"],
+            Kind::Crack => ["crack", "cracks"],
             Kind::TJunction => ["T-junction", "T-junctions"],
         }
     }

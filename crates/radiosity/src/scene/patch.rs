@@ -21,6 +21,8 @@ pub struct Patch {
     pub smoothing: Option<usize>,
     /// Whether the patch only blocks light: it sends none and its own light is of no interest.
     pub only_blocks: bool,
+    /// Whether it is the second side of a surface that the file calls double-sided; its first side is the patch before it.
+    pub is_back: bool,
     /// The place in the file.
     pub origin: Origin,
 }
@@ -44,8 +46,9 @@ impl Patch {
         emission: Vec<f64>,
     ) -> Patch {
         let name = name.into();
-        let (texture, smoothing, only_blocks, origin) = (None, None, false, Origin::default());
-        Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, origin }
+        let (texture, smoothing, only_blocks, is_back, origin) =
+            (None, None, false, false, Origin::default());
+        Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, is_back, origin }
     }
 
     /// The reflectance per band of a triangle on the patch: the patch's own, or the mean of the texture over the triangle.

@@ -68,7 +68,8 @@ pub(super) fn perforated() -> Model {
     let outline = square([0.0, 0.0], PANEL, PANEL_HEIGHT);
     let holes = HOLES.into_iter().flat_map(|y| HOLES.map(|x| turned(square([x, y], HOLE, PANEL_HEIGHT))));
     let loops = std::iter::once(outline).chain(holes).map(|corners| corners.map(DVec3::from).to_vec());
-    let panel = Face { name: "panel".into(), material: OCCLUDER, polygons: vec![loops.collect()] };
+    let panel =
+        Face { name: "panel".into(), material: OCCLUDER, polygons: vec![loops.collect()], texture: None };
     model("Barreto 2008, figure 4.6: lit spots under the holes of a panel", vec![ceiling_lamp(), panel], 0.5)
 }
 

@@ -50,7 +50,7 @@ pub(super) const WALLS: [(&str, usize, Quad); 5] = [
 
 pub(super) fn cornell_box() -> Model {
     let wall = |(name, material, corners)| match name {
-        "ceiling" => Face { name: "ceiling".into(), material, polygons: ceiling() },
+        "ceiling" => Face { name: "ceiling".into(), material, polygons: ceiling(), texture: None },
         "left" => face(name, material, halves(corners)),
         _ => quad(name, material, corners),
     };

@@ -22,7 +22,7 @@ pub(super) fn cube() -> Model {
     let whole = room([0; 6], [DVec3::ZERO, DVec3::ONE]);
     let mut faces: Vec<Face> = whole.iter().map(|side| cells(side, 6)).collect();
     let shining = faces[1].polygons.swap_remove(14);
-    faces.push(Face { name: "lamp".into(), material: 1, polygons: vec![shining] });
+    faces.push(Face { name: "lamp".into(), material: 1, polygons: vec![shining], texture: None });
     model(
         "A closed cube of 216 patches, one of them a lamp",
         vec![surface("grey", [0.9; 3]), lamp(0.9, 10.0)],

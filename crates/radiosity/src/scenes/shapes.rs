@@ -27,7 +27,7 @@ pub(super) fn lamp(reflectance: f64, radiance: f64) -> Material {
 /// A face of several polygons without holes.
 pub(super) fn face(name: &str, material: usize, outlines: impl IntoIterator<Item = Vec<DVec3>>) -> Face {
     let polygons = outlines.into_iter().map(|outline| vec![outline]).collect();
-    Face { name: name.into(), material, polygons }
+    Face { name: name.into(), material, polygons, texture: None }
 }
 
 pub(super) fn quad(name: &str, material: usize, corners: Quad) -> Face {

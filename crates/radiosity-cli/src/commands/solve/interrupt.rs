@@ -61,7 +61,7 @@ impl<'o> Follower<'o> {
             outputs,
             bar: Bar::new(tolerance),
             steps: Steps::new(outputs.arguments.steps.as_deref()),
-            recorder: outputs.arguments.record.then(|| Recorder::new(outputs.scene)),
+            recorder: outputs.arguments.record.then(|| Recorder::new(&outputs.input.scene)),
             state: outputs.arguments.output.iter().find(|path| !is_stream(path)).map(|path| {
                 let mut name = path.clone().into_os_string();
                 name.push(".state");

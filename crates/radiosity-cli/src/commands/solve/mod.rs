@@ -37,12 +37,13 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     }
     let options = options(arguments)?;
     let outputs = Output::all(&arguments.output, &arguments.format)?;
-    let (scene, source) = input::read(&arguments.scene)?;
-    warn_of_darkness(&scene);
+    let input = input::read_repaired(&arguments.scene, arguments.reading)?;
+    let scene = &input.scene;
+    warn_of_darkness(scene);
     let mut state = resume(arguments.resume.as_deref())?;
-    let writer = SolveOutputs { arguments, outputs: &outputs, source: &source, scene: &scene };
+    let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
-    let solution = radiosity::solve_from(&scene, &options, &mut state, |progress| follower.follow(progress));
+    let solution = radiosity::solve_from(scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json {
         print(&figures)?;
     }
-    report(&scene, &solution);
+    report(scene, &solution);
     Ok(follower.code(&solution))
 }
 

@@ -1,5 +1,6 @@
 //! The options of `radiosity solve`, and those of the solver that they lead to.
 use crate::failure::Failure;
+use crate::input::Reading;
 use crate::parse::{count, positive, share};
 use crate::view_options::ViewOptions;
 use clap::{Args, ValueEnum};
@@ -11,6 +12,8 @@ use std::path::PathBuf;
 pub(crate) struct Solve {
     /// The scene: a COLLADA (.dae), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), STL (.stl) or View3D (.vs3) file; - for standard input
     pub(super) scene: PathBuf,
+    #[command(flatten)]
+    pub(super) reading: Reading,
     /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb, .obj, .ply), a page (.html),
     /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); - for stdout; may be given several times
     #[arg(short, long, value_name = "FILE")]

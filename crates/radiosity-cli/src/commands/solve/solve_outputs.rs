@@ -1,25 +1,25 @@
 //! Every output of a solution.
 use super::options::Solve;
 use crate::failure::Failure;
+use crate::input::RepairedInput;
 use crate::json;
 use crate::outputs::{Contents, Output};
-use radiosity::{Record, Recording, Scene, Solution, io};
+use radiosity::{Record, Recording, Solution};
 
 /// What results are written with.
 #[derive(Debug)]
 pub(super) struct SolveOutputs<'s> {
     pub(super) arguments: &'s Solve,
     pub(super) outputs: &'s [Output],
-    pub(super) source: &'s io::Source,
-    pub(super) scene: &'s Scene,
+    pub(super) input: &'s RepairedInput,
 }
 
 impl SolveOutputs<'_> {
     /// Writes every output, with the steps of the run where they are known; gives the figures.
     pub(super) fn write(&self, solution: &Solution, recording: Option<Recording>) -> Result<String, Failure> {
-        let &SolveOutputs { arguments, outputs, source, scene } = self;
+        let &SolveOutputs { arguments, outputs, input: RepairedInput { scene, source, repairs } } = self;
         let name = arguments.scene.display().to_string();
-        let figures = json::Figures::new(&name, scene, solution);
+        let figures = json::Figures::new(&name, scene, repairs, solution);
         if !outputs.is_empty() {
             let view = &arguments.view;
             let record = &Record { recording, ..Record::new(&name, scene, solution) };

@@ -228,7 +228,7 @@ fn node(index: usize, face: &Face, material: &Material) -> String {
 
 fn geometry(index: usize, face: &Face, material: &Material) -> String {
     let (points, numbers) = points(face);
-    let places = material.texture.as_ref().map(|texture| {
+    let places = face.texture.as_ref().or(material.texture.as_ref()).map(|texture| {
         let place = |point: &DVec3| texture.place(*point);
         // COLLADA counts from the lower left corner.
         points.iter().map(place).map(|place| vec![place.x, 1.0 - place.y]).collect::<Vec<_>>()

@@ -1,6 +1,6 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
 use super::file::{File, XmlNode, child, children, descend};
-use super::{images::Images, spectra::spectra};
+use super::{images::Images, spectra::spectra, walk::Instance};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Finish;
 use crate::scene::finding::Finding;
@@ -46,6 +46,22 @@ pub(super) fn finish<'a>(
         }
         other => Ok(Finish { reflectance: other.colour(file)?, emission, image: None, spectra }),
     }
+}
+
+/// Whether an `<extra>` of the effect or of the geometry says that the surface has two sides, as exporters say it.
+pub(super) fn is_double_sided<'a>(
+    file: &File<'a>,
+    instance: &Instance<'a>,
+    symbol: Option<&str>,
+) -> Result<bool, FileError> {
+    let material = symbol.map_or(Ok(None), |symbol| bound(file, instance.element, symbol))?;
+    let effect = material.and_then(|material| child(material, "instance_effect"));
+    let effect = effect.and_then(|effect| file.target(effect, "url", "effect").ok());
+    let told = effect.into_iter().flat_map(|effect| effect.descendants());
+    let told = told.chain(children(instance.geometry, "extra").flat_map(|extra| extra.descendants()));
+    let mut flags =
+        told.filter(|node| node.tag_name().name() == "double_sided").filter_map(|node| node.text());
+    Ok(flags.any(|flag| matches!(flag.trim(), "1" | "true")))
 }
 
 /// The `<instance_material>` of that symbol, or, since some exporters bind nothing, the material of that id.

@@ -19,15 +19,19 @@ mod material;
 pub(crate) mod model;
 mod patches;
 mod primitive;
+mod repaired;
 mod spectra;
+mod splice;
 mod transform;
 mod unread;
+mod vertices;
 mod walk;
 mod write;
 
 use super::error::FileError;
 use super::save::bytes_of;
 use crate::expose::Exposure;
+use crate::io::surface::changes::changes;
 use crate::mesh::element::Mesh;
 use crate::scene::{Scene, asset::Asset};
 use compose::text;
@@ -108,6 +112,20 @@ impl Collada {
     /// As [`Collada::scene`].
     pub fn with_light(&self, scene: &Scene, mesh: &Mesh, colours: &[[f64; 3]]) -> Result<String, FileError> {
         self.with_file(|file| write::with_light(&self.text, file, &write::LitScene { scene, mesh, colours }))
+    }
+
+    /// The file's text with the polygons of a repaired scene: those that were cut give way to their pieces, and everything else stays byte
+    /// for byte. Polygons behind which nothing changed keep their vertices bit for bit.
+    ///
+    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). A file that has no room for more vertices is
+    /// written anew, as by [`Collada::of`].
+    ///
+    /// # Errors
+    /// As [`Collada::scene`].
+    pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<String, FileError> {
+        let changes = changes(before, after);
+        let spliced = self.with_file(|file| repaired::repaired(&self.text, file, &changes))?;
+        Ok(spliced.unwrap_or_else(|| Self::of(after).text))
     }
 
     /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte

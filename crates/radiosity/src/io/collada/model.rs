@@ -1,8 +1,8 @@
 //! A scene on its way to becoming a file: named faces and their materials.
-use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Texture};
+use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Image, texture::Texture};
 use crate::spectrum::Colours;
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::Arc};
 
 /// All that a new file holds.
 #[derive(Debug)]
@@ -34,31 +34,43 @@ pub(crate) struct Face {
     /// Which of the model's materials.
     pub(crate) material: usize,
     pub(crate) polygons: Vec<Vec<Vec<DVec3>>>,
+    /// How the material's picture lies on it, where not as the material has it.
+    pub(crate) texture: Option<Texture>,
 }
 
 impl Model {
     /// A node for every patch, a material for every kind of surface.
     pub(crate) fn of(scene: &Scene) -> Model {
         let (mut materials, mut known) = (Vec::new(), BTreeMap::new());
-        let mut face = |(index, patch): (usize, &Patch)| {
-            let material = *known.entry(kind(index, patch)).or_insert_with(|| {
+        let mut face = |patch: &Patch| {
+            let material = *known.entry(kind(patch)).or_insert_with(|| {
                 materials.push(Material::of(materials.len(), patch));
                 materials.len() - 1
             });
             let polygon = patch.polygon.loops().map(<[DVec3]>::to_vec).collect();
-            Face { name: patch.name.clone(), material, polygons: vec![polygon] }
+            Face {
+                name: patch.name.clone(),
+                material,
+                polygons: vec![polygon],
+                texture: patch.texture.clone(),
+            }
         };
-        let faces = scene.patches.iter().enumerate().map(&mut face).collect();
+        let faces = scene.patches.iter().map(&mut face).collect();
         let title = "Written from another scene file".to_owned();
         let (asset, wavelengths, cameras) = (scene.asset, scene.wavelengths.clone(), scene.cameras.clone());
         Model { title, asset, wavelengths, materials, faces, cameras }
     }
 }
 
-/// What patches of one material have in common: the bits of their colours; a textured patch is a kind of its own.
-fn kind(index: usize, patch: &Patch) -> (Vec<u64>, Option<usize>) {
-    let colours = patch.reflectance.iter().chain(&patch.emission).map(|number| number.to_bits());
-    (colours.collect(), patch.texture.as_ref().map(|_| index))
+/// What patches of one material have in common: the bits of their colours, and the picture that they show.
+fn kind(patch: &Patch) -> (Vec<u64>, Option<*const Image>) {
+    let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+    match &patch.texture {
+        None => ([bits(&patch.reflectance), bits(&patch.emission)].concat(), None),
+        Some(texture) => {
+            ([bits(&texture.factor), bits(&patch.emission)].concat(), Some(Arc::as_ptr(&texture.image)))
+        }
+    }
 }
 
 impl Material {

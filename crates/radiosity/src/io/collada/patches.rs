@@ -1,7 +1,7 @@
 //! From instances to patches: each primitive with its material, where the node puts it.
 use super::primitive::{Primitive, primitives};
 use super::walk::{Instance, name_of};
-use super::{file::File, images::Images, material::finish};
+use super::{file::File, images::Images, material::finish, material::is_double_sided};
 use crate::io::error::FileError;
 use crate::io::surface::place::Surfaces;
 use crate::io::{surface::facets, surface::finish::Surface};
@@ -35,7 +35,7 @@ pub(super) fn patches<'a>(
                 facets: &facets,
                 world: instance.visit.world,
                 finish,
-                two_sided: false,
+                two_sided: is_double_sided(file, instance, primitive.material)?,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
             };
             let added = surfaces.add(&surface, warnings);

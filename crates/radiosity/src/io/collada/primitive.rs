@@ -75,7 +75,10 @@ fn polygons<'a>(
     let outlines = |rings: Vec<Vec<Corner>>| rings.into_iter().map(|ring| vec![ring]);
     let mut all = Vec::new();
     match element.tag_name().name() {
-        "polylist" => all.extend(outlines(polylist(file, element, &points)?)),
+        "polylist" => {
+            let ring = child(element, "p").map_or(Ok(Vec::new()), |p| points.ring(p))?;
+            all.extend(outlines(polylist(file, element, &ring)?));
+        }
         "polygons" => all = with_holes(file, element, &points)?,
         tag => {
             for p in children(element, "p") {
@@ -89,16 +92,18 @@ fn polygons<'a>(
 
 /// Where the position's index stands among the indices of a vertex, and what it points into; the same for the picture's
 /// coordinates and the normals, where there are any.
-struct Layout<'a> {
-    stride: usize,
+pub(super) struct Layout<'a> {
+    pub(super) stride: usize,
     offset: usize,
-    source: XmlNode<'a>,
+    /// The element that tells what a vertex has.
+    pub(super) vertices: XmlNode<'a>,
+    pub(super) source: XmlNode<'a>,
     places: Option<(XmlNode<'a>, usize)>,
     normals: Option<(XmlNode<'a>, usize)>,
 }
 
 /// `None` for a primitive without any input: it has no polygons either.
-fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>>, FileError> {
+pub(super) fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>>, FileError> {
     let (mut stride, mut vertex, mut places, mut normals) = (0, None, None, None);
     for input in children(element, "input") {
         let offset = file.whole_attribute(input, "offset", 0)?;
@@ -134,11 +139,11 @@ fn layout<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Option<Layout<'a>
     };
     let (places, normals) =
         (places.or_else(|| of_vertex("TEXCOORD")), normals.or_else(|| of_vertex("NORMAL")));
-    Ok(Some(Layout { stride, offset, source, places, normals }))
+    Ok(Some(Layout { stride, offset, vertices, source, places, normals }))
 }
 
 /// The rows of a source, of two or three numbers each, through its accessor where it has one; the third of two is 0.
-fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Result<Vec<DVec3>, FileError> {
+pub(super) fn rows<'a>(file: &File<'a>, source: XmlNode<'a>, width: usize) -> Result<Vec<DVec3>, FileError> {
     let array = file.child(source, "float_array")?;
     let Some(accessor) = descend(source, &["technique_common", "accessor"]) else {
         return points(file, array, [width, width], 0, None);
@@ -216,19 +221,19 @@ impl<'a> Vertices<'_, 'a> {
     }
 }
 
-fn polylist<'a>(
+/// The polygons of a `<polylist>`.
+pub(super) fn polylist<'a, T: Clone>(
     file: &File<'a>,
     element: XmlNode<'a>,
-    points: &Vertices<'_, 'a>,
-) -> Result<Vec<Vec<Corner>>, FileError> {
+    ring: &[T],
+) -> Result<Vec<Vec<T>>, FileError> {
     let Some(p) = child(element, "p") else { return Ok(Vec::new()) };
     let counts = file.wholes(file.child(element, "vcount")?)?;
-    let ring = points.ring(p)?;
     let wanted = counts.iter().fold(0_usize, |sum, count| sum.saturating_add(*count));
     if wanted != ring.len() {
         return Err(file.fault(p, Fault::Count { found: ring.len(), wanted }));
     }
-    let mut rest = ring.as_slice();
+    let mut rest = ring;
     let mut next = |count: usize| {
         let (polygon, after) = rest.split_at(count);
         rest = after;
@@ -258,18 +263,18 @@ fn with_holes<'a>(
 }
 
 /// The triangles of a list, a strip (every second one turned) or a fan.
-fn triangles<'a>(
+pub(super) fn triangles<'a, T: Clone>(
     file: &File<'a>,
     p: XmlNode<'a>,
     tag: &str,
-    ring: &[Corner],
-) -> Result<Vec<Vec<Corner>>, FileError> {
+    ring: &[T],
+) -> Result<Vec<Vec<T>>, FileError> {
     if tag == "triangles" {
         if ring.len() % 3 != 0 {
             let wanted = ring.len().next_multiple_of(3);
             return Err(file.fault(p, Fault::Count { found: ring.len(), wanted }));
         }
-        return Ok(ring.chunks(3).map(<[_]>::to_vec).collect());
+        return Ok(ring.chunks(3).map(<[T]>::to_vec).collect());
     }
     let strip = tag == "tristrips";
     let corners = |i: usize| match (strip, i % 2) {
@@ -277,5 +282,5 @@ fn triangles<'a>(
         (true, _) => [i + 1, i, i + 2],
         (false, _) => [0, i + 1, i + 2],
     };
-    Ok((0..ring.len().saturating_sub(2)).map(|i| corners(i).map(|k| ring[k]).to_vec()).collect())
+    Ok((0..ring.len().saturating_sub(2)).map(|i| corners(i).map(|k| ring[k].clone()).to_vec()).collect())
 }

@@ -12,24 +12,34 @@ pub(super) struct GltfFile {
     pub(super) blob: Option<Vec<u8>>,
 }
 
+/// The document's text as values, and the bytes of the binary chunk.
+pub(super) type Prepared = (Value, Option<Vec<u8>>);
+
 /// The file; notes what is left out of it.
-pub(super) fn parse(name: &str, bytes: &[u8], warnings: &mut Vec<Finding>) -> Result<GltfFile, FileError> {
+pub(super) fn prepared(name: &str, bytes: &[u8], warnings: &mut Vec<Finding>) -> Result<Prepared, FileError> {
     let (text, binary) = chunks(name, bytes)?;
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start();
     if !text.starts_with(b"{") {
         let reason = "it begins neither with glTF nor with {";
         return Err(FileError::Garbled { file: name.into(), wanted: "glTF 2.0", reason });
     }
-    let unreadable =
-        |error| FileError::Gltf { file: name.into(), source: Box::new(gltf::Error::Deserialize(error)) };
-    let mut document: Value = serde_json::from_slice(text).map_err(unreadable)?;
+    let mut document: Value = serde_json::from_slice(text).map_err(|error| unreadable(name, error))?;
     prepare(name, &mut document, warnings)?;
-    let root: Root = serde_json::from_value(document).map_err(unreadable)?;
-    check(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
+    Ok((document, binary.map(<[u8]>::to_vec)))
+}
+
+/// The document as the `gltf` crate has it.
+pub(super) fn check(name: &str, (document, blob): Prepared) -> Result<GltfFile, FileError> {
+    let root: Root = serde_json::from_value(document).map_err(|error| unreadable(name, error))?;
+    check_root(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
     // What must be there was seen to; the rest is in the way of what can be read.
     let document = gltf::Document::from_json(Root { extensions_required: Vec::new(), ..root });
     let document = document.map_err(|error| first_fault(name, error))?;
-    Ok(GltfFile { document, blob: binary.map(<[u8]>::to_vec) })
+    Ok(GltfFile { document, blob })
+}
+
+fn unreadable(name: &str, error: serde_json::Error) -> FileError {
+    FileError::Gltf { file: name.into(), source: Box::new(gltf::Error::Deserialize(error)) }
 }
 
 /// The first of the faults that the crate found: others may be many, and mostly follow from it.
@@ -45,7 +55,7 @@ fn first_fault(name: &str, error: gltf::Error) -> FileError {
 }
 
 /// What the crate takes for granted: the version, that attributes name accessors, and that images have a source.
-fn check(root: &Root) -> Result<(), (String, Fault)> {
+fn check_root(root: &Root) -> Result<(), (String, Fault)> {
     if !root.asset.version.starts_with("2.") {
         let found = root.asset.version.chars().take(40).collect();
         return Err(("asset".into(), Fault::Word { found, wanted: "version 2.0" }));

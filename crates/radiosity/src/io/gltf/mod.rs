@@ -14,6 +14,7 @@ mod lit;
 mod material;
 mod prepare;
 mod read;
+mod repaired;
 mod write;
 
 pub use compose::scene_glb;
@@ -22,6 +23,7 @@ pub use write::glb;
 
 use super::error::FileError;
 use super::save::bytes_of;
+use super::surface::changes::changes;
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -53,13 +55,37 @@ impl Gltf {
         Self { folder: folder.map(Into::into), ..self }
     }
 
+    /// The extension of its kind.
+    pub(super) fn extension(&self) -> &'static str {
+        if self.bytes.starts_with(b"glTF") { "glb" } else { "gltf" }
+    }
+
     /// The scene: patches, cameras and warnings, in metres, y up.
     ///
     /// # Errors
     /// [`FileError::Gltf`] for bytes that are not glTF 2.0, [`FileError::Part`] for a part with a fault.
     pub fn scene(&self) -> Result<Scene, FileError> {
         let mut warnings = Vec::new();
-        let file = document::parse(&self.name, &self.bytes, &mut warnings)?;
-        read::scene(&self.name, &file, self.folder.as_deref(), warnings)
+        let document = document::prepared(&self.name, &self.bytes, &mut warnings)?;
+        let file = document::check(&self.name, document)?;
+        Ok(read::read(&self.name, &file, self.folder.as_deref(), warnings)?.0)
+    }
+
+    /// The bytes of this file with the polygons of a repaired scene: triangles of polygons that were cut give way to those of their pieces,
+    /// which are added behind the file's data; everything else stays. Text stays text, and binary stays binary.
+    ///
+    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). Positions are in single precision.
+    ///
+    /// # Errors
+    /// As [`Gltf::scene`], and [`FileError::Size`] when the data exceed the format's 4 GiB.
+    pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<Vec<u8>, FileError> {
+        let changes = changes(before, after);
+        if changes.is_empty() {
+            return Ok(self.bytes.clone());
+        }
+        let (document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
+        let file = document::check(&self.name, (document.clone(), blob.clone()))?;
+        let (_, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
+        repaired::repaired((document, blob), &primitives, &changes)
     }
 }

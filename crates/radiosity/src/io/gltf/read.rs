@@ -6,22 +6,37 @@ use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::io::{surface::facets, surface::finish::Surface};
 use crate::scene::{Scene, camera::Camera, finding::Finding, patch::Origin};
-use glam::{DMat4, DQuat, DVec2, DVec3};
+use glam::{DAffine2, DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 /// Nodes nested deeper than this are refused: a node that contains itself never ends.
 const MAX_NESTING: usize = 64;
 /// Nodes entered while walking.
 const MAX_NODES: usize = 1_000_000;
 
-pub(super) fn scene(
+/// A primitive as it was read.
+pub(super) struct ReadPrimitive {
+    /// The index of its node in the document.
+    pub(super) node: usize,
+    pub(super) origin: Origin,
+    pub(super) world: DMat4,
+    /// From the file's places in a picture to those that it shows.
+    pub(super) laid: DAffine2,
+    /// The indices of each triangle's vertices.
+    pub(super) triangles: Vec<[usize; 3]>,
+    /// The triangles that each polygon was joined from, by its first.
+    pub(super) members: BTreeMap<usize, Vec<usize>>,
+}
+
+/// The scene, and the primitives that it was made of.
+pub(super) fn read(
     file: &str,
     gltf: &GltfFile,
     folder: Option<&Path>,
     warnings: Vec<Finding>,
-) -> Result<Scene, FileError> {
+) -> Result<(Scene, Vec<ReadPrimitive>), FileError> {
     let buffers = Buffers::load(file, gltf, folder)?;
     let mut reader = Reader {
         file,
@@ -30,10 +45,11 @@ pub(super) fn scene(
         cameras: Vec::new(),
         warnings,
         instances: 0,
+        primitives: Vec::new(),
     };
     reader.walk(&gltf.document)?;
-    let Reader { surfaces, cameras, warnings, .. } = reader;
-    Ok(Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() })
+    let Reader { surfaces, cameras, warnings, primitives, .. } = reader;
+    Ok((Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() }, primitives))
 }
 
 struct Reader<'f> {
@@ -43,6 +59,7 @@ struct Reader<'f> {
     cameras: Vec<Camera>,
     warnings: Vec<Finding>,
     instances: usize,
+    primitives: Vec<ReadPrimitive>,
 }
 
 impl Reader<'_> {
@@ -94,7 +111,8 @@ impl Reader<'_> {
         let instance = self.instances;
         self.instances += 1;
         for primitive in mesh.primitives() {
-            self.cover(&name, &mesh, &primitive, world, instance)?;
+            let origin = Origin { instance, primitive: primitive.index(), polygon: 0 };
+            self.cover(&name, (node.index(), &mesh), &primitive, world, origin)?;
         }
         Ok(())
     }
@@ -103,15 +121,18 @@ impl Reader<'_> {
     fn cover(
         &mut self,
         name: &str,
-        mesh: &gltf::Mesh<'_>,
+        (node, mesh): (usize, &gltf::Mesh<'_>),
         primitive: &gltf::Primitive<'_>,
         world: DMat4,
-        instance: usize,
+        origin: Origin,
     ) -> Result<(), FileError> {
         let part = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
         let place = format!("{}: {part}", self.file);
         let kind = self.materials.kind(&primitive.material(), &mut self.warnings);
-        let triangles = self.triangles(primitive, &kind, &part)?;
+        let corners = self.corners(primitive, &kind)?;
+        let triangles = self.triangles(primitive, corners.len(), &part)?;
+        let polygons: Vec<Polygon> =
+            triangles.iter().map(|picks| vec![picks.map(|index| corners[index]).to_vec()]).collect();
         if primitive.get(&Semantic::Colors(0)).is_some() {
             self.note(
                 &place,
@@ -119,8 +140,9 @@ impl Reader<'_> {
                 "give it a texture",
             );
         }
-        let facets = facets(&triangles, true, kind.finish.image.is_some());
-        let origin = Origin { instance, primitive: primitive.index(), polygon: 0 };
+        let facets = facets(&polygons, true, kind.finish.image.is_some());
+        let members = facets.iter().map(|facet| (facet.number, facet.members.clone())).collect();
+        self.primitives.push(ReadPrimitive { node, origin, world, laid: kind.laid, triangles, members });
         let surface = Surface {
             name,
             place: &place,
@@ -134,32 +156,29 @@ impl Reader<'_> {
         added.map_err(|refusal| self.fault(part, refusal.into()))
     }
 
+    /// The indices of each triangle's vertices.
     fn triangles(
         &mut self,
         primitive: &gltf::Primitive<'_>,
-        material: &ReadMaterial,
+        len: usize,
         part: &str,
-    ) -> Result<Vec<Polygon>, FileError> {
+    ) -> Result<Vec<[usize; 3]>, FileError> {
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             let what = "lines and points have no area; they are left out";
             self.note(&format!("{}: {part}", self.file), what, "remove them, or make them surfaces");
             return Ok(Vec::new());
         }
-        let corners = self.corners(primitive, material)?;
         let indices = match primitive.indices() {
             Some(accessor) => self.materials.buffers.wholes(&accessor)?,
-            None => (0..corners.len()).collect(),
+            None => (0..len).collect(),
         };
-        let corner = |index: usize| {
-            let found = corners.get(index).copied();
-            found.ok_or_else(|| self.fault(part.into(), Fault::Index { index, len: corners.len() }))
-        };
-        let picks = picks(mode, indices.len());
-        let triangle = |pick: [usize; 3]| {
-            Ok(vec![pick.iter().map(|&at| corner(indices[at])).collect::<Result<Vec<_>, FileError>>()?])
-        };
-        picks.map(triangle).collect()
+        let triangles: Vec<[usize; 3]> =
+            picks(mode, indices.len()).map(|picks| picks.map(|at| indices[at])).collect();
+        match triangles.iter().flatten().find(|index| **index >= len) {
+            Some(&index) => Err(self.fault(part.into(), Fault::Index { index, len })),
+            None => Ok(triangles),
+        }
     }
 
     /// Positions with the picture's coordinates and normals, where there are any.

@@ -3,7 +3,7 @@
 //! Two triangles are joined when they share an edge, run along it in opposite directions, lie in one plane exactly and
 //! on different sides of the edge. What is joined becomes a polygon, possibly with holes, only if its triangles overlap
 //! nowhere; otherwise they stay triangles. All decisions are exact, so that no gap and no overlap can arise.
-use super::polygon::{Corner, Facet, bits};
+use super::polygon::{Corner, Facet, Polygon, bits};
 use crate::predicates::{is_coplanar, turn};
 use crate::union_find::UnionFind;
 use glam::{DVec2, DVec3};
@@ -30,7 +30,7 @@ pub(super) fn merge(triangles: &[Corners]) -> Vec<Facet> {
 }
 
 fn single(number: usize, triangle: Corners) -> Facet {
-    Facet { number, loops: vec![triangle.to_vec()], parts: Vec::new() }
+    Facet { number, loops: vec![triangle.to_vec()], parts: Vec::new(), members: vec![number] }
 }
 
 /// For each triangle the first one of those that it is joined with.
@@ -104,7 +104,10 @@ fn polygons(triangles: &[Corners], group: &[usize]) -> Option<Vec<Facet>> {
         std::iter::once(polygon.outer()).chain(polygon.holes()).map(lift).collect::<Option<Vec<_>>>()
     });
     let parts: Vec<Corners> = group.iter().map(|&index| triangles[index]).collect();
-    loops.map(|loops| Some(Facet { number: group[0], loops: loops?, parts: parts.clone() })).collect()
+    let facet = |loops: Option<Polygon>| {
+        Some(Facet { number: group[0], loops: loops?, parts: parts.clone(), members: group.to_vec() })
+    };
+    loops.map(facet).collect()
 }
 
 /// The two kept axes, in the order in which the triangle is counter-clockwise.

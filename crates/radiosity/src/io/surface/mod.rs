@@ -7,13 +7,15 @@
 //! split     a polygon cut into triangles
 //! finish    what a surface reflects and emits
 //! polygon   polygons as a file gives them
+//! changes   what became of them when the scene was repaired
 //! ```
+pub(super) mod changes;
 pub(super) mod finish;
 mod flaws;
 mod merge;
 pub(super) mod place;
 pub(super) mod polygon;
-mod split;
+pub(super) mod split;
 
 use crate::scene::patch::Patch;
 use glam::DVec2;
@@ -43,7 +45,11 @@ pub(super) fn facets(polygons: &[Polygon], is_cut: bool, textured: bool) -> Vec<
         let triangle = |polygon: &Polygon| [0, 1, 2].map(|corner| place(polygon[0][corner]));
         return merge::merge(&polygons.iter().map(triangle).collect::<Vec<_>>());
     }
-    let facet =
-        |(number, loops): (usize, &Polygon)| Facet { number, loops: loops.clone(), parts: Vec::new() };
+    let facet = |(number, loops): (usize, &Polygon)| Facet {
+        number,
+        loops: loops.clone(),
+        parts: Vec::new(),
+        members: vec![number],
+    };
     polygons.iter().enumerate().map(facet).collect()
 }

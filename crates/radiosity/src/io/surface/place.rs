@@ -50,8 +50,6 @@ struct Draft {
     base: String,
     number: usize,
     piece: Option<usize>,
-    /// What follows the name: the side, where a surface has two.
-    side: &'static str,
     patch: Patch,
 }
 
@@ -92,15 +90,19 @@ impl Surfaces {
         let pieces = planar(&loops, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
         let texture = texture(&loops, facet, surface);
         let origin = Origin { polygon, ..surface.origin };
-        let draft = |(piece, polygon, side)| {
-            let mut patch = finished(polygon, &surface.finish, texture.clone());
-            (patch.origin, patch.smoothing) = (origin, smoothing);
-            Draft { base: surface.name.into(), number, piece, side, patch }
+        let draft = |(piece, polygon, is_back)| {
+            let patch = finished(polygon, &surface.finish, texture.clone());
+            Draft {
+                base: surface.name.into(),
+                number,
+                piece,
+                patch: Patch { origin, smoothing, is_back, ..patch },
+            }
         };
         for (piece, polygon) in pieces {
             let back = if surface.two_sided { turned(&polygon) } else { None };
-            self.drafts.push(draft((piece, polygon, "")));
-            self.drafts.extend(back.map(|polygon| draft((piece, polygon, ".back"))));
+            self.drafts.push(draft((piece, polygon, false)));
+            self.drafts.extend(back.map(|polygon| draft((piece, polygon, true))));
         }
         Ok(())
     }
@@ -135,7 +137,9 @@ impl Surfaces {
                 None if counts[&draft.base] > 1 => format!("{}.{}", draft.base, draft.number),
                 None => draft.base,
             };
-            name.push_str(draft.side);
+            if draft.patch.is_back {
+                name.push_str(".back");
+            }
             while !taken.insert(name.clone()) {
                 name.push('\'');
             }

@@ -22,9 +22,11 @@ pub(crate) struct Facet {
     pub(crate) loops: Polygon,
     /// The file's triangles, where it was joined from several.
     pub(crate) parts: Vec<[Corner; 3]>,
+    /// Indices of all polygons of the file that it is made of.
+    pub(crate) members: Vec<usize>,
 }
 
 /// A point as a key; −0 and 0 are one.
-pub(super) fn bits(point: DVec3) -> [u64; 3] {
+pub(crate) fn bits(point: DVec3) -> [u64; 3] {
     point.to_array().map(|number| (number + 0.0).to_bits())
 }

@@ -7,7 +7,7 @@ use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation
 /// Triangles between the given vertices that cover the polygon as seen along its (Newell) normal, in a fixed order.
 ///
 /// Where outlines cross each other, the later edge is left out of the triangulation.
-pub(super) fn split(loops: &Polygon) -> Vec<[Corner; 3]> {
+pub(crate) fn split(loops: &Polygon) -> Vec<[Corner; 3]> {
     let Some(outline) = loops.first().filter(|outline| outline.len() > 2) else { return Vec::new() };
     let axes = kept_axes(newell(outline));
     let flat = |corner: &Corner| DVec2::new(corner.point[axes[0]], corner.point[axes[1]]);

@@ -1,0 +1,78 @@
+//! What became of a file's polygons when its scene was repaired.
+use crate::scene::{Scene, patch::Origin, patch::Patch, texture::Texture};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// What takes the place of a polygon, or of a part of it.
+#[derive(Debug)]
+pub(crate) struct CutPiece<'s> {
+    /// In the world, seen from the polygon's front.
+    pub(crate) loops: Vec<Vec<DVec3>>,
+    pub(crate) normal: DVec3,
+    pub(crate) texture: Option<&'s Texture>,
+}
+
+/// What changed of a primitive.
+#[derive(Debug, Default)]
+pub(crate) struct Pieces<'s> {
+    /// By the index of the (first) polygon that they are made of.
+    pub(crate) of_polygon: BTreeMap<usize, Vec<CutPiece<'s>>>,
+    /// Whether the primitive shows a picture.
+    pub(crate) is_textured: bool,
+}
+
+impl<'s> Pieces<'s> {
+    /// All pieces, in the order of their polygons.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &CutPiece<'s>> {
+        self.of_polygon.values().flatten()
+    }
+}
+
+/// By instance and by primitive.
+pub(crate) type Changes<'s> = BTreeMap<usize, BTreeMap<usize, Pieces<'s>>>;
+
+/// The patches of the two sides of a polygon.
+type TwoSides<'s> = [Vec<&'s Patch>; 2];
+
+/// The polygons that are not what they were. Where the two sides of a double-sided polygon were cut in different ways, the first counts:
+/// what was cut out of the second lies in its plane and hides it from both sides.
+pub(crate) fn changes<'s>(before: &Scene, after: &'s Scene) -> Changes<'s> {
+    let (old, new) = (by_origin(before), by_origin(after));
+    let mut changes = Changes::new();
+    for (&[instance, primitive, polygon], old) in &old {
+        let new = new.get(&[instance, primitive, polygon]).cloned().unwrap_or_default();
+        let Some(side) = (0..2).find(|&side| !are_alike(&old[side], &new[side])) else { continue };
+        let pieces = new[side].iter().map(|patch| piece(patch)).collect();
+        let changed = changes.entry(instance).or_default().entry(primitive).or_default();
+        changed.of_polygon.insert(polygon, pieces);
+        changed.is_textured |= old[side].iter().any(|patch| patch.texture.is_some());
+    }
+    changes
+}
+
+fn by_origin(scene: &Scene) -> BTreeMap<[usize; 3], TwoSides<'_>> {
+    let mut sides: BTreeMap<[usize; 3], TwoSides<'_>> = BTreeMap::new();
+    for patch in &scene.patches {
+        let Origin { instance, primitive, polygon } = patch.origin;
+        sides.entry([instance, primitive, polygon]).or_default()[usize::from(patch.is_back)].push(patch);
+    }
+    sides
+}
+
+fn are_alike(old: &[&Patch], new: &[&Patch]) -> bool {
+    let same = |(a, b): (&&Patch, &&Patch)| a.polygon.loops().eq(b.polygon.loops());
+    old.len() == new.len() && old.iter().zip(new).all(same)
+}
+
+fn piece(patch: &Patch) -> CutPiece<'_> {
+    let turn = |points: &[DVec3]| {
+        let points = points.iter().copied();
+        if patch.is_back { points.rev().collect() } else { points.collect() }
+    };
+    let normal = patch.polygon.normal();
+    CutPiece {
+        loops: patch.polygon.loops().map(turn).collect(),
+        normal: if patch.is_back { -normal } else { normal },
+        texture: patch.texture.as_ref(),
+    }
+}

@@ -1,0 +1,87 @@
+//! Faces of one plane cut out of each other.
+use super::{findings, slivers::without_spikes};
+use crate::coplanar::{Overlap, SINGLE, overlaps, perimeter};
+use crate::extent::Extent;
+use crate::mesh::subdivide::can_be_divided;
+use crate::plane::Plane;
+use crate::scene::{Scene, finding::Finding, patch::Patch};
+use formfactor::PlanarPolygon;
+use polycsg::{Csg, Region};
+use std::collections::{BTreeMap, HashSet};
+
+/// One round is enough but where planes are one in pairs and not all together.
+const ROUNDS: usize = 4;
+
+/// Cuts until no two patches overlap; tells what overlapped before. What still does after some rounds is left out.
+pub(super) fn cut(scene: &mut Scene) -> Vec<Finding> {
+    let mut found = overlaps(scene, SINGLE);
+    let findings = found.iter().map(|overlap| findings::overlap(scene, overlap)).collect();
+    for _ in 0..ROUNDS {
+        if found.is_empty() {
+            return findings;
+        }
+        cut_once(scene, &found);
+        found = overlaps(scene, SINGLE);
+    }
+    let lower: HashSet<usize> = found.iter().map(|overlap| ranked(scene, overlap)[1]).collect();
+    let mut indices = 0..;
+    scene.patches.retain(|_| indices.next().is_some_and(|index| !lower.contains(&index)));
+    findings
+}
+
+fn cut_once(scene: &mut Scene, overlaps: &[Overlap]) {
+    let mut covers: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for overlap in overlaps {
+        let [upper, lower] = ranked(scene, overlap);
+        covers.entry(lower).or_default().push(upper);
+    }
+    let mut taken: HashSet<String> = scene.patches.iter().map(|patch| patch.name.clone()).collect();
+    let mut patches = Vec::with_capacity(scene.patches.len());
+    for (index, patch) in scene.patches.iter().enumerate() {
+        match covers.get(&index) {
+            None => patches.push(patch.clone()),
+            Some(upper) => patches.extend(named(patch, rest(scene, index, upper), &mut taken)),
+        }
+    }
+    scene.patches = patches;
+}
+
+/// The patch that stays whole, and the one that it is cut out of.
+fn ranked(scene: &Scene, overlap: &Overlap) -> [usize; 2] {
+    let mut pair = overlap.patches;
+    pair.sort_by_key(|index| rank(scene, *index));
+    pair
+}
+
+/// Emitters first, then small before large, then in the order of the file.
+fn rank(scene: &Scene, index: usize) -> (bool, u64, usize) {
+    let patch = &scene.patches[index];
+    // The bits of positive numbers are in the order of the numbers.
+    (!patch.emits(), patch.polygon.area().to_bits(), index)
+}
+
+/// What the patches above leave of a patch.
+fn rest(scene: &Scene, index: usize, upper: &[usize]) -> Vec<PlanarPolygon> {
+    let polygon = &scene.patches[index].polygon;
+    let plane = Plane::of(polygon);
+    let above: Vec<&PlanarPolygon> = upper.iter().map(|&index| &scene.patches[index].polygon).collect();
+    let regions: Vec<Region> = above.iter().map(|polygon| plane.region(polygon)).collect();
+    let rest = (Csg::from(&plane.region(polygon)) - Csg::union(&regions)).evaluate();
+    let width = SINGLE * Extent::around(polygon).diagonal();
+    let pieces = plane.lift(&rest, &[polygon]);
+    let smooth = pieces.iter().filter_map(|piece| without_spikes(piece, width));
+    smooth.filter(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece)).collect()
+}
+
+/// The pieces under their names: the patch's own for a single one.
+fn named(patch: &Patch, polygons: Vec<PlanarPolygon>, taken: &mut HashSet<String>) -> Vec<Patch> {
+    let single = polygons.len() == 1;
+    let piece = |(polygon, number): (PlanarPolygon, usize)| {
+        let mut name = if single { patch.name.clone() } else { format!("{}.{number}", patch.name) };
+        while !single && !taken.insert(name.clone()) {
+            name.push('\'');
+        }
+        Patch { name, polygon, ..patch.clone() }
+    };
+    polygons.into_iter().zip(1..).map(piece).collect()
+}

@@ -1,0 +1,54 @@
+//! What is wrong with the surfaces of a scene, put right, so that solving does not refuse it.
+//!
+//! ```text
+//! cut          faces of one plane cut out of each other
+//! findings     what is wrong with patches, in words
+//! reflectance  no surface reflects all light
+//! slivers      what is thinner than rounding is left out
+//! weld         vertices that nearly meet become one
+//! ```
+//!
+//! Solids that pass through each other stay as they are: a point inside a solid sees nothing but the backs of its faces, so exact form
+//! factors keep the parts inside dark, and what stands outside is lit as if they had been cut. Faces of one plane that face opposite ways
+//! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch.
+mod cut;
+pub(crate) mod findings;
+mod reflectance;
+mod slivers;
+mod weld;
+
+pub(crate) use weld::{PointKey, Welds, key};
+
+use crate::scene::{Scene, finding::Finding};
+
+/// A scene after its repair, and what was wrong.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Repaired {
+    /// The scene, which [`solve()`](crate::solve()) takes.
+    pub scene: Scene,
+    /// What was repaired, here and while the file was read: each of a kind that has a [`remedy`](crate::inspect::Kind::remedy).
+    pub repairs: Vec<Finding>,
+}
+
+/// Repairs the surfaces of a scene.
+///
+/// - Reflectances of 1 or more become 0.99, negative ones 0.
+/// - Vertices that lie beside each other by less than single precision rounds away become one, where polygons stay planar.
+/// - Slivers and spikes of polygons, which are thinner than rounding, are left out.
+/// - Patches that face the same way in one plane are cut out of each other, so that no point is covered twice. An emitter stays whole
+///   and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal ones the first. Duplicates and
+///   patches that are covered completely are removed. The pieces of a patch get `.1`, `.2`, … behind its name. Cuts are exact.
+///
+/// All other patches stay as they are, bit for bit. What is repaired already stays as it is. O(n log n) for n patches that are spread out.
+#[must_use]
+pub fn repair(scene: &Scene) -> Repaired {
+    let mut scene = scene.clone();
+    let read = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_some()).cloned();
+    let mut repairs: Vec<Finding> = read.collect();
+    repairs.extend(reflectance::limit(&mut scene));
+    repairs.extend(weld::weld(&mut scene));
+    repairs.extend(slivers::leave_out(&mut scene));
+    repairs.extend(cut::cut(&mut scene));
+    Repaired { scene, repairs }
+}

@@ -1,0 +1,87 @@
+//! Surfaces that are connected by edges, and which of them are closed.
+use crate::repair::{PointKey, Welds, key};
+use crate::scene::Scene;
+use crate::union_find::UnionFind;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Patches that are connected by edges.
+#[derive(Debug)]
+pub(super) struct ConnectedBody {
+    /// Its first patch.
+    pub(super) first: usize,
+    /// For a closed body whose faces are all turned the same way, whether their fronts are turned in.
+    pub(super) turned_in: Option<bool>,
+    pub(super) emits: bool,
+}
+
+/// The bodies of a scene.
+#[derive(Debug)]
+pub(super) struct Bodies {
+    pub(super) bodies: Vec<ConnectedBody>,
+    pub(super) of_patch: Vec<usize>,
+}
+
+/// What is known of an edge: a patch that has it, and how often more it is run along forwards than backwards.
+struct SharedEdge {
+    patch: usize,
+    turns: i32,
+}
+
+impl Bodies {
+    /// The bodies that first sides make. Every edge of a closed body is run along as often one way as the other.
+    pub(super) fn collect(scene: &Scene, welds: &Welds) -> Bodies {
+        let mut edges: BTreeMap<[PointKey; 2], SharedEdge> = BTreeMap::new();
+        let mut groups = UnionFind::new(scene.patches.len());
+        for (patch, _) in scene.patches.iter().enumerate().filter(|(_, patch)| !patch.is_back) {
+            for [a, b] in sides(scene, patch, welds) {
+                let edge = edges.entry([a.min(b), a.max(b)]).or_insert(SharedEdge { patch, turns: 0 });
+                edge.turns += if a < b { 1 } else { -1 };
+                groups.join(edge.patch, patch);
+            }
+        }
+        (1..scene.patches.len())
+            .filter(|&index| scene.patches[index].is_back)
+            .for_each(|index| groups.join(index - 1, index));
+        let (of_patch, firsts) = groups.number();
+        let mut is_closed = vec![true; firsts.len()];
+        edges
+            .values()
+            .filter(|edge| edge.turns != 0)
+            .for_each(|edge| is_closed[of_patch[edge.patch]] = false);
+        let volumes = volumes(scene, &of_patch, firsts.len());
+        let body = |(index, first): (usize, usize)| ConnectedBody {
+            first,
+            turned_in: (is_closed[index] && volumes[index] != 0.0).then_some(volumes[index] < 0.0),
+            emits: false,
+        };
+        let mut bodies: Vec<ConnectedBody> = firsts.into_iter().enumerate().map(body).collect();
+        scene.patches.iter().zip(&of_patch).for_each(|(patch, &body)| bodies[body].emits |= patch.emits());
+        Bodies { bodies, of_patch }
+    }
+
+    /// The body of a patch.
+    pub(super) fn of(&self, patch: usize) -> &ConnectedBody {
+        &self.bodies[self.of_patch[patch]]
+    }
+}
+
+/// The directed edges of a patch between places that are not one.
+fn sides(scene: &Scene, patch: usize, welds: &Welds) -> Vec<[PointKey; 2]> {
+    let place = |point: &DVec3| key(welds.place(*point));
+    let loops = scene.patches[patch].polygon.loops();
+    let pairs = loops.flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)));
+    pairs.map(|(a, b)| [place(a), place(b)]).filter(|[a, b]| a != b).collect()
+}
+
+/// Six times the signed volume of each body: positive where fronts are turned out.
+fn volumes(scene: &Scene, of_patch: &[usize], count: usize) -> Vec<f64> {
+    let mut volumes = vec![0.0; count];
+    let [low, high] = scene.extent();
+    let origin = low.midpoint(high);
+    for (patch, &body) in scene.patches.iter().zip(of_patch).filter(|(patch, _)| !patch.is_back) {
+        let corner = patch.polygon.loops().flatten().next().copied().unwrap_or(origin);
+        volumes[body] += 2.0 * patch.polygon.area() * (corner - origin).dot(patch.polygon.normal());
+    }
+    volumes
+}
