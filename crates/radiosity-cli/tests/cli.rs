@@ -488,16 +488,70 @@ fn bad_scenes_are_3_and_leave_no_file() {
     assert_eq!(folder.names(), ["bad.dae"]);
 }
 
-#[test]
-fn a_scene_without_light_is_dark_and_says_so() {
-    let folder = Folder::new();
+/// The Cornell box with its lamp off, and its open side.
+fn dark(folder: &Folder) -> String {
     let scene = String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text");
-    let dark = folder.put("dark.dae", &scene.replace("17 12 4 1", "0 0 0 1"));
-    let output = radiosity(&["solve", &dark, "--json", "--elements", "100"]);
+    folder.put("dark.dae", &scene.replace("17 12 4 1", "0 0 0 1"))
+}
+
+#[test]
+fn a_scene_without_light_gets_a_sky_and_says_so_or_stays_dark_and_says_so() {
+    let folder = Folder::new();
+    let dark = dark(&folder);
+    let lit = radiosity(&["solve", &dark, "--json", "--elements", "100"]);
+    assert_eq!(code(&lit), 0, "{}", stderr(&lit));
+    assert!(stderr(&lit).contains("a uniform sky"), "{}", stderr(&lit));
+    assert!(json(&lit)["energy"]["emitted"][0].as_f64().expect("a number") > 0.0);
+    let output = radiosity(&["solve", &dark, "--json", "--elements", "100", "--sky", "none"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert!(stderr(&output).contains("no patch emits light"));
+    assert!(stderr(&output).contains("no light reaches any surface"));
     let figures = json(&output);
     assert!(figures["patches"].as_array().expect("patches").iter().all(|p| p["radiosity"][0] == 0.0));
+}
+
+#[test]
+fn a_material_emits_what_the_command_line_says() {
+    let folder = Folder::new();
+    let (dark, lit) = (dark(&folder), "light=17,12,4");
+    let by_option = radiosity(&["solve", &dark, "--json", "--elements", "200", "--emit", lit]);
+    assert_eq!(code(&by_option), 0, "{}", stderr(&by_option));
+    let box_file =
+        folder.put("lit.dae", &String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text"));
+    let by_file = radiosity(&["solve", &box_file, "--json", "--elements", "200"]);
+    assert_eq!(json(&by_option)["patches"], json(&by_file)["patches"]);
+    let unknown = radiosity(&["solve", &dark, "--json", "--emit", "lamp=1"]);
+    assert_eq!(code(&unknown), 2);
+    assert!(
+        stderr(&unknown).contains("no material is named \"lamp\"; the scene has"),
+        "{}",
+        stderr(&unknown)
+    );
+}
+
+#[test]
+fn lumens_stand_beside_watts() {
+    let folder = Folder::new();
+    let dark = dark(&folder);
+    let solve = |units: &str| {
+        let output = radiosity(&[
+            "solve",
+            &dark,
+            "--json",
+            "--elements",
+            "100",
+            "--sky",
+            "overcast=100",
+            "--units",
+            units,
+        ]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        json(&output)
+    };
+    let (watts, lumens) = (solve("w"), solve("lm"));
+    assert_eq!([&watts["units"], &lumens["units"]], ["W", "lm"]);
+    assert_eq!(watts["patches"][0]["irradiance"], lumens["patches"][0]["irradiance"]);
+    let lux = |figures: &serde_json::Value| figures["patches"][0]["illuminance"].as_f64().expect("a number");
+    assert!((lux(&watts) / lux(&lumens) / 179.0 - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -29,6 +29,9 @@ pub struct Record {
     /// The wavelength of each band in nm; see [`Scene::wavelengths`].
     #[serde(default)]
     pub wavelengths: Vec<f64>,
+    /// Lumens in a unit of power of each band: an irradiance times these, added up, is an illuminance in lx. See [`Scene::lumens`].
+    #[serde(default)]
+    pub lumens: Vec<f64>,
     /// Per band, a bound on the algebraic error of every radiosity, W/m²; see [`Solution::bound`].
     pub bound: Vec<f64>,
     /// The patches, in the scene's order.
@@ -95,6 +98,7 @@ impl Record {
             cameras: scene.cameras.clone(),
             bands: solution.bands,
             wavelengths: scene.wavelengths.clone(),
+            lumens: scene.lumens(),
             bound: solution.bound.clone(),
             patches: patches
                 .map(|(index, (patch, (irradiance, radiosity)))| PatchRecord {
@@ -146,6 +150,9 @@ impl Record {
                 self.wavelengths.len(),
                 self.bands
             ));
+        }
+        if ![0, self.bands].contains(&self.lumens.len()) {
+            return Err(format!("lumens has {} values where {} are needed", self.lumens.len(), self.bands));
         }
         if ![0, vertices].contains(&self.places.len()) {
             return Err(format!("places has {} rows where {vertices} are needed", self.places.len()));

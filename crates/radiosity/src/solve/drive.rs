@@ -70,9 +70,10 @@ impl Run<'_> {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
-        if converged && last && self.options.gather {
-            let direct = gather(scene, &mut self);
-            gathered = self.survive(direct)?;
+        if converged && last {
+            let with_emitters = self.options.gather;
+            let direct = gather(scene, &mut self, with_emitters);
+            gathered = self.survive(direct)?.flatten();
         }
         Ok(self.into_solution(converged, closure, gathered))
     }

@@ -1,6 +1,8 @@
 //! Exact form factors from the elements to the pieces.
 use super::state::{Column, State};
-use super::{fingerprint, hemicube::Hemicubes, occluders::Occluders, workers};
+use super::{
+    fingerprint, hemicube::Hemicubes, light::DirectLight, lights::Lights, occluders::Occluders, workers,
+};
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
@@ -13,6 +15,7 @@ pub(super) struct Factors<'s> {
     scene: &'s Scene,
     pub(super) subdivision: &'s Subdivision,
     enclosure: Enclosure,
+    lights: Lights<'s>,
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
     receivers: Vec<DifferentialArea>,
@@ -42,6 +45,7 @@ impl<'s> Factors<'s> {
             receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
             scene,
             subdivision,
+            lights: Lights::new(scene, &polygons),
             enclosure: Enclosure::new(polygons),
             surface_of,
             hemicubes: None,
@@ -78,6 +82,31 @@ impl<'s> Factors<'s> {
         let column = Arc::new(Column::new(&self.find(node)?));
         self.state.keep(self.fingerprint, node, &column);
         Ok(column)
+    }
+
+    /// What lights without surfaces bring to the centroids of all elements.
+    pub(super) fn direct(&self) -> Result<DirectLight, Error> {
+        let [irradiance, beyond] = self.straight(&self.receivers)?;
+        Ok(DirectLight { irradiance, beyond, power: self.lights.power().to_vec() })
+    }
+
+    /// What lights without surfaces bring to any points, in all and from beyond the scene: points × bands.
+    fn straight(&self, points: &[DifferentialArea]) -> Result<[Vec<f64>; 2], Error> {
+        let mut all = [(); 2].map(|()| Vec::with_capacity(points.len() * self.scene.bands));
+        let find = |point: &DifferentialArea| self.lights.irradiance(&self.enclosure, point);
+        for [lamps, beyond] in workers::from_all(points, "what a light shines on", find)? {
+            all[0].extend(lamps.iter().zip(&beyond).map(|(lamps, beyond)| lamps + beyond));
+            all[1].extend(beyond);
+        }
+        Ok(all)
+    }
+
+    /// What lights without surfaces bring to any points: points × bands; nothing where there are none.
+    pub(super) fn straight_light(&self, points: &[DifferentialArea]) -> Result<Option<Vec<f64>>, Error> {
+        if self.lights.is_empty() {
+            return Ok(None);
+        }
+        self.straight(points).map(|[all, _]| Some(all))
     }
 
     /// A point of a patch, as the enclosure knows it.

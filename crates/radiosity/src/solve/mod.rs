@@ -6,6 +6,7 @@
 //! levels       light between parts of patches of any size; the mesh follows
 //! direct       light straight from the emitters, exact at every vertex
 //! receivers    where the light of vertices is gathered
+//! lights       lamps, the sun and the sky: what points and polygons receive of them
 //! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! shoot        progressive refinement: the piece with most to shoot shoots, again and again
 //! follow       the light followed through the rooms
@@ -44,6 +45,7 @@ mod interpolate;
 pub(crate) mod ledger;
 mod levels;
 mod light;
+mod lights;
 mod magnitude;
 pub(crate) mod norm;
 pub(crate) mod occluders;

@@ -53,8 +53,8 @@ impl<'r> Run<'r> {
         state: &'r mut State,
         watch: Watch<'r>,
     ) -> Result<Run<'r>, Error> {
-        let light = Light::new(scene, &subdivision.mesh);
         let factors = Factors::new(scene, subdivision, state)?;
+        let light = Light::new(scene, &subdivision.mesh, factors.direct()?);
         Ok(Run {
             options,
             start,

@@ -1,4 +1,5 @@
 //! The options of `radiosity solve`, and those of the solver that they lead to.
+use super::lights::LightOptions;
 use crate::failure::Failure;
 use crate::input::Reading;
 use crate::parse::{count, positive, share};
@@ -74,6 +75,8 @@ pub(crate) struct Solve {
     /// Keep the steps of the run in the page (.html) and in .json, to walk through them: who shoots, each reflection, each round of links
     #[arg(long, requires = "output")]
     pub(super) record: bool,
+    #[command(flatten)]
+    pub(super) lights: LightOptions,
     #[command(flatten)]
     pub(super) view: ViewOptions,
 }

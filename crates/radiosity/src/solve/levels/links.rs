@@ -239,8 +239,12 @@ impl Links {
         Equilibrium::new(tiling, &self.all, &self.clusters, &self.known(tiling), is_last)
     }
 
-    /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.
-    pub(super) fn refuse_endless(&self, tiling: &Tiling<'_>) -> Result<(), Error> {
+    /// Refuses a closed room with a patch that reflects all light: what it emits, or what `direct` light falls on its tiles, could never leave.
+    pub(super) fn refuse_endless(
+        &self,
+        tiling: &Tiling<'_>,
+        direct: impl Fn(usize, usize) -> f64,
+    ) -> Result<(), Error> {
         let equilibrium = self.equilibrium(tiling, false);
         let patches = &tiling.scene.patches;
         let rooms = equilibrium.patches_of_rooms();
@@ -249,7 +253,13 @@ impl Links {
                 self.enclosed[tile] == Enclosed::Wholly || !room.contains(&tiling.tiles[tile].patch)
             };
             let closed = (0..tiling.tiles.len()).all(is_closed);
-            let live = |band: usize| room.iter().any(|&patch| patches[patch].emission[band] > 0.0);
+            let is_lit = |tile: usize, band: usize| {
+                room.contains(&tiling.tiles[tile].patch) && direct(tile, band) > 0.0
+            };
+            let live = |band: usize| {
+                room.iter().any(|&patch| patches[patch].emission[band] > 0.0)
+                    || (0..tiling.tiles.len()).any(|tile| is_lit(tile, band))
+            };
             let endless = |patch: &usize| {
                 (0..tiling.scene.bands).any(|band| live(band) && patches[*patch].reflectance[band] >= 1.0)
             };

@@ -9,6 +9,7 @@
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by
+//! direct        what lights without surfaces bring to the leaves
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
 //! equilibrium   what all leaves exchange, made to close
@@ -35,6 +36,7 @@ mod budget;
 mod cluster_links;
 mod cluster_views;
 mod clusters;
+mod direct;
 mod equilibrium;
 mod estimate;
 mod flow;

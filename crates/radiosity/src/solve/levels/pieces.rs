@@ -1,4 +1,4 @@
-//! Leaves in pieces that are small enough for their light to be shown as linear.
+//! Leaves in pieces that are small enough for their light to be shown as linear; where shadows have edges, along these.
 use super::equilibrium::Equilibrium;
 use super::tile::Outline;
 use super::tiling::Tiling;
@@ -67,7 +67,8 @@ pub(super) fn pieces(
             let uneven = measure.uneven(light, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
             // What stands on a leaf parts what it covers from what is lit.
             let axis = uneven.or(tiling.is_crossed(patch, &piece.outline).then_some(0));
-            match axis.and_then(|axis| tiling.cut(patch, &piece.outline, axis)) {
+            let edge = sights.direct.edge_in(equilibrium.leaves()[piece.leaf], &piece.outline);
+            match axis.and_then(|axis| tiling.cut_along(patch, &piece.outline, edge, axis)) {
                 Some(halves) => parts.extend(halves.map(|outline| LeafPart { leaf: piece.leaf, outline })),
                 None => fine.push(piece),
             }

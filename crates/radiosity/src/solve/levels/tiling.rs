@@ -9,6 +9,7 @@ use crate::mesh::{
     frame::{Frame, power_of_two},
 };
 use crate::scene::Scene;
+use crate::solve::lights::magnitude;
 use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
@@ -215,10 +216,22 @@ impl<'s> Tiling<'s> {
 
     /// The halves of an outline on a patch: cut along a contact in it if there is one, else across one of its axes through the centroid.
     pub(super) fn cut(&self, patch: usize, outline: &Outline, axis: usize) -> Option<[Outline; 2]> {
+        self.cut_along(patch, outline, None, axis)
+    }
+
+    /// The same: where there is no contact, along an edge of light on it, if that is given.
+    pub(super) fn cut_along(
+        &self,
+        patch: usize,
+        outline: &Outline,
+        edge: Option<[DVec2; 2]>,
+        axis: usize,
+    ) -> Option<[Outline; 2]> {
         let frame = self.bases[patch].frame;
         let cut = |line| outline.cut(line, |flat| frame.lift(flat));
-        let contact = self.contact_in(patch, outline).and_then(|[start, end]| cut([start, end - start]));
-        contact.or_else(|| cut(outline.across(axis)))
+        let contact = self.contact_in(patch, outline).into_iter().chain(edge);
+        let along = contact.filter_map(|[start, end]| cut([start, end - start])).next();
+        along.or_else(|| cut(outline.across(axis)))
     }
 
     /// Whether something else stands on an outline.
@@ -285,9 +298,10 @@ impl<'s> Tiling<'s> {
     }
 }
 
-/// A power of two near the largest radiosity that is emitted.
+/// A power of two near the largest radiosity that is emitted, or what lights bring.
 fn unit(scene: &Scene, band: usize) -> f64 {
-    power_of_two(scene.patches.iter().map(|patch| PI * patch.emission[band]).fold(0.0, f64::max))
+    let emitted = scene.patches.iter().map(|patch| PI * patch.emission[band]);
+    power_of_two(emitted.fold(magnitude(scene, band), f64::max))
 }
 
 impl Tile {
