@@ -65,7 +65,7 @@ pub(crate) mod state;
 mod workers;
 
 use crate::error::Error;
-use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::shadows, subdivide::Subdivision};
+use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::Shadows, subdivide::Subdivision};
 use crate::scene::Scene;
 use options::{Method, Options};
 use progress::Progress;
@@ -113,7 +113,8 @@ pub fn solve_from(
     // Each pass has twice the elements of the one before.
     let mut plan = Plan::even(scene, options.elements >> options.passes.min(LEVELS.into()));
     if options.shadows > 0 {
-        plan.shadows = shadows(scene, options.shadows);
+        let shadows = Shadows::new(scene, options.shadows);
+        plan.shadows = (0..scene.patches.len()).map(|patch| shadows.on(patch)).collect();
     }
     let mut passes_left = options.passes;
     loop {

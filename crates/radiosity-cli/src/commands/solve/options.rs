@@ -15,8 +15,9 @@ pub(crate) struct Solve {
     pub(super) scene: PathBuf,
     #[command(flatten)]
     pub(super) reading: Reading,
-    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb, .obj, .ply), a page (.html),
-    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); - for stdout; may be given several times
+    /// Write the result to this file, in the format of its extension: a picture (.png; .exr or .hdr without exposure), a scene (.dae, .glb,
+    /// .obj, .ply), a page (.html), everything (.json), a table of patches (.csv) or of elements (.elements.csv); - for stdout; may be given
+    /// several times
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// What -o - writes: an extension as above

@@ -149,7 +149,7 @@ impl Collada {
     }
 
     /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte
-    /// for byte. Without an exposure, the geometric mean over the lit vertices becomes mid grey.
+    /// for byte. Without an exposure it is the one of [`with_exposure`], or that of all lit vertices: see [`Exposure::of`].
     ///
     /// # Errors
     /// [`FileError::Xml`] and [`FileError::Scene`], with the line; the latter also when no surface has vertex colours.
@@ -162,6 +162,12 @@ impl Collada {
             .map_err(|source| FileError::Xml { file: self.name.clone(), source })?;
         read(&File::new(&self.name, &document)?)
     }
+}
+
+/// The text of a file with light, in which an exposure for it is kept: see [`Collada::exposed`].
+#[must_use]
+pub fn with_exposure(text: &str, exposure: Exposure) -> String {
+    exposed::with_exposure(text, exposure)
 }
 
 fn asset(file: &File) -> Result<Asset, FileError> {

@@ -162,6 +162,11 @@ impl<'s> Direct<'s> {
         (length > SHORT * outline.axes[0].length()).then_some(*line)
     }
 
+    /// Whether shadows have edges on a leaf.
+    pub(super) fn has_edges(&self, leaf: usize) -> bool {
+        !self.of(leaf).edges.is_empty()
+    }
+
     /// The edges of all shadows on the leaves of each patch.
     pub(super) fn edges(&self, tiling: &Tiling<'_>) -> Vec<Vec<[DVec2; 2]>> {
         let mut edges = vec![Vec::new(); tiling.scene.patches.len()];

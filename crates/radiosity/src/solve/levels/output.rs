@@ -5,7 +5,7 @@ use super::flow::Linear;
 use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
-use crate::mesh::cover::Cover;
+use crate::mesh::{cover::Cover, guests::Guests};
 use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
 use crate::solve::solution::{Gathered, Solution};
@@ -127,9 +127,14 @@ pub(super) fn cover(
     for LeafPart { leaf, outline } in pieces {
         of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
-    let mut cover = Cover::default();
+    let corners = of_patch.iter().flatten().flat_map(|(_, corners)| corners.iter().map(|corner| corner.1));
+    let (mut cover, all) = (Cover::default(), Guests::new(corners));
     for (patch, (tiles, edges)) in of_patch.iter().zip(direct.edges(tiling)).enumerate() {
-        cover.add(patch, tiles, &[tiling.contacts(patch), &edges].concat());
+        let loops = tiling.scene.patches[patch].polygon.loops();
+        let sides = loops.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let on_sides = sides.flat_map(|(start, end)| all.on([*start, *end]));
+        let guests: Vec<_> = on_sides.map(|place| (tiling.flatten(patch, place), place)).collect();
+        cover.add(patch, tiles, &[tiling.contacts(patch), &edges].concat(), &guests);
     }
     cover
 }

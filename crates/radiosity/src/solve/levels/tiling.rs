@@ -168,14 +168,16 @@ impl<'s> Tiling<'s> {
 
     /// The points of an outline on a patch.
     pub(super) fn points(&self, patch: usize, outline: &Outline) -> Result<[DifferentialArea; 5], Error> {
-        let (source, frame) = (&self.scene.patches[patch], self.bases[patch].frame);
-        let point = |at: DVec2| {
-            DifferentialArea::new(frame.lift(at), source.polygon.normal())
-                .map(|point| point.owned_by(self.surface_of[patch]))
-                .map_err(|error| Error::Shape { patch: source.name.clone(), source: error })
-        };
-        let [a, b, c, d, e] = outline.points().map(point);
+        let [a, b, c, d, e] = outline.points().map(|at| self.point(patch, at));
         Ok([a?, b?, c?, d?, e?])
+    }
+
+    /// A point of a patch, given in its frame.
+    pub(super) fn point(&self, patch: usize, at: DVec2) -> Result<DifferentialArea, Error> {
+        let source = &self.scene.patches[patch];
+        DifferentialArea::new(self.lift(patch, at), source.polygon.normal())
+            .map(|point| point.owned_by(self.surface_of[patch]))
+            .map_err(|error| Error::Shape { patch: source.name.clone(), source: error })
     }
 
     /// The area of an outline on a patch, in the scene's units.
@@ -187,6 +189,11 @@ impl<'s> Tiling<'s> {
     /// A point of space in the frame of a patch.
     pub(super) fn flatten(&self, patch: usize, place: DVec3) -> DVec2 {
         self.bases[patch].frame.flatten(place)
+    }
+
+    /// A point of the frame of a patch in space.
+    pub(super) fn lift(&self, patch: usize, flat: DVec2) -> DVec3 {
+        self.bases[patch].frame.lift(flat)
     }
 
     /// The lines on which other patches touch a patch, in its frame.
