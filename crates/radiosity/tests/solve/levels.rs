@@ -95,6 +95,25 @@ fn all_power_is_accounted_for_and_the_finer_solution_is_within_the_estimates() {
     assert!((area / whole - 1.0).abs() < 1e-12);
 }
 
+/// On every patch of more than 1e-4 of the area; smaller ones there are none.
+#[test]
+fn a_run_ends_where_the_estimates_are_what_was_asked_for() {
+    let scene = furnished();
+    let count = scene.patches.len();
+    let area = |index: usize| scene.patches[index].polygon.area();
+    let whole: f64 = (0..count).map(area).sum();
+    for error in [0.3, 0.03, 0.01] {
+        let solution = solved(&scene, &options(error));
+        let means = solution.patch_means(&solution.irradiance, count);
+        let mean = (0..count).map(|index| area(index) * means[index][0]).sum::<f64>() / whole;
+        assert!(solution.converged, "{error}");
+        for (index, patch) in scene.patches.iter().enumerate() {
+            let share = solution.patch_estimate(index)[0] / means[index][0].max(0.01 * mean);
+            assert!(area(index) > 1e-4 * whole && share <= 1.001 * error, "{}: {share}", patch.name);
+        }
+    }
+}
+
 #[test]
 fn hardly_anything_shines_below_what_stands_on_the_floor() {
     let scene = furnished();

@@ -21,6 +21,8 @@ const PLACE: f64 = 0.3;
 const BLIND: f64 = 0.3;
 /// Patches whose errors add up to so much more than their share are not refined for the rest.
 const ENOUGH: f64 = 1.25;
+/// How much of what area form factors are said to be off by counts: it is mostly ten times the error and more.
+const TOTAL: f64 = 0.3;
 /// How much less than that of a whole the light of a half deviates from linear.
 const HALVED: f64 = 0.5;
 /// Patches that are darker than this share of the mean count as if they were as bright.
@@ -41,8 +43,11 @@ pub(super) struct BandLight {
     direct_error: Vec<f64>,
     /// See [`importances`].
     pub(super) importance: Vec<f64>,
-    /// For each patch: the power that counts as 1.
+    /// For each patch: what it receives, and the power that counts as 1.
+    pub(super) received: Vec<f64>,
     pub(super) unit: Vec<f64>,
+    /// What all patches send, on average.
+    pub(super) mean: f64,
 }
 
 /// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, the sender's part, and
@@ -100,7 +105,7 @@ impl BandLight {
         Flaw {
             // Where the total is known only how it is shared can be wrong: no matter where the sender is even.
             of_mean: link.error() * if link.of_total.is_some() { self.stray(sender) } else { bright },
-            of_total: link.of_total.map_or(0.0, |error| error * bright),
+            of_total: link.of_total.map_or(0.0, |error| TOTAL * error * bright),
             within: (WITHIN + OTHERS * for_others) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
@@ -161,8 +166,11 @@ impl BandLight {
             level[index] = tile.parent.map_or(level[index], |parent| level[parent]);
         }
         let importance = importances(tiling, links, &unit);
-        let direct_error = direct.error;
-        BandLight { band, reflected, deviation, sent, level, direct_error, importance, unit }
+        let roots = || tiling.tiles.iter().zip(&sent).filter(|(tile, _)| tile.parent.is_none());
+        let sent_power: f64 = roots().map(|(tile, light)| tile.area * light[0]).sum();
+        let mean = sent_power / areas.iter().sum::<f64>();
+        let (direct_error, received) = (direct.error, powers);
+        BandLight { band, reflected, deviation, sent, level, direct_error, importance, received, unit, mean }
     }
 }
 

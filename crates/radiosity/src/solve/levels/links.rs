@@ -1,4 +1,5 @@
 //! All links of a run, found by all threads.
+use super::budget::BandLight;
 use super::cluster_links::{ClusterLink, ClusterLinks};
 use super::clusters::{Clusters, Pairs};
 use super::equilibrium::Equilibrium;
@@ -126,8 +127,8 @@ impl Links {
         self.all.iter().map(|link| link.ends).collect()
     }
 
-    /// Takes the links of whole tiles, and finds what they exchange in all and which of them are in closed rooms.
-    pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>, error: f64) {
+    /// Takes the links of whole tiles, and finds which of these are in closed rooms.
+    pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>) {
         if self.has_clusters() {
             let is_closed = samples_are_enclosed(tiling);
             let all = if is_closed { Enclosed::Wholly } else { Enclosed::Nowhere };
@@ -145,10 +146,17 @@ impl Links {
         self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.pairs = links.len();
-        self.totals = Totals::of(tiling, &links, error);
-        links.retain(|link| !self.totals.is_hidden(link.pair));
-        self.totals.share(&mut links);
         self.all = links;
+    }
+
+    /// Finds what whole tiles exchange in all, as well as it matters in such light; not where they are too many.
+    pub(super) fn total(&mut self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) {
+        if self.has_clusters() {
+            return;
+        }
+        self.totals = Totals::of(tiling, &self.all, lights, error);
+        self.all.retain(|link| !self.totals.is_hidden(link.pair));
+        self.totals.share(&mut self.all);
     }
 
     /// Takes other links in place of these.

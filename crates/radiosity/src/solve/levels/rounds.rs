@@ -2,9 +2,10 @@
 use super::budget::{BandLight, cut, is_beyond, limits, uneven};
 use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
+use super::convergence::Convergence;
 use super::direct::Direct;
 use super::equilibrium::largest;
-use super::estimate::estimate;
+use super::estimate::means;
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link};
@@ -18,10 +19,14 @@ use crate::solve::{options::Options, solution::Solution, state::State};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
-/// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
-const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
-/// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
-const SUM: f64 = 2.0;
+/// What the errors of a patch's links may add up to at the first level, in units of what is asked for: errors are of any sign, and what is said of
+/// them is much.
+const COARSE: f64 = 32.0;
+/// The next level has the root of the part of the share that it would need were errors in proportion to it, as they are in proportion to more, but
+/// no less and no more than such parts of the last one.
+const TIGHTER: [f64; 2] = [0.25, 0.8];
+/// What errors may add up to at the last level.
+const FINEST: f64 = 0.5;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -42,6 +47,7 @@ struct Levels<'l> {
     products: usize,
     /// The light as of the last round.
     light: LeafLight,
+    convergence: Convergence,
     watch: Follower<'l>,
     fault: Option<Error>,
 }
@@ -60,41 +66,70 @@ pub(crate) fn solve(
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
     let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent, &direct);
-    let (rounds, products, fault) = (0, 0, None);
-    let mut levels =
-        Levels { options, start, tiling, links, direct, sent, rounds, products, light, watch, fault };
-    let converged = levels.run(state)?;
-    levels.finish(converged, state)
+    let mut levels = Levels {
+        options,
+        start,
+        tiling,
+        links,
+        direct,
+        sent,
+        rounds: 0,
+        products: 0,
+        light,
+        convergence: Convergence::default(),
+        watch,
+        fault: None,
+    };
+    let is_right = levels.run(state)?;
+    levels.finish(is_right, state)
 }
 
 impl Levels<'_> {
-    /// Goes on until every patch is within its budget (true), or the watcher, the time or a defect ends the run (false).
-    fn run(&mut self, state: &mut State) -> Result<bool, Error> {
+    /// Goes on until all is estimated to be right, or nothing finer is to be had: tells which; nothing when the watcher, the time or a defect
+    /// ends the run.
+    fn run(&mut self, state: &mut State) -> Result<Option<bool>, Error> {
         let Pairs { far, near } = self.links.first_pairs(&self.tiling);
-        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(false) };
+        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(None) };
         self.links.clusters.all = clusters;
         let candidates: Vec<Candidate> =
             near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
-        let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
-        self.links.open(&self.tiling, links, self.options.error);
+        let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
+        self.links.open(&self.tiling, links);
         if !self.shine(state)? {
-            return Ok(false);
+            return Ok(None);
         }
         self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
-        for times in COARSE {
-            loop {
-                if !self.shine(state)? {
-                    return Ok(false);
-                }
-                let mut lights = self.settle(FEW, false);
-                match self.refine(&mut lights, times * SUM * self.options.error, state)? {
-                    None => return Ok(false),
-                    Some(false) => break,
-                    Some(true) => {}
-                }
+        let lights = self.settle(FEW, false);
+        self.links.total(&self.tiling, &lights, self.options.error);
+        let (mut share, finest) = (COARSE * self.options.error, FINEST * self.options.error);
+        while let Some(excess) = self.level(share, state)? {
+            if excess <= 1.0 || share <= finest {
+                return Ok(Some(excess <= 1.0));
+            }
+            let [low, high] = TIGHTER;
+            share = (share * excess.powf(-0.5).clamp(low, high)).max(finest);
+        }
+        Ok(None)
+    }
+
+    /// Refines until the errors of every patch's links add up to no more than a share of its light; gives by how many times what is asked for is exceeded
+    /// then, or nothing when the run is to end.
+    fn level(&mut self, share: f64, state: &mut State) -> Result<Option<f64>, Error> {
+        loop {
+            if !self.shine(state)? {
+                return Ok(None);
+            }
+            let mut lights = self.settle(FEW, false);
+            match self.refine(&mut lights, share, state)? {
+                None => return Ok(None),
+                Some(true) => {}
+                Some(false) => break,
             }
         }
-        Ok(true)
+        let lights = self.settle(ALL, true);
+        let Levels { tiling, links, convergence, options, .. } = self;
+        convergence.reach(tiling, &links.all, &links.clusters, &lights);
+        Ok(Some(convergence.excess(tiling, &links.all, &links.clusters, &lights, options.error)))
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -322,21 +357,23 @@ impl Levels<'_> {
         Ok(halves)
     }
 
-    /// The solution, with an estimate of its error.
-    fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
-        let converged = converged && self.shine(state)?;
-        let most = if converged { ALL } else { 0 };
+    /// The solution, with an estimate of its error; as it is shown, unless the run was ended.
+    fn finish(mut self, is_right: Option<bool>, state: &State) -> Result<Solution, Error> {
+        let is_lit = is_right.is_some() && self.shine(state)?;
+        let is_right = is_right.filter(|_| is_lit);
+        let most = if is_lit { ALL } else { 0 };
         let lights = self.settle(most, true);
         if self.options.record {
             // The run is over: there is nothing to stop.
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
+        let errors = self.convergence.errors(&self.tiling, &self.links.all, &self.links.clusters, &lights);
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = estimate(tiling, &links.all, &links.clusters, &lights, sent.len());
-        let shown = match converged.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
+        let estimate = means(tiling, &lights, &errors, sent.len());
+        let shown = match is_right.map(|_| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
                 None
@@ -347,7 +384,7 @@ impl Levels<'_> {
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            converged: is_shown && light.is_within(options.tolerance),
+            converged: is_shown && is_right == Some(true) && light.is_within(options.tolerance),
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,
             ..solution
