@@ -6,22 +6,25 @@ use formfactor::DifferentialArea;
 use std::f64::consts::PI;
 
 /// The light of lamps, sun and sky, and that of emitters where `with_emitters` asks for it, on every element and at every vertex; nothing
-/// where there is none of either.
+/// where there is none of either, or when the watcher wants to stop.
 pub(super) fn gather(
     scene: &Scene,
     run: &mut Run<'_>,
     with_emitters: bool,
 ) -> Result<Option<Gathered>, Error> {
-    let (mesh, bands) = (&run.factors.subdivision.mesh, run.light.bands);
+    let subdivision = run.factors.subdivision;
+    let (mesh, bands) = (&subdivision.mesh, run.light.bands);
     let on_patch =
         |(element, area): (usize, DifferentialArea)| run.factors.on_patch(area, mesh.elements[element].patch);
     let receivers: Vec<DifferentialArea> = receivers(scene, mesh)?.into_iter().map(on_patch).collect();
-    let straight = run.factors.straight_light(&receivers)?;
-    if straight.is_none() && !with_emitters {
+    let is_lit = run.factors.are_lit();
+    if !is_lit && !with_emitters {
         return Ok(None);
     }
     let mut elements = run.light.direct.clone();
-    let mut vertices = straight.unwrap_or_else(|| vec![0.0; mesh.vertices.len() * bands]);
+    let straight =
+        if is_lit { run.straight(&receivers)? } else { Some(vec![0.0; mesh.vertices.len() * bands]) };
+    let Some(mut vertices) = straight else { return Ok(None) };
     let emitters = scene.patches.iter().enumerate().filter(|(_, patch)| with_emitters && patch.emits());
     for (emitter, patch) in emitters {
         let shine = |values: &mut [f64], place: usize, factor: f64| {

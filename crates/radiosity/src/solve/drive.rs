@@ -19,7 +19,7 @@ impl Run<'_> {
     }
 
     fn solve(&mut self, scene: &Scene) -> Result<bool, Error> {
-        let choice = if self.sample(scene)? { self.choose(scene)? } else { None };
+        let choice = if self.sample(scene)? && self.shine()? { self.choose(scene)? } else { None };
         match choice {
             None => Ok(false),
             Some(Method::Shoot) => shoot(self),

@@ -1,13 +1,11 @@
 //! Exact form factors from the elements to the pieces.
 use super::state::{Column, State};
-use super::{
-    fingerprint, hemicube::Hemicubes, light::DirectLight, lights::Lights, occluders::Occluders, workers,
-};
+use super::{fingerprint, hemicube::Hemicubes, lights::Lights, occluders::Occluders, workers};
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
 #[derive(Debug)]
@@ -84,14 +82,13 @@ impl<'s> Factors<'s> {
         Ok(column)
     }
 
-    /// What lights without surfaces bring to the centroids of all elements.
-    pub(super) fn direct(&self) -> Result<DirectLight, Error> {
-        let [irradiance, beyond] = self.straight(&self.receivers)?;
-        Ok(DirectLight { irradiance, beyond, power: self.lights.power().to_vec() })
+    /// What lights without surfaces bring to the centroids of some elements, in all and from beyond the scene: elements × bands.
+    pub(super) fn direct(&self, elements: Range<usize>) -> Result<[Vec<f64>; 2], Error> {
+        self.straight(&self.receivers[elements])
     }
 
     /// What lights without surfaces bring to any points, in all and from beyond the scene: points × bands.
-    fn straight(&self, points: &[DifferentialArea]) -> Result<[Vec<f64>; 2], Error> {
+    pub(super) fn straight(&self, points: &[DifferentialArea]) -> Result<[Vec<f64>; 2], Error> {
         let mut all = [(); 2].map(|()| Vec::with_capacity(points.len() * self.scene.bands));
         let find = |point: &DifferentialArea| self.lights.irradiance(&self.enclosure, point);
         for [lamps, beyond] in workers::from_all(points, "what a light shines on", find)? {
@@ -101,12 +98,14 @@ impl<'s> Factors<'s> {
         Ok(all)
     }
 
-    /// What lights without surfaces bring to any points: points × bands; nothing where there are none.
-    pub(super) fn straight_light(&self, points: &[DifferentialArea]) -> Result<Option<Vec<f64>>, Error> {
-        if self.lights.is_empty() {
-            return Ok(None);
-        }
-        self.straight(points).map(|[all, _]| Some(all))
+    /// Whether there are lights without surfaces.
+    pub(super) fn are_lit(&self) -> bool {
+        !self.lights.is_empty()
+    }
+
+    /// The power of the lamps per band.
+    pub(super) fn lamp_power(&self) -> &[f64] {
+        self.lights.power()
     }
 
     /// A point of a patch, as the enclosure knows it.

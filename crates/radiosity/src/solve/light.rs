@@ -20,20 +20,18 @@ pub(super) struct Light {
     pub(super) emitted: Vec<f64>,
 }
 
-/// What lights without surfaces bring to the elements.
-#[derive(Clone, Debug)]
+/// What lights without surfaces bring to the elements, as far as it is known.
+#[derive(Clone, Debug, Default)]
 pub(super) struct DirectLight {
     /// Irradiance, elements × bands.
     pub(super) irradiance: Vec<f64>,
     /// What comes from beyond the scene: the part of it that counts as emitted.
     pub(super) beyond: Vec<f64>,
-    /// The power of the lamps per band.
-    pub(super) power: Vec<f64>,
 }
 
 impl Light {
-    /// Only what the patches emit, and reflect of what lights bring: B = E + ρH.
-    pub(super) fn new(scene: &Scene, mesh: &Mesh, direct: DirectLight) -> Light {
+    /// Only what the patches emit.
+    pub(super) fn new(scene: &Scene, mesh: &Mesh) -> Light {
         let patch = |element: &Element| &scene.patches[element.patch];
         let emission = mesh.elements.iter().flat_map(|element| &patch(element).emission);
         let emittance: Vec<_> = emission.map(|radiance| PI * radiance).collect();
@@ -45,14 +43,24 @@ impl Light {
             areas: (0..mesh.elements.len()).map(|element| mesh.area(element)).collect(),
             reflectance: mesh.elements.iter().enumerate().flat_map(reflectance).collect(),
             emittance,
-            direct: direct.irradiance,
+            direct: Vec::new(),
             emitted: Vec::new(),
         };
-        let (own, beyond) = (light.total(&light.emittance), light.total(&direct.beyond));
-        let emitted = own.iter().zip(beyond).zip(direct.power);
-        light.emitted = emitted.map(|((own, beyond), lamps)| own + beyond + lamps).collect();
-        light.receive_all(vec![0.0; light.emittance.len()]);
+        light.shine(DirectLight::default(), &vec![0.0; scene.bands]);
         light
+    }
+
+    /// What the patches emit, and reflect of what lights bring, B = E + ρH: where that is not known they bring nothing. `power` is that of the
+    /// lamps per band.
+    pub(super) fn shine(&mut self, mut direct: DirectLight, power: &[f64]) {
+        let count = self.emittance.len();
+        direct.irradiance.resize(count, 0.0);
+        direct.beyond.resize(count, 0.0);
+        let (own, beyond) = (self.total(&self.emittance), self.total(&direct.beyond));
+        let emitted = own.iter().zip(beyond).zip(power);
+        self.emitted = emitted.map(|((own, beyond), lamps)| own + beyond + lamps).collect();
+        self.direct = direct.irradiance;
+        self.receive_all(vec![0.0; count]);
     }
 
     /// The bands in which something emits: no other needs to be solved.

@@ -102,8 +102,7 @@ fn scene_complaints(scene: &Scene, known: &Known) -> Vec<String> {
 /// All that was left out is in one line, and nothing else is.
 fn summary_complaints(scene: &Scene, known: &Known) -> Vec<String> {
     let line = in_one_line(&scene.warnings).unwrap_or_default();
-    let is_quiet = known.notes.is_empty()
-        && scene.warnings.iter().all(|warning| warning.kind == Kind::File);
+    let is_quiet = known.notes.is_empty() && scene.warnings.iter().all(|warning| warning.kind == Kind::File);
     let missing = known.notes.iter().filter(|words| !line.contains(*words));
     let mut all: Vec<String> = missing.map(|words| format!("{words} is not named: {line}")).collect();
     if is_quiet && !line.is_empty() {

@@ -181,7 +181,10 @@ fn blender_gives_the_same_lamps_in_both_formats() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/exported");
     let open = |name: &str| radiosity::io::Source::open(folder.join(name)).unwrap().scene().unwrap();
     let [dae, glb] = ["blender-lights.dae", "blender-lights.glb"].map(open);
-    assert_eq!([&dae, &glb].map(|scene| (scene.lamps.len(), scene.suns.len(), scene.units)), [(2, 1, Units::Radiant); 2]);
+    assert_eq!(
+        [&dae, &glb].map(|scene| (scene.lamps.len(), scene.suns.len(), scene.units)),
+        [(2, 1, Units::Radiant); 2]
+    );
     for (name, power) in [("point", 60.0), ("spot", 80.0)] {
         let [a, b] = [&dae, &glb].map(|scene| scene.lamps.iter().find(|lamp| lamp.name == name).unwrap());
         assert!((a.intensity[0] - power / (4.0 * PI)).abs() < 1e-9, "{name}: {:?}", a.intensity);
@@ -190,7 +193,8 @@ fn blender_gives_the_same_lamps_in_both_formats() {
         let turned = DVec3::new(a.position.x, a.position.z, -a.position.y);
         assert!(turned.distance(b.position) < 1e-5, "{name}: {turned} {}", b.position);
     }
-    let outer = [&dae, &glb].map(|scene| cone(scene.lamps.iter().find(|lamp| lamp.name == "spot").unwrap()).outer);
+    let outer =
+        [&dae, &glb].map(|scene| cone(scene.lamps.iter().find(|lamp| lamp.name == "spot").unwrap()).outer);
     assert!((outer[0] - 0.5f64.cos()).abs() < 1e-6 && (outer[1] - outer[0]).abs() < 1e-6, "{outer:?}");
     assert!([&dae, &glb].iter().all(|scene| (scene.suns[0].irradiance[0] - 2.0).abs() < 1e-3));
     let area = dae.patches.iter().find(|patch| patch.name == "area").unwrap();
