@@ -51,18 +51,21 @@ impl Plane {
             .expect("a polygon's coordinates are finite")
     }
 
-    /// The polygons of a region, in the plane. Points of `polygons` keep their place bit for bit.
-    pub(crate) fn lift(&self, region: &Region, polygons: &[&PlanarPolygon]) -> Vec<PlanarPolygon> {
-        let known: std::collections::HashMap<[u64; 2], DVec3> = polygons
-            .iter()
-            .flat_map(|polygon| polygon.loops().flatten())
-            .map(|&point| (bits(self.flatten(point)), point))
-            .collect();
+    /// The polygons of a region, in the plane. Corners at one of the `known` points keep its place bit for bit; of two points above each
+    /// other the last counts. Where that makes a polygon that is not planar, all its corners are raised to the plane.
+    pub(crate) fn lift(&self, region: &Region, known: impl IntoIterator<Item = DVec3>) -> Vec<PlanarPolygon> {
+        let known: std::collections::HashMap<[u64; 2], DVec3> =
+            known.into_iter().map(|point| (bits(self.flatten(point)), point)).collect();
         let place = |flat: &DVec2| known.get(&bits(*flat)).copied().unwrap_or_else(|| self.raise(*flat));
-        let ring = |points: &[DVec2]| points.iter().map(place).collect::<Vec<_>>();
-        let loops =
-            region.polygons().map(|p| std::iter::once(p.outer()).chain(p.holes()).map(ring).collect());
-        loops.filter_map(|loops: Vec<Vec<DVec3>>| PlanarPolygon::new(loops).ok()).collect()
+        let lifted = |rings: &[&[DVec2]], place: &dyn Fn(&DVec2) -> DVec3| {
+            PlanarPolygon::new(rings.iter().map(|ring| ring.iter().map(place).collect::<Vec<_>>())).ok()
+        };
+        let polygons = region.polygons().map(|p| std::iter::once(p.outer()).chain(p.holes()).collect());
+        polygons
+            .filter_map(|rings: Vec<&[DVec2]>| {
+                lifted(&rings, &place).or_else(|| lifted(&rings, &|flat| self.raise(*flat)))
+            })
+            .collect()
     }
 }
 

@@ -236,6 +236,18 @@ fn reflectances_are_limited() {
     assert_eq!(repaired.scene.patches[0].reflectance, [0.99, 0.99, 0.0]);
 }
 
+/// Neighbours whose corners rounding of a transform set apart share them afterwards, and nothing is told.
+#[test]
+fn what_doubles_round_apart_is_closed_without_a_word() {
+    let off = Sheet { corner: DVec3::new(1.0, f64::EPSILON, 0.0), along: DVec3::X, up: DVec3::Y };
+    let square = Sheet { corner: DVec3::ZERO, ..off };
+    let repaired = repair(&scene(vec![square.patch("a", 0.0), off.patch("b", 0.0)]));
+    assert!(repaired.repairs.is_empty(), "{:?}", repaired.repairs);
+    let corners = |index: usize| repaired.scene.patches[index].polygon.loops().flatten().copied();
+    let shared = corners(0).filter(|corner| corners(1).any(|other| other == *corner));
+    assert_eq!(shared.count(), 2);
+}
+
 /// Faces that are near each other but not in one plane stay: the front one hides the other.
 #[test]
 fn planes_that_a_single_tells_apart_are_two() {

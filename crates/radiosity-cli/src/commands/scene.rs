@@ -7,6 +7,7 @@ use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity scene`
 #[derive(Args, Debug)]
+#[command(override_usage = "radiosity scene <NAME> [--output <FILE>]\n       radiosity scene --list")]
 pub(crate) struct BuiltIn {
     /// The scene's name; furnace-R is a furnace of reflectance R
     #[arg(required_unless_present = "list")]

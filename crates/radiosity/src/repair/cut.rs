@@ -1,32 +1,35 @@
 //! Faces of one plane cut out of each other.
-use super::{findings, slivers::without_spikes};
+use super::{findings, necks::without_necks};
 use crate::coplanar::{Overlap, SINGLE, overlaps, perimeter};
 use crate::extent::Extent;
 use crate::mesh::subdivide::can_be_divided;
-use crate::plane::Plane;
+use crate::plane::{Plane, slack};
 use crate::scene::{Scene, finding::Finding, patch::Patch};
 use formfactor::PlanarPolygon;
 use polycsg::{Csg, Region};
 use std::collections::{BTreeMap, HashSet};
 
-/// One round is enough but where planes are one in pairs and not all together.
-const ROUNDS: usize = 4;
+/// A corner lies on a plane when it is nearer than this share of what a polygon's vertices may lie off theirs: the other half is for the
+/// polygon's own.
+const ON_PLANE: f64 = 0.5;
 
-/// Cuts until no two patches overlap; tells what overlapped before. What still does after some rounds is left out.
+/// Cuts the patches that overlap out of each other; tells what overlapped. Pieces may overlap still where planes are one in pairs and not
+/// all together.
 pub(super) fn cut(scene: &mut Scene) -> Vec<Finding> {
-    let mut found = overlaps(scene, SINGLE);
+    let found = overlaps(scene, SINGLE);
     let findings = found.iter().map(|overlap| findings::overlap(scene, overlap)).collect();
-    for _ in 0..ROUNDS {
-        if found.is_empty() {
-            return findings;
-        }
+    if !found.is_empty() {
         cut_once(scene, &found);
-        found = overlaps(scene, SINGLE);
     }
+    findings
+}
+
+/// Leaves out the lower of each two patches that overlap.
+pub(super) fn leave_out_covered(scene: &mut Scene) {
+    let found = overlaps(scene, SINGLE);
     let lower: HashSet<usize> = found.iter().map(|overlap| ranked(scene, overlap)[1]).collect();
     let mut indices = 0..;
     scene.patches.retain(|_| indices.next().is_some_and(|index| !lower.contains(&index)));
-    findings
 }
 
 fn cut_once(scene: &mut Scene, overlaps: &[Overlap]) {
@@ -68,9 +71,13 @@ fn rest(scene: &Scene, index: usize, upper: &[usize]) -> Vec<PlanarPolygon> {
     let regions: Vec<Region> = above.iter().map(|polygon| plane.region(polygon)).collect();
     let rest = (Csg::from(&plane.region(polygon)) - Csg::union(&regions)).evaluate();
     let width = SINGLE * Extent::around(polygon).diagonal();
-    let pieces = plane.lift(&rest, &[polygon]);
-    let smooth = pieces.iter().filter_map(|piece| without_spikes(piece, width));
-    smooth.filter(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece)).collect()
+    // What lies on the plane is a corner of both, so that no crack opens between them.
+    let corners = above.iter().flat_map(|polygon| polygon.loops().flatten());
+    let shared = corners.filter(|corner| plane.height(**corner).abs() <= ON_PLANE * slack(&[**corner]));
+    let mut pieces =
+        plane.lift(&without_necks(&rest, width), shared.chain(polygon.loops().flatten()).copied());
+    pieces.retain(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece));
+    pieces
 }
 
 /// The pieces under their names: the patch's own for a single one.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cut          faces of one plane cut out of each other
+//! necks        what is thin between a corner and an edge is gone
 //! findings     what is wrong with patches, in words
 //! reflectance  no surface reflects all light
 //! slivers      what is thinner than rounding is left out
@@ -13,13 +14,18 @@
 //! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch.
 mod cut;
 pub(crate) mod findings;
+mod necks;
 mod reflectance;
 mod slivers;
 mod weld;
 
+pub(crate) use reflectance::BRIGHTEST;
 pub(crate) use weld::{PointKey, Welds, key};
 
 use crate::scene::{Scene, finding::Finding};
+
+/// So many rounds after the first one: the second finds nothing but where planes are one in pairs.
+const ROUNDS: usize = 4;
 
 /// A scene after its repair, and what was wrong.
 #[derive(Clone, Debug)]
@@ -35,6 +41,7 @@ pub struct Repaired {
 ///
 /// - Reflectances of 1 or more become 0.99, negative ones 0.
 /// - Vertices that lie beside each other by less than single precision rounds away become one, where polygons stay planar.
+///   What lies beside each other by rounding of doubles is not told.
 /// - Slivers and spikes of polygons, which are thinner than rounding, are left out.
 /// - Patches that face the same way in one plane are cut out of each other, so that no point is covered twice. An emitter stays whole
 ///   and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal ones the first. Duplicates and
@@ -47,8 +54,25 @@ pub fn repair(scene: &Scene) -> Repaired {
     let read = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_some()).cloned();
     let mut repairs: Vec<Finding> = read.collect();
     repairs.extend(reflectance::limit(&mut scene));
-    repairs.extend(weld::weld(&mut scene));
-    repairs.extend(slivers::leave_out(&mut scene));
-    repairs.extend(cut::cut(&mut scene));
+    if put_right(&mut scene, &mut repairs) {
+        settle(&mut scene);
+    }
     Repaired { scene, repairs }
+}
+
+/// Repairs the shapes of patches once; returns whether anything was to be done.
+fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>) -> bool {
+    let known = findings.len();
+    let is_moved = weld::weld(scene, findings);
+    findings.extend(slivers::leave_out(scene));
+    findings.extend(cut::cut(scene));
+    is_moved || findings.len() > known
+}
+
+/// Repairs what cuts leave: corners of two pieces at one place that were rounded apart, thin pieces, and overlaps where planes are one in
+/// pairs and not all together. What overlaps after some rounds is left out.
+fn settle(scene: &mut Scene) {
+    if (0..ROUNDS).all(|_| put_right(scene, &mut Vec::new())) {
+        cut::leave_out_covered(scene);
+    }
 }

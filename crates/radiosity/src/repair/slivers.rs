@@ -55,7 +55,7 @@ fn spike(patch: &mut Patch) -> Option<Finding> {
 ///   │          c─────────┘     so b is left out
 ///   └──────────┘
 /// ```
-pub(super) fn without_spikes(polygon: &PlanarPolygon, width: f64) -> Option<PlanarPolygon> {
+fn without_spikes(polygon: &PlanarPolygon, width: f64) -> Option<PlanarPolygon> {
     let mut loops: Vec<Vec<DVec3>> = polygon.loops().map(|ring| smooth(ring, width)).collect();
     let is_left = |ring: &Vec<DVec3>| ring.len() > 2;
     if !loops.first().is_some_and(is_left) {
@@ -85,9 +85,9 @@ fn smooth(ring: &[DVec3], width: f64) -> Vec<DVec3> {
     ring
 }
 
-/// Whether a point is nearer to an edge than the width.
+/// Whether a point is nearer to an edge than the width; to an edge of no length any point is.
 fn is_near(point: DVec3, [a, b]: [DVec3; 2], width: f64) -> bool {
     let (edge, arm) = (b - a, point - a);
     let along = (arm.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-    !(point.distance(a + along * edge) > width)
+    edge.length_squared() == 0.0 || point.distance(a + along * edge) <= width
 }

@@ -1,6 +1,7 @@
 //! Vertices that nearly meet become one: cracks that rounding opened are closed.
 use crate::coplanar::SINGLE;
 use crate::extent::{BoxTree, Extent};
+use crate::plane::slack;
 use crate::scene::{
     Scene,
     finding::{Finding, Kind},
@@ -13,25 +14,32 @@ use std::collections::BTreeMap;
 /// A place as a key of a map; −0.0 reads as 0.0.
 pub(crate) type PointKey = [u64; 3];
 
-/// For each place at which a vertex stands, the place to which it is moved.
+/// For each place from which a vertex is moved, the place to which.
 #[derive(Debug)]
 pub(crate) struct Welds(BTreeMap<PointKey, DVec3>);
 
 impl Welds {
-    /// Each vertex goes to the first one of the scene that is nearer than a rounding of the smallest patch there. What is moved to does
-    /// not move, so nothing goes further. O(n log n).
+    /// Each vertex goes to one that is nearer than a rounding of the smallest patch there: that to which the others around it have the
+    /// shortest ways in all, so that few move, and of equal ones the first of the scene. What is moved to does not move, so nothing goes
+    /// further. O(n log n) for n vertices that are spread out.
     pub(crate) fn of(scene: &Scene) -> Welds {
-        let places = places(scene);
-        let boxes = BoxTree::new(places.iter().map(|(place, _)| Extent { low: *place, high: *place }));
-        let mut target: Vec<usize> = (0..places.len()).collect();
-        for (index, (place, reach)) in places.iter().enumerate() {
-            let around = boxes.meeting(&Extent { low: *place, high: *place }.grown(*reach)).into_iter();
-            let fixed = around.take_while(|other| *other < index).filter(|other| target[*other] == *other);
-            let near = fixed.filter(|other| places[*other].0.distance(*place) <= reach.min(places[*other].1));
-            target[index] = near.min_by(|a, b| distance(&places, index, *a, *b)).unwrap_or(index);
+        let corners = corners(scene);
+        let boxes =
+            BoxTree::new(corners.iter().map(|corner| Extent { low: corner.place, high: corner.place }));
+        let near: Vec<Vec<(f64, usize)>> =
+            corners.iter().map(|corner| corner.near(&corners, &boxes)).collect();
+        let way = |(distance, other): &(f64, usize)| distance * corners[*other].vertices;
+        let ways = |index: &usize| near[*index].iter().map(way).sum::<f64>();
+        let mut order: Vec<usize> = (0..corners.len()).collect();
+        order.sort_by(|a, b| ways(a).total_cmp(&ways(b)));
+        let mut stays = vec![false; corners.len()];
+        let mut moves = BTreeMap::new();
+        for index in order {
+            let target = near[index].iter().map(|(_, other)| *other).find(|other| stays[*other]);
+            stays[index] = target.is_none();
+            moves.extend(target.map(|target| (key(corners[index].place), corners[target].place)));
         }
-        let moves = target.iter().enumerate().map(|(index, &to)| (key(places[index].0), places[to].0));
-        Welds(moves.collect())
+        Welds(moves)
     }
 
     /// Where a vertex of the scene goes.
@@ -40,27 +48,46 @@ impl Welds {
     }
 }
 
-/// Which of two places is nearer.
-fn distance(places: &[(DVec3, f64)], from: usize, a: usize, b: usize) -> std::cmp::Ordering {
-    let to = |other: usize| places[other].0.distance_squared(places[from].0);
-    to(a).total_cmp(&to(b))
+/// A place at which vertices stand.
+#[derive(Debug)]
+struct WeldedCorner {
+    place: DVec3,
+    /// How far they may be moved.
+    reach: f64,
+    /// How many there are.
+    vertices: f64,
 }
 
-/// The places at which vertices stand, in the order of the scene, each with how far it may be moved.
-fn places(scene: &Scene) -> Vec<(DVec3, f64)> {
+impl WeldedCorner {
+    /// The other corners that may become one with it, nearest first, each behind its distance.
+    fn near(&self, corners: &[WeldedCorner], boxes: &BoxTree) -> Vec<(f64, usize)> {
+        let around =
+            boxes.meeting(&Extent { low: self.place, high: self.place }.grown(self.reach)).into_iter();
+        let ways = around.map(|other| (corners[other].place.distance(self.place), other));
+        let is_near = |way: &(f64, usize)| way.0 > 0.0 && way.0 <= self.reach.min(corners[way.1].reach);
+        let mut near: Vec<(f64, usize)> = ways.filter(is_near).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        near
+    }
+}
+
+/// The places at which vertices stand, in the order of the scene.
+fn corners(scene: &Scene) -> Vec<WeldedCorner> {
     let mut known: BTreeMap<PointKey, usize> = BTreeMap::new();
-    let mut places: Vec<(DVec3, f64)> = Vec::new();
+    let mut corners: Vec<WeldedCorner> = Vec::new();
     for patch in &scene.patches {
         let reach = SINGLE * Extent::of(patch).diagonal();
-        for point in patch.polygon.loops().flatten() {
-            let index = *known.entry(key(*point)).or_insert(places.len());
-            match places.get_mut(index) {
-                Some((_, least)) => *least = least.min(reach),
-                None => places.push((*point, reach)),
+        for &place in patch.polygon.loops().flatten() {
+            let index = *known.entry(key(place)).or_insert(corners.len());
+            match corners.get_mut(index) {
+                Some(corner) => {
+                    (corner.reach, corner.vertices) = (corner.reach.min(reach), corner.vertices + 1.0)
+                }
+                None => corners.push(WeldedCorner { place, reach, vertices: 1.0 }),
             }
         }
     }
-    places
+    corners
 }
 
 /// The key of a place.
@@ -68,16 +95,18 @@ pub(crate) fn key(place: DVec3) -> PointKey {
     place.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
 }
 
-/// Moves the vertices; a polygon that would no longer be planar stays as it is.
-pub(super) fn weld(scene: &mut Scene) -> Vec<Finding> {
+/// Moves the vertices; a polygon that would no longer be planar stays as it is. Tells which were further apart than rounding of their
+/// coordinates; returns whether any was moved.
+pub(super) fn weld(scene: &mut Scene, findings: &mut Vec<Finding>) -> bool {
     let welds = Welds::of(scene);
-    let mut findings = Vec::new();
+    let mut is_moved = false;
     for patch in &mut scene.patches {
         let Some(polygon) = welded(patch, &welds) else { continue };
-        findings.push(finding(patch, &polygon));
+        findings.extend(finding(patch, &welds));
         patch.polygon = polygon;
+        is_moved = true;
     }
-    findings
+    is_moved
 }
 
 /// The polygon with its vertices moved, if any of them is to.
@@ -86,19 +115,27 @@ fn welded(patch: &Patch, welds: &Welds) -> Option<PlanarPolygon> {
     if points().all(|point| welds.place(*point) == *point) {
         return None;
     }
-    let ring = |points: &[DVec3]| points.iter().map(|point| welds.place(*point)).collect::<Vec<_>>();
+    let ring = |points: &[DVec3]| {
+        let mut ring: Vec<DVec3> = points.iter().map(|point| welds.place(*point)).collect();
+        ring.dedup();
+        if ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        ring
+    };
     let polygon = PlanarPolygon::new(patch.polygon.loops().map(ring)).ok()?;
     (polygon.normal().dot(patch.polygon.normal()) > 0.0).then_some(polygon)
 }
 
-fn finding(patch: &Patch, polygon: &PlanarPolygon) -> Finding {
-    let pairs = patch.polygon.loops().flatten().zip(polygon.loops().flatten());
-    let moved = pairs.map(|(before, after)| before.distance(*after)).fold(0.0, f64::max);
-    Finding {
+/// Of vertices that were moved further than rounding of a transform moves them.
+fn finding(patch: &Patch, welds: &Welds) -> Option<Finding> {
+    let vertices: Vec<DVec3> = patch.polygon.loops().flatten().copied().collect();
+    let moved = vertices.iter().map(|vertex| vertex.distance(welds.place(*vertex))).fold(0.0, f64::max);
+    (moved > slack(&vertices)).then(|| Finding {
         kind: Kind::Crack,
         patches: vec![patch.name.clone()],
         what: format!("its vertices lie up to {moved:.1e} beside those of its neighbours"),
         repair: "give neighbours the same vertices; or let reading or inspect --repair do it".into(),
         places: Vec::new(),
-    }
+    })
 }

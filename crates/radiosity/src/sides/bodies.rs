@@ -22,22 +22,20 @@ pub(super) struct Bodies {
     pub(super) of_patch: Vec<usize>,
 }
 
-/// What is known of an edge: a patch that has it, and how often more it is run along forwards than backwards.
-struct SharedEdge {
-    patch: usize,
-    turns: i32,
-}
+/// The patches that have an edge, each with how often more it runs along it forwards than backwards.
+type EdgeUses = BTreeMap<usize, i32>;
 
 impl Bodies {
-    /// The bodies that first sides make. Every edge of a closed body is run along as often one way as the other.
+    /// The bodies that first sides make. Every edge of a closed body is run along as often one way as the other. Objects of the file that
+    /// are closed at an edge by themselves only touch the others there.
     pub(super) fn collect(scene: &Scene, welds: &Welds) -> Bodies {
-        let mut edges: BTreeMap<[PointKey; 2], SharedEdge> = BTreeMap::new();
         let mut groups = UnionFind::new(scene.patches.len());
-        for (patch, _) in scene.patches.iter().enumerate().filter(|(_, patch)| !patch.is_back) {
-            for [a, b] in sides(scene, patch, welds) {
-                let edge = edges.entry([a.min(b), a.max(b)]).or_insert(SharedEdge { patch, turns: 0 });
-                edge.turns += if a < b { 1 } else { -1 };
-                groups.join(edge.patch, patch);
+        let mut open = Vec::new();
+        for uses in edges(scene, welds).values() {
+            for connected in connected(scene, uses) {
+                connected.windows(2).for_each(|pair| groups.join(pair[0], pair[1]));
+                let turns: i32 = connected.iter().map(|patch| uses[patch]).sum();
+                open.extend(connected.first().filter(|_| turns != 0).copied());
             }
         }
         (1..scene.patches.len())
@@ -45,10 +43,7 @@ impl Bodies {
             .for_each(|index| groups.join(index - 1, index));
         let (of_patch, firsts) = groups.number();
         let mut is_closed = vec![true; firsts.len()];
-        edges
-            .values()
-            .filter(|edge| edge.turns != 0)
-            .for_each(|edge| is_closed[of_patch[edge.patch]] = false);
+        open.into_iter().for_each(|patch| is_closed[of_patch[patch]] = false);
         let volumes = volumes(scene, &of_patch, firsts.len());
         let body = |(index, first): (usize, usize)| ConnectedBody {
             first,
@@ -64,6 +59,30 @@ impl Bodies {
     pub(super) fn of(&self, patch: usize) -> &ConnectedBody {
         &self.bodies[self.of_patch[patch]]
     }
+}
+
+/// The edges of first sides.
+fn edges(scene: &Scene, welds: &Welds) -> BTreeMap<[PointKey; 2], EdgeUses> {
+    let mut edges: BTreeMap<[PointKey; 2], EdgeUses> = BTreeMap::new();
+    for (patch, _) in scene.patches.iter().enumerate().filter(|(_, patch)| !patch.is_back) {
+        for [a, b] in sides(scene, patch, welds) {
+            let uses = edges.entry([a.min(b), a.max(b)]).or_default();
+            *uses.entry(patch).or_default() += if a < b { 1 } else { -1 };
+        }
+    }
+    edges
+}
+
+/// The patches of an edge that it connects: those of each object that is closed there, and all others.
+fn connected(scene: &Scene, uses: &EdgeUses) -> Vec<Vec<usize>> {
+    let mut objects: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for &patch in uses.keys() {
+        objects.entry(scene.patches[patch].origin.instance).or_default().push(patch);
+    }
+    let is_closed = |object: &Vec<usize>| object.iter().map(|patch| uses[patch]).sum::<i32>() == 0;
+    let (mut closed, open): (Vec<_>, Vec<_>) = objects.into_values().partition(is_closed);
+    closed.push(open.concat());
+    closed
 }
 
 /// The directed edges of a patch between places that are not one.

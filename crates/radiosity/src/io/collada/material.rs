@@ -53,6 +53,32 @@ pub(super) fn finish<'a>(
     }
 }
 
+/// What a surface that reflects all light has it from.
+pub(super) enum Dimmable<'a> {
+    /// A diffuse colour.
+    Colour(XmlNode<'a>),
+    Spectrum,
+    Neither,
+}
+
+/// What the reflectance of polygons with a symbol comes from.
+pub(super) fn dimmable<'a>(
+    file: &File<'a>,
+    instance: XmlNode<'a>,
+    symbol: Option<&str>,
+) -> Result<Dimmable<'a>, FileError> {
+    let material = symbol.map_or(Ok(None), |symbol| bound(file, instance, symbol))?;
+    let Some(material) = material else { return Ok(Dimmable::Neither) };
+    let effect = file.target(file.child(material, "instance_effect")?, "url", "effect")?;
+    if spectra(file, effect)?.is_some() {
+        return Ok(Dimmable::Spectrum);
+    }
+    Ok(match shader(effect).map(|shader| slot(effect, shader, "diffuse")) {
+        Some(Slot::Colour(element)) => Dimmable::Colour(element),
+        _ => Dimmable::Neither,
+    })
+}
+
 /// Whether an `<extra>` of the effect or of the geometry says that the surface has two sides, as exporters say it.
 pub(super) fn is_double_sided<'a>(
     file: &File<'a>,

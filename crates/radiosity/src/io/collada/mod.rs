@@ -10,6 +10,7 @@
 //! its outside where a node's transform mirrors it; a node whose transform flattens it is left out, with a warning.
 mod camera;
 pub(crate) mod compose;
+mod dimmed;
 mod encoding;
 mod exposed;
 mod file;
@@ -33,7 +34,7 @@ mod write;
 use super::error::FileError;
 use super::save::bytes_of;
 use crate::expose::Exposure;
-use crate::io::surface::changes::changes;
+use crate::io::surface::changes::{changes, dimmed};
 use crate::mesh::element::Mesh;
 use crate::scene::{Scene, asset::Asset};
 use compose::text_with;
@@ -135,16 +136,17 @@ impl Collada {
     }
 
     /// The file's text with the polygons of a repaired scene: those that were cut give way to their pieces, and everything else stays byte
-    /// for byte. Polygons behind which nothing changed keep their vertices bit for bit.
+    /// for byte, but for diffuse colours whose reflectance was limited. Polygons behind which nothing changed keep their vertices bit for bit.
     ///
     /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). A file that has no room for more vertices is
-    /// written anew, as by [`Collada::of`].
+    /// written anew, as by [`Collada::of`], and so is one whose limited reflectances are spectra. A picture that reflects all light
+    /// everywhere stays: the format cannot lower it.
     ///
     /// # Errors
     /// As [`Collada::scene`].
     pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<String, FileError> {
-        let changes = changes(before, after);
-        let spliced = self.with_file(|file| repaired::repaired(&self.text, file, &changes))?;
+        let repairs = (changes(before, after), dimmed(before, after));
+        let spliced = self.with_file(|file| repaired::repaired(&self.text, file, &repairs))?;
         Ok(spliced.unwrap_or_else(|| Self::of(after).text))
     }
 

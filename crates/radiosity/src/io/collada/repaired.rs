@@ -9,6 +9,7 @@
 //! ```
 //!
 //! A geometry that several nodes instance gets a copy for each that changed.
+use super::dimmed::dimmed_colours;
 use super::file::{File, XmlNode, children};
 use super::primitive::{Layout, Primitive, layout, polylist, primitives, rows, triangles};
 use super::splice::{Edit, Splice, copied_doors, spliced};
@@ -22,15 +23,19 @@ use crate::io::words::{decimal, list};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// The new text; `None` where the file's arrays have no room for more vertices, or what changed is no geometry.
+/// The new text; `None` where the file's arrays have no room for more vertices, where spectra were dimmed, or what changed is no geometry.
 pub(super) fn repaired(
     text: &str,
     file: &File<'_>,
-    changes: &Changes<'_>,
+    (changes, dimmed): &(Changes<'_>, BTreeSet<[usize; 2]>),
 ) -> Result<Option<String>, FileError> {
     let instances = walk(file)?.instances;
     let copied = copied_doors(instances.iter());
     let mut splice = Splice::new(text, file);
+    let Some(colours) = dimmed_colours(file, &instances, dimmed)? else { return Ok(None) };
+    for (range, colour) in colours {
+        splice.edit(Vec::new(), range, colour);
+    }
     for (index, pieces) in changes {
         // A lamp that is no geometry has no place in the text.
         let Some(instance) = instances.get(*index) else { return Ok(None) };

@@ -8,6 +8,7 @@ mod accessor;
 mod buffer;
 mod compose;
 mod container;
+mod dimmed;
 mod document;
 mod exposed;
 mod lights;
@@ -24,7 +25,7 @@ pub use write::glb;
 
 use super::error::FileError;
 use super::save::bytes_of;
-use super::surface::changes::changes;
+use super::surface::changes::{changes, dimmed};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -73,20 +74,22 @@ impl Gltf {
     }
 
     /// The bytes of this file with the polygons of a repaired scene: triangles of polygons that were cut give way to those of their pieces,
-    /// which are added behind the file's data; everything else stays. Text stays text, and binary stays binary.
+    /// which are added behind the file's data; base colours whose reflectance was limited are lowered; everything else stays. Text stays
+    /// text, and binary stays binary.
     ///
     /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). Positions are in single precision.
     ///
     /// # Errors
     /// As [`Gltf::scene`], and [`FileError::Size`] when the data exceed the format's 4 GiB.
     pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<Vec<u8>, FileError> {
-        let changes = changes(before, after);
-        if changes.is_empty() {
+        let (changes, dimmed) = (changes(before, after), dimmed(before, after));
+        if changes.is_empty() && dimmed.is_empty() {
             return Ok(self.bytes.clone());
         }
-        let (document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
+        let (mut document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
         let file = document::check(&self.name, (document.clone(), blob.clone()))?;
         let (_, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
+        dimmed::dim(&mut document, &primitives, &dimmed);
         repaired::repaired((document, blob), &primitives, &changes)
     }
 }

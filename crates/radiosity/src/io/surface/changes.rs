@@ -1,7 +1,7 @@
 //! What became of a file's polygons when its scene was repaired.
 use crate::scene::{Scene, patch::Origin, patch::Patch, texture::Texture};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What takes the place of a polygon, or of a part of it.
 #[derive(Debug)]
@@ -50,11 +50,26 @@ pub(crate) fn changes<'s>(before: &Scene, after: &'s Scene) -> Changes<'s> {
     changes
 }
 
+/// The primitives, by instance and their own index, whose reflectance was limited.
+pub(crate) fn dimmed(before: &Scene, after: &Scene) -> BTreeSet<[usize; 2]> {
+    let old: BTreeMap<[usize; 3], &Patch> =
+        before.patches.iter().map(|patch| (place(patch), patch)).collect();
+    let is_dimmed =
+        |patch: &&Patch| old.get(&place(patch)).is_some_and(|old| old.reflectance != patch.reflectance);
+    let dimmed = after.patches.iter().filter(is_dimmed);
+    dimmed.map(|patch| [patch.origin.instance, patch.origin.primitive]).collect()
+}
+
+/// Where in the file a patch comes from: the instance, the primitive and the polygon.
+fn place(patch: &Patch) -> [usize; 3] {
+    let Origin { instance, primitive, polygon } = patch.origin;
+    [instance, primitive, polygon]
+}
+
 fn by_origin(scene: &Scene) -> BTreeMap<[usize; 3], TwoSides<'_>> {
     let mut sides: BTreeMap<[usize; 3], TwoSides<'_>> = BTreeMap::new();
     for patch in &scene.patches {
-        let Origin { instance, primitive, polygon } = patch.origin;
-        sides.entry([instance, primitive, polygon]).or_default()[usize::from(patch.is_back)].push(patch);
+        sides.entry(place(patch)).or_default()[usize::from(patch.is_back)].push(patch);
     }
     sides
 }

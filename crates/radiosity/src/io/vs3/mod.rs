@@ -119,7 +119,7 @@ fn shape(surface: &Row, parts: &[&Row]) -> Result<(Vec<PlanarPolygon>, Option<f6
     };
     let holes: Vec<Region> = parts.iter().map(|part| region(part)).collect();
     let rest = (Csg::from(&region(surface)) - Csg::union(&holes)).evaluate();
-    Ok((plane.lift(&rest, &[&whole]), None))
+    Ok((plane.lift(&rest, whole.loops().flatten().copied()), None))
 }
 
 /// A quadrangle's two triangles, by its first diagonal.
