@@ -17,7 +17,7 @@ use super::file::{File, XmlNode, child, children};
 use super::spectra::own;
 use super::walk::{LightInstance, name_of};
 use crate::io::error::{Fault, FileError};
-use crate::io::surface::lamps::{Stand, area_corners};
+use crate::io::surface::lamps::{LampPose, area_corners};
 use crate::scene::finding::Finding;
 use crate::scene::lamp::{Cone, Distribution, Lamp, Rim};
 use crate::scene::sky::Sun;
@@ -87,7 +87,7 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
             self.leave_out(warnings, "a light beyond all numbers", "correct its colour or attenuation");
             return Ok(());
         }
-        let Some(stand) = Stand::of(self.instance.visit.world) else {
+        let Some(pose) = LampPose::of(self.instance.visit.world) else {
             self.leave_out(warnings, "a light without a direction", "correct the node's transform");
             return Ok(());
         };
@@ -107,10 +107,10 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
                     );
                 }
             }
-            "directional" => all.suns.push(Sun { name, direction: stand.ahead(), irradiance: strength }),
+            "directional" => all.suns.push(Sun { name, direction: pose.ahead(), irradiance: strength }),
             "point" | "spot" => {
                 let distribution = self.distribution(kind)?;
-                all.lamps.push(stand.lamp(name, distribution, strength));
+                all.lamps.push(pose.lamp(name, distribution, strength));
             }
             other => {
                 let repair = "let --sky light the scene from all around";

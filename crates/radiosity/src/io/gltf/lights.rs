@@ -3,7 +3,7 @@
 //! The extension is photometric: candela, and lux of a directional light. Blender multiplies its watts with 683 lm/W, the efficacy of green
 //! light of 555 nm, and spreads them over a sphere; in its files that is undone.
 use super::material::as_written;
-use crate::io::surface::lamps::Stand;
+use crate::io::surface::lamps::LampPose;
 use crate::scene::lamp::{Cone, Distribution, Lamp, Rim};
 use crate::scene::sky::Sun;
 use crate::scene::units::Units;
@@ -29,7 +29,7 @@ pub(super) fn units(document: &gltf::Document) -> Units {
 }
 
 /// The light of a node that stands so; nothing where it has none, or numbers that no light has.
-pub(super) fn read(light: &Light<'_>, name: &str, stand: Stand, units: Units) -> Option<ReadLight> {
+pub(super) fn read(light: &Light<'_>, name: &str, pose: LampPose, units: Units) -> Option<ReadLight> {
     let factor = if units == Units::Radiant { 1.0 / BLENDER } else { 1.0 };
     let strength = factor * as_written(light.intensity());
     let bands: Vec<f64> = light.color().map(|band| strength * as_written(band)).to_vec();
@@ -39,13 +39,13 @@ pub(super) fn read(light: &Light<'_>, name: &str, stand: Stand, units: Units) ->
     }
     let name = name.to_owned();
     Some(match light.kind() {
-        Kind::Directional => ReadLight::Sun(Sun { name, direction: stand.ahead(), irradiance: bands }),
-        Kind::Point => ReadLight::Lamp(stand.lamp(name, Distribution::Even, bands)),
+        Kind::Directional => ReadLight::Sun(Sun { name, direction: pose.ahead(), irradiance: bands }),
+        Kind::Point => ReadLight::Lamp(pose.lamp(name, Distribution::Even, bands)),
         Kind::Spot { inner_cone_angle, outer_cone_angle } => {
             let outer = as_written(outer_cone_angle).cos();
             let inner = as_written(inner_cone_angle).cos().max(outer + RIM).min(1.0);
             let cone = Cone { exponent: 0.0, inner, outer: outer.min(inner), rim: Rim::Squared };
-            ReadLight::Lamp(stand.lamp(name, Distribution::Cone(cone), bands))
+            ReadLight::Lamp(pose.lamp(name, Distribution::Cone(cone), bands))
         }
     })
 }

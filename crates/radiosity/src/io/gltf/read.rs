@@ -2,7 +2,7 @@
 use super::material::{Materials, ReadMaterial, as_written};
 use super::{accessor::Buffers, document::GltfFile, lights, lights::ReadLight};
 use crate::io::error::{Fault, FileError};
-use crate::io::surface::lamps::Stand;
+use crate::io::surface::lamps::LampPose;
 use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::io::{surface::facets, surface::finish::Surface};
@@ -127,7 +127,7 @@ impl Reader<'_> {
     }
 
     fn shine(&mut self, light: &gltf::khr_lights_punctual::Light<'_>, name: &str, world: DMat4) {
-        let read = Stand::of(world).and_then(|stand| lights::read(light, name, stand, self.units));
+        let read = LampPose::of(world).and_then(|pose| lights::read(light, name, pose, self.units));
         match read {
             Some(ReadLight::Lamp(lamp)) => self.lamps.push(lamp),
             Some(ReadLight::Sun(sun)) => self.suns.push(sun),

@@ -8,19 +8,19 @@ const SIDES: usize = 32;
 
 /// Where a lamp stands, and which way it points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stand {
+pub(crate) struct LampPose {
     position: DVec3,
     frame: DMat3,
 }
 
-impl Stand {
+impl LampPose {
     /// As a node's transform says, whatever its scale; nothing where that leaves no direction.
-    pub(crate) fn of(world: DMat4) -> Option<Stand> {
+    pub(crate) fn of(world: DMat4) -> Option<LampPose> {
         let back = world.transform_vector3(DVec3::Z).try_normalize()?;
         let side = world.transform_vector3(DVec3::X);
         let right = (side - side.dot(back) * back).try_normalize()?;
         let frame = DMat3::from_cols(right, back.cross(right), -back);
-        Some(Stand { position: world.w_axis.truncate(), frame })
+        Some(LampPose { position: world.w_axis.truncate(), frame })
     }
 
     /// The way in which the light of a sun goes.
