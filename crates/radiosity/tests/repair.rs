@@ -352,3 +352,36 @@ fn a_shared_geometry_is_copied_for_the_node_that_was_cut() {
     assert_eq!(areas, [15.0, 16.0, 1.0]);
     assert!(repair(&read).repairs.is_empty());
 }
+
+/// Two elements of one geometry, the second with places in a picture, each with a polygon twice: indices are counted in each by its own
+/// inputs.
+#[test]
+fn elements_of_a_geometry_are_cut_by_their_own_inputs() {
+    let squares =
+        [0.0, 9.0, 20.0].map(|x| format!("{x} 0 0 {} 0 0 {} 4 0 {x} 4 0", x + 4.0, x + 4.0)).join(" ");
+    let text = format!(
+        r##"<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="p-array" count="36">{squares}</float_array>
+<technique_common><accessor source="#p-array" count="12" stride="3"/></technique_common></source>
+<source id="t"><float_array id="t-array" count="2">0 0</float_array>
+<technique_common><accessor source="#t-array" count="1" stride="2"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="2"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4 4</vcount><p>0 1 2 3 0 1 2 3</p></polylist>
+<polylist count="3"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="TEXCOORD" source="#t" offset="1"/>
+<vcount>4 4 4</vcount><p>4 0 5 0 6 0 7 0 4 0 5 0 6 0 7 0 8 0 9 0 10 0 11 0</p></polylist>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node name="n"><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>"##
+    );
+    let file = Collada::from_text("two.dae", text);
+    let before = file.scene().unwrap();
+    let after = repair(&before).scene;
+    let read = Collada::from_text("repaired.dae", file.repaired(&before, &after).unwrap()).scene().unwrap();
+    let first = |scene: &Scene| -> Vec<DVec3> {
+        scene.patches.iter().map(|patch| patch.polygon.loops().next().unwrap()[0]).collect()
+    };
+    assert_eq!(first(&read), [0.0, 9.0, 20.0].map(|x| DVec3::new(x, 0.0, 0.0)));
+    assert_eq!(first(&read), first(&after));
+}

@@ -82,25 +82,25 @@ fn edits<'a>(
 ) -> Result<Option<Vec<Edit>>, FileError> {
     let file = splice.file;
     let all = primitives(file, instance.geometry, &mut Vec::new())?;
-    let mut vertices: Option<(Layout<'a>, GeometryVertices)> = None;
+    let mut vertices: Option<(XmlNode<'a>, GeometryVertices)> = None;
     let mut edits = Vec::new();
     for (&index, pieces) in changes {
         let primitive = &all[index];
         let Some(layout) = layout(file, primitive.element)? else { return Ok(None) };
-        if vertices.as_ref().is_some_and(|(known, _)| known.vertices != layout.vertices) {
+        if vertices.as_ref().is_some_and(|(known, _)| *known != layout.vertices) {
             return Ok(None);
         }
         if vertices.is_none() {
             let known = GeometryVertices::of(&rows(file, layout.source, 3)?, instance.visit.world);
-            vertices = Some((layout, known));
+            vertices = Some((layout.vertices, known));
         }
-        let Some((layout, vertices)) = &mut vertices else { return Ok(None) };
-        edits.extend(without(splice.text, file, primitive, layout, pieces)?);
-        edits.extend(with(splice, primitive, layout, vertices, pieces));
+        let Some((_, vertices)) = &mut vertices else { return Ok(None) };
+        edits.extend(without(splice.text, file, primitive, &layout, pieces)?);
+        edits.extend(with(splice, primitive, &layout, vertices, pieces));
     }
-    let Some((layout, vertices)) = vertices else { return Ok(Some(edits)) };
+    let Some((element, vertices)) = vertices else { return Ok(Some(edits)) };
     if vertices.are_more() {
-        let Some(longer) = vertices.longer(file, layout.vertices)? else { return Ok(None) };
+        let Some(longer) = vertices.longer(file, element)? else { return Ok(None) };
         edits.extend(longer);
     }
     edits.sort_by_key(|(range, _)| range.start);
