@@ -160,6 +160,7 @@ fn lit(scene: &Scene) -> Record {
         cameras: scene.cameras.clone(),
         bands: scene.bands,
         wavelengths: Vec::new(),
+        lumens: Vec::new(),
         bound: ones(1),
         patches: scene.patches.iter().map(patch).collect(),
         vertex_radiosity: ones(vertices.len()),

@@ -111,7 +111,17 @@ fn around(planes: Vec<(f64, Vec<f64>)>, symmetry: Symmetry) -> Vec<(f64, Vec<f64
     all.iter_mut().filter(|plane| plane.0 > TAU - 1e-9).for_each(|plane| plane.0 = 0.0);
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all.dedup_by(|b, a| b.0 - a.0 < 1e-9);
+    if all[0].0 > 0.0 {
+        all.insert(0, (0.0, at_seam(&all)));
+    }
     let first = all[0].1.clone();
     all.push((TAU, first));
     all
+}
+
+/// The rows at C = 0, between those of the last half-plane and of the first.
+fn at_seam(planes: &[(f64, Vec<f64>)]) -> Vec<f64> {
+    let ((after, first), (before, last)) = (&planes[0], &planes[planes.len() - 1]);
+    let share = (TAU - before) / (TAU - before + after);
+    last.iter().zip(first).map(|(last, first)| last + share * (first - last)).collect()
 }

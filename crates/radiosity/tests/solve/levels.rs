@@ -75,11 +75,12 @@ fn squares_that_touch_receive_what_the_closed_form_says_however_coarse_they_are(
 fn all_power_is_accounted_for_and_the_finer_solution_is_within_the_estimates() {
     let scene = furnished();
     let [coarse, fine] = [0.03, 0.003].map(|error| solved(&scene, &options(error)));
-    for solution in [&coarse, &fine] {
+    for (solution, error) in [(&coarse, 0.03), (&fine, 0.003)] {
         let ledger = &solution.ledger;
         let spent = ledger.absorbed[0] + ledger.escaped[0] + ledger.unshot[0];
         assert!((spent / ledger.emitted[0] - 1.0).abs() < 1e-12, "{ledger:?}");
-        assert!(ledger.escaped[0].abs() < 1e-2 * ledger.emitted[0], "{ledger:?}");
+        // The room is closed: what escapes is an error.
+        assert!(ledger.escaped[0].abs() < error * ledger.emitted[0], "{ledger:?}");
         assert!(solution.converged && solution.bound[0] > 0.0);
         assert!(solution.irradiance.iter().all(|h| *h >= 0.0));
     }
