@@ -61,6 +61,7 @@ fn layers() -> Vec<(&'static str, Vec<Row>)> {
 /// Squares and frames on few points, some with a corner cut off at a place that rounds: neighbours share edges, others overlap, fill
 /// holes, touch or are equal.
 fn lattice(random: &mut Random) -> Vec<u8> {
+    let kind = random.below(4);
     let mut below = |most: usize| random.below(most) as f64;
     let (low, size) = ([below(12), below(12)], 1.0 + below(4));
     let inset = |by: f64| {
@@ -68,7 +69,7 @@ fn lattice(random: &mut Random) -> Vec<u8> {
         let (a, b) = (by / 2.0, size - by / 2.0);
         vec![[x + a, y + a], [x + b, y + a], [x + b, y + b], [x + a, y + b]]
     };
-    match below(4) as usize {
+    match kind {
         0 if size > 1.0 => polygon_wkb(&[inset(0.0), inset(1.0)]),
         1 => {
             let [a, b, c, d] = inset(0.0)[..] else { unreachable!("four corners") };

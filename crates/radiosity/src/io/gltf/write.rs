@@ -31,8 +31,8 @@ pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
         "scenes": [{"nodes": [0]}],
     });
     let mut nodes = vec![json!({"name": "scene", "matrix": upright(&record.asset).to_cols_array()})];
-    if !record.elements.is_empty() {
-        let primitives = primitives(&mut buffer, record, middle, exposure);
+    let primitives = primitives(&mut buffer, record, middle, exposure);
+    if !primitives.is_empty() {
         document["meshes"] = json!([{"name": "light", "primitives": primitives}]);
         materials(&mut document, &mut buffer, record);
         document["extensionsUsed"] = json!(["KHR_materials_unlit"]);
