@@ -249,11 +249,11 @@ fn a_folder_for_copies_that_is_not_there_is_named() {
     assert!(stderr(&output).contains("it is copied to /nowhere first"), "{}", stderr(&output));
 }
 
-/// A repair whose input comes through a pipe.
+/// A command whose input comes through a pipe.
 #[cfg(unix)]
-fn begun(out: &str) -> (Child, ChildStdin) {
+fn begun(name: &str, out: &str) -> (Child, ChildStdin) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_polycsg"));
-    command.args(["repair", "-", "--from", "wkt", "-o", out]).stdin(Stdio::piped()).stderr(Stdio::piped());
+    command.args([name, "-", "--from", "wkt", "-o", out]).stdin(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("it starts");
     let pipe = child.stdin.take().expect("a pipe");
     (child, pipe)
@@ -280,7 +280,7 @@ fn send(signal: &str, child: &Child) {
 fn signals_end_it_while_it_waits_and_leave_nothing() {
     for signal in ["-INT", "-TERM"] {
         let folder = Folder::new();
-        let (mut child, mut pipe) = begun(&folder.path("out.wkt"));
+        let (mut child, mut pipe) = begun("repair", &folder.path("out.wkt"));
         fill(&mut pipe);
         send(signal, &child);
         assert_eq!(child.wait().expect("it ends").code(), Some(130), "{signal}");
@@ -289,11 +289,23 @@ fn signals_end_it_while_it_waits_and_leave_nothing() {
     }
 }
 
+/// A dissolve has nothing to write before it has read everything: however it ends till then, as for want of memory, no file is left.
+#[cfg(unix)]
+#[test]
+fn a_dissolve_that_is_killed_while_it_reads_leaves_nothing() {
+    let folder = Folder::new();
+    let (mut child, mut pipe) = begun("dissolve", &folder.path("out.wkt"));
+    fill(&mut pipe);
+    send("-KILL", &child);
+    assert_eq!(child.wait().expect("it ends").code(), None);
+    assert_eq!(folder.names(), Vec::<String>::new());
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_it_and_leaves_nothing() {
     let folder = Folder::new();
-    let (child, mut pipe) = begun(&folder.path("out.wkt"));
+    let (child, mut pipe) = begun("repair", &folder.path("out.wkt"));
     fill(&mut pipe);
     send("-INT", &child);
     while pipe.write_all(LINE).is_ok() {}

@@ -54,9 +54,11 @@ impl Functions {
         Functions { contacts: most, ..self }
     }
 
-    /// What evaluating one group may take, in bytes. A group is evaluated in parts whose boxes do not touch, and a part that takes more ends in
-    /// an [`Error`](crate::Error) that names the group. Groups report no more than this to the engine: under a limit of
-    /// its own, the engine refuses a group by what all of it would take at once, and names itself.
+    /// What evaluating one connected part of a group may take, in bytes. A group is evaluated in parts whose boxes do not touch, and a part
+    /// that takes more ends in an [`Error`](crate::Error) that names the group.
+    ///
+    /// Without it a group reports 80 bytes for each byte of its state, as if it were one part, and an engine with less memory refuses it and
+    /// names itself. With it a group reports no more than this and 20 bytes for each byte of its state, for sorting it.
     #[must_use]
     pub fn bytes(self, most: usize) -> Functions {
         Functions { bytes: most, ..self }

@@ -50,6 +50,7 @@ fn layers() -> Vec<(&'static str, Vec<Row>)> {
         .collect();
     vec![
         ("lattice", (0..900).map(|i| (keys[i % 3], Some(lattice(&mut random)))).collect()),
+        ("turned lattice", (0..900).map(|i| (keys[i % 3], Some(turned(&lattice(&mut random))))).collect()),
         ("crowd", crowd),
         ("parcels", parcels),
         ("nested", nested),
@@ -78,6 +79,15 @@ fn lattice(random: &mut Random) -> Vec<u8> {
         2 if size > 1.0 => polygon_wkb(&[inset(1.0)]),
         _ => polygon_wkb(&[inset(0.0)]),
     }
+}
+
+/// A polygon turned by an angle that no double holds, and far from the origin: neighbours share edges still, and crossings are rounded.
+fn turned(bytes: &[u8]) -> Vec<u8> {
+    let (sine, cosine) = 0.7_f64.sin_cos();
+    let place = |[x, y]: [f64; 2]| [1e5 + cosine * x - sine * y, 3e5 + sine * x + cosine * y];
+    let rings: Vec<Ring> =
+        read(bytes).into_iter().map(|ring| ring.into_iter().map(place).collect()).collect();
+    polygon_wkb(&rings)
 }
 
 /// Cells of a grid whose inner vertices are moved; neighbours share theirs.

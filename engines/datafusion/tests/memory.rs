@@ -3,7 +3,7 @@ mod common;
 
 use arrow_array::{Array, ArrayRef, BinaryArray};
 use arrow_schema::{DataType, Field, Schema};
-use common::{Random, polygon_wkb};
+use common::{Random, polygon_wkb, rectangle};
 use datafusion_common::Result;
 use datafusion_expr::function::AccumulatorArgs;
 use datafusion_expr::{AggregateUDF, EmitTo};
@@ -14,8 +14,8 @@ use std::sync::Arc;
 #[global_allocator]
 static HEAP: PeakAlloc = PeakAlloc;
 
-fn aggregate() -> AggregateUDF {
-    Functions::default().aggregates().remove(0)
+fn aggregate(functions: Functions) -> AggregateUDF {
+    functions.aggregates().remove(0)
 }
 
 fn accumulator(function: &AggregateUDF) -> Result<Box<dyn datafusion_expr::GroupsAccumulator>> {
@@ -62,31 +62,71 @@ fn inputs() -> Vec<(&'static str, usize, Vec<ArrayRef>)> {
     ]
 }
 
+/// Blocks of 100 parcels that share their edges; blocks do not touch.
+fn blocks() -> Vec<ArrayRef> {
+    let cell = |i: usize| {
+        let [block, row, column] = [i / 100, i / 10 % 10, i % 10].map(|n| n as f64);
+        polygon_wkb(&[rectangle([block * 11.0 + column, row], [1.0, 1.0])])
+    };
+    let batch = |first: usize| -> ArrayRef {
+        Arc::new(BinaryArray::from_iter_values((first..first + 1000).map(cell)))
+    };
+    (0..20).map(|batch_number| batch(1000 * batch_number)).collect()
+}
+
 #[test]
 fn what_is_reported_covers_what_is_taken() -> Result<()> {
-    let function = aggregate();
+    let unlimited = aggregate(Functions::default());
     for (name, groups, batches) in inputs() {
-        let before = HEAP.current_usage();
-        HEAP.reset_peak_usage();
-        let mut accumulator = accumulator(&function)?;
-        let mut reported = 0;
-        for batch in &batches {
-            let indices: Vec<usize> = (0..batch.len()).map(|row| row % groups).collect();
-            accumulator.update_batch(std::slice::from_ref(batch), &indices, None, groups)?;
-            reported = reported.max(accumulator.size());
-            // A batch is read beside the state, as engines let functions do; what stays is what counts.
-            let held = HEAP.current_usage() - before;
-            assert!(held <= accumulator.size(), "{name}: {held} bytes held, {} reported", accumulator.size());
-        }
-        HEAP.reset_peak_usage();
-        let result = accumulator.evaluate(EmitTo::All)?;
-        let taken = HEAP.peak_usage() - before;
-        println!(
-            "{name}: {taken} bytes at most, {reported} reported, {} in the result",
-            result.get_array_memory_size()
-        );
-        assert!(taken <= reported, "{name}: {taken} bytes taken, {reported} reported");
-        assert!(reported <= 24 * taken, "{name}: {taken} bytes taken, {reported} reported");
+        holds(name, &unlimited, groups, &batches)?;
     }
+    // In small parts, whatever all of them take together.
+    let limited = aggregate(Functions::default().bytes(1 << 20));
+    let (name, groups, apart) = inputs().remove(1);
+    holds(name, &limited, groups, &apart)?;
+    holds("blocks in parts", &limited, 1, &blocks())
+}
+
+/// Of an accumulator that is asked for its result, and of one that is asked for its state.
+fn holds(name: &str, function: &AggregateUDF, groups: usize, batches: &[ArrayRef]) -> Result<()> {
+    let before = HEAP.current_usage();
+    let (mut filled, reported) = filled(name, function, groups, batches)?;
+    HEAP.reset_peak_usage();
+    let result = filled.evaluate(EmitTo::All)?;
+    let taken = HEAP.peak_usage() - before;
+    println!(
+        "{name}: {taken} bytes at most, {reported} reported, {} in the result",
+        result.get_array_memory_size()
+    );
+    assert!(taken <= reported, "{name}: {taken} bytes taken, {reported} reported");
+    assert!(reported <= 24 * taken, "{name}: {taken} bytes taken, {reported} reported");
+    drop((filled, result));
+    let before = HEAP.current_usage();
+    let (mut filled, reported) = self::filled(name, function, groups, batches)?;
+    HEAP.reset_peak_usage();
+    let state = filled.state(EmitTo::All)?;
+    let taken = HEAP.peak_usage() - before;
+    println!("{name}: {taken} bytes at most for a state of {}", state[0].get_array_memory_size());
+    assert!(taken <= reported, "{name}: {taken} bytes taken by the state, {reported} reported");
     Ok(())
+}
+
+/// An accumulator of all batches, and the most that it reported.
+fn filled(
+    name: &str,
+    function: &AggregateUDF,
+    groups: usize,
+    batches: &[ArrayRef],
+) -> Result<(Box<dyn datafusion_expr::GroupsAccumulator>, usize)> {
+    let before = HEAP.current_usage();
+    let (mut accumulator, mut reported) = (accumulator(function)?, 0);
+    for batch in batches {
+        let indices: Vec<usize> = (0..batch.len()).map(|row| row % groups).collect();
+        accumulator.update_batch(std::slice::from_ref(batch), &indices, None, groups)?;
+        reported = reported.max(accumulator.size());
+        // A batch is read beside the state, as engines let functions do; what stays is what counts.
+        let held = HEAP.current_usage() - before;
+        assert!(held <= accumulator.size(), "{name}: {held} bytes held, {} reported", accumulator.size());
+    }
+    Ok((accumulator, reported))
 }

@@ -90,17 +90,20 @@ fn light_beyond_single_precision_stays_finite() {
     assert_eq!(parts.vectors("COLOR_0")[0], [1.0, 0.0, 1.0]);
 }
 
+/// In single precision 1000000.01 is 1000000 and 1000000.06 is 1000000.0625, of which readers of digits take the digits that it needs.
 #[test]
 fn a_small_thing_far_away_keeps_its_shape_and_place() {
-    // A tenth of the coordinates' own rounding in single precision, which is 1/16.
-    let node = node("n", "<translate>1000000.01 0 0</translate><scale>0.006 0.006 1</scale>", "square");
-    let scene = scene(&file("", &node).replace("0.0254", "1"));
-    let bytes = glb(&record(&scene, [1.0; 3]), Exposure::new(1.0).unwrap()).unwrap();
-    let again = Gltf::from_bytes("far.glb", bytes).scene().unwrap();
-    let relative = again.patches[0].polygon.area() / (0.006 * 0.006) - 1.0;
-    assert!(relative.abs() < 1e-5, "{relative}");
-    let x = again.extent()[0].x;
-    assert!((x - 1_000_000.01).abs() < 1e-7, "{x}");
+    for place in [1_000_000.01, 1_000_000.06, -16_777.3, 333.112] {
+        let node =
+            node("n", &format!("<translate>{place} 0 0</translate><scale>0.006 0.006 1</scale>"), "square");
+        let scene = scene(&file("", &node).replace("0.0254", "1"));
+        let bytes = glb(&record(&scene, [1.0; 3]), Exposure::new(1.0).unwrap()).unwrap();
+        let again = Gltf::from_bytes("far.glb", bytes).scene().unwrap();
+        let relative = again.patches[0].polygon.area() / (0.006 * 0.006) - 1.0;
+        assert!(relative.abs() < 1e-5, "{relative}");
+        let [x, wanted] = [&again, &scene].map(|scene| scene.extent()[0].x);
+        assert!((x - wanted).abs() < 1e-7, "{x} {wanted}");
+    }
 }
 
 #[test]
@@ -128,6 +131,18 @@ fn what_single_precision_cannot_hold_is_still_a_file() {
 fn a_scene_without_patches_is_still_a_file() {
     let (_, _, parts) = written(&file("", ""), 1.0);
     assert!(parts.document.get("meshes").is_none() && parts.binary.is_empty());
+}
+
+/// A triangle that is thinner than single precision tells has no area in the file, and what has none is left out.
+#[test]
+fn a_scene_of_which_nothing_is_left_is_still_a_file() {
+    let scene = scene(&file("", &node("n", "", "square")));
+    let mut record = record(&scene, [1.0; 3]);
+    record.vertices.iter_mut().for_each(|vertex| vertex.x *= 1e-60);
+    let bytes = glb(&record, Exposure::new(1.0).unwrap()).unwrap();
+    let parts = parts(&bytes);
+    assert!(parts.document.get("meshes").is_none() && parts.binary.is_empty());
+    assert!(Gltf::from_bytes("nothing.glb", bytes).scene().unwrap().patches.is_empty());
 }
 
 #[test]

@@ -11,6 +11,9 @@ use std::cmp::Ordering;
 /// thousands of stars over one another (`tests/memory.rs`). What meets more often is stopped by the limit on contacts.
 const BYTES_PER_BYTE: usize = 80;
 
+/// Sorting its features and cancelling their edges takes up to so many more, whatever their parts.
+const SORTED_BYTES_PER_BYTE: usize = 20;
+
 /// What evaluating a group may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GroupLimits {
@@ -19,9 +22,10 @@ pub(crate) struct GroupLimits {
 }
 
 impl GroupLimits {
-    /// What evaluating a state of so many bytes may take, in bytes.
+    /// What evaluating a state of so many bytes may take, in bytes: what is not taken at once is its parts.
     pub(crate) fn taken_by(self, length: usize) -> usize {
-        length.saturating_mul(BYTES_PER_BYTE).min(self.bytes)
+        let in_parts = length.saturating_mul(SORTED_BYTES_PER_BYTE).saturating_add(self.bytes);
+        length.saturating_mul(BYTES_PER_BYTE).min(in_parts)
     }
 
     fn check(self, length: usize) -> Result<(), String> {

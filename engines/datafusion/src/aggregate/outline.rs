@@ -11,6 +11,7 @@ use super::state::{self, by_point, rings};
 use crate::error::Error;
 use datafusion_common::HashMap;
 use polycsg::{Csg, DVec2, FillRule, Scratch};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 
 /// Of states of more bytes a sample of the edges is looked at first, one in so many.
@@ -28,13 +29,15 @@ type EdgeBits = [[u64; 2]; 2];
 ///
 /// Features without such edges stay as they are, and so do those whose edges cross: on which side of an edge they lie is not known.
 /// Expected O(n log n) for n edges.
-pub(crate) fn without_shared_edges(features: &[&[u8]]) -> Result<Option<Vec<u8>>, Error> {
-    if !are_mostly_shared(features)? {
+pub(crate) fn without_shared_edges<'s>(features: &[&'s [u8]]) -> Result<Option<Vec<u8>>, Error> {
+    let read = |bytes: &&'s [u8]| Ok((*bytes, rings(bytes)?));
+    let read: Vec<(&[u8], Vec<Vec<DVec2>>)> = features.iter().map(read).collect::<Result<_, Error>>()?;
+    if !are_mostly_shared(&read) {
         return Ok(None);
     }
     let mut edges = Edges::default();
     let features: Vec<Numbered> =
-        features.iter().map(|feature| edges.numbered(feature)).collect::<Result<_, Error>>()?;
+        read.into_iter().map(|(bytes, rings)| edges.numbered(bytes, rings)).collect();
     let (mut winding, mut scratch) = (Winding::of(&edges), Scratch::default());
     let mut kept = Vec::new();
     for feature in &features {
@@ -52,23 +55,22 @@ pub(crate) fn without_shared_edges(features: &[&[u8]]) -> Result<Option<Vec<u8>>
 }
 
 /// Whether half of the edges stand in more than one place. The sample has all places of an edge or none.
-fn are_mostly_shared(features: &[&[u8]]) -> Result<bool, Error> {
-    let is_large = features.iter().map(|feature| feature.len()).sum::<usize>() > LARGE;
-    let is_taken = |edge: &EdgeBits| !is_large || mixed(edge) < u64::MAX / ONE_IN;
+fn are_mostly_shared(features: &[(&[u8], Vec<Vec<DVec2>>)]) -> bool {
+    let is_large = features.iter().map(|(bytes, _)| bytes.len()).sum::<usize>() > LARGE;
     let mut uses: HashMap<EdgeBits, usize> = HashMap::new();
-    for feature in features {
-        let rings = rings(feature)?;
-        let taken = edges(&rings).map(|edge| bits(upwards(edge))).filter(is_taken);
+    for (_, rings) in features {
+        let taken =
+            edges(rings).map(|edge| bits(upwards(edge))).filter(|edge| !is_large || is_in_sample(edge));
         taken.for_each(|edge| *uses.entry(edge).or_default() += 1);
     }
     let shared: usize = uses.values().filter(|&&uses| uses > 1).sum();
-    Ok(shared > 0 && 2 * shared >= uses.values().sum())
+    shared > 0 && 2 * shared >= uses.values().sum()
 }
 
-/// All bits of an edge stirred into one number (the multiplier of Knuth's generator MMIX).
-fn mixed(edge: &EdgeBits) -> u64 {
-    let stir = |sum: u64, bits: &u64| (sum ^ bits).wrapping_mul(6_364_136_223_846_793_005).rotate_left(29);
-    edge.as_flattened().iter().fold(0, stir).wrapping_mul(6_364_136_223_846_793_005)
+fn is_in_sample(edge: &EdgeBits) -> bool {
+    let mut hasher = DefaultHasher::new();
+    edge.hash(&mut hasher);
+    hasher.finish().is_multiple_of(ONE_IN)
 }
 
 fn bits(edge: EdgeEnds) -> EdgeBits {
@@ -95,10 +97,10 @@ struct Numbered<'s> {
 }
 
 impl Edges {
-    fn numbered<'s>(&mut self, bytes: &'s [u8]) -> Result<Numbered<'s>, Error> {
-        let (rings, first) = (rings(bytes)?, self.of_features.len());
+    fn numbered<'s>(&mut self, bytes: &'s [u8], rings: Vec<Vec<DVec2>>) -> Numbered<'s> {
+        let first = self.of_features.len();
         edges(&rings).for_each(|edge| self.add(upwards(edge)));
-        Ok(Numbered { bytes, rings, edges: first..self.of_features.len() })
+        Numbered { bytes, rings, edges: first..self.of_features.len() }
     }
 
     fn add(&mut self, edge: EdgeEnds) {
