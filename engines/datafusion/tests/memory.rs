@@ -94,10 +94,6 @@ fn holds(name: &str, function: &AggregateUDF, groups: usize, batches: &[ArrayRef
     HEAP.reset_peak_usage();
     let result = filled.evaluate(EmitTo::All)?;
     let taken = HEAP.peak_usage() - before;
-    println!(
-        "{name}: {taken} bytes at most, {reported} reported, {} in the result",
-        result.get_array_memory_size()
-    );
     assert!(taken <= reported, "{name}: {taken} bytes taken, {reported} reported");
     assert!(reported <= 24 * taken, "{name}: {taken} bytes taken, {reported} reported");
     drop((filled, result));
@@ -106,7 +102,6 @@ fn holds(name: &str, function: &AggregateUDF, groups: usize, batches: &[ArrayRef
     HEAP.reset_peak_usage();
     let state = filled.state(EmitTo::All)?;
     let taken = HEAP.peak_usage() - before;
-    println!("{name}: {taken} bytes at most for a state of {}", state[0].get_array_memory_size());
     assert!(taken <= reported, "{name}: {taken} bytes taken by the state, {reported} reported");
     Ok(())
 }
