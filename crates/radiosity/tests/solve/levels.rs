@@ -75,11 +75,12 @@ fn squares_that_touch_receive_what_the_closed_form_says_however_coarse_they_are(
 fn all_power_is_accounted_for_and_the_finer_solution_is_within_the_estimates() {
     let scene = furnished();
     let [coarse, fine] = [0.03, 0.003].map(|error| solved(&scene, &options(error)));
-    for solution in [&coarse, &fine] {
+    for (solution, error) in [(&coarse, 0.03), (&fine, 0.003)] {
         let ledger = &solution.ledger;
         let spent = ledger.absorbed[0] + ledger.escaped[0] + ledger.unshot[0];
         assert!((spent / ledger.emitted[0] - 1.0).abs() < 1e-12, "{ledger:?}");
-        assert!(ledger.escaped[0].abs() < 1e-2 * ledger.emitted[0], "{ledger:?}");
+        // The room is closed: what escapes is an error.
+        assert!(ledger.escaped[0].abs() < error * ledger.emitted[0], "{ledger:?}");
         assert!(solution.converged && solution.bound[0] > 0.0);
         assert!(solution.irradiance.iter().all(|h| *h >= 0.0));
     }
@@ -93,6 +94,25 @@ fn all_power_is_accounted_for_and_the_finer_solution_is_within_the_estimates() {
     let area: f64 = (0..fine.mesh.elements.len()).map(|element| fine.mesh.area(element)).sum();
     let whole: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
     assert!((area / whole - 1.0).abs() < 1e-12);
+}
+
+/// On every patch of more than 1e-4 of the area; smaller ones there are none.
+#[test]
+fn a_run_ends_where_the_estimates_are_what_was_asked_for() {
+    let scene = furnished();
+    let count = scene.patches.len();
+    let area = |index: usize| scene.patches[index].polygon.area();
+    let whole: f64 = (0..count).map(area).sum();
+    for error in [0.3, 0.03, 0.01] {
+        let solution = solved(&scene, &options(error));
+        let means = solution.patch_means(&solution.irradiance, count);
+        let mean = (0..count).map(|index| area(index) * means[index][0]).sum::<f64>() / whole;
+        assert!(solution.converged, "{error}");
+        for (index, patch) in scene.patches.iter().enumerate() {
+            let share = solution.patch_estimate(index)[0] / means[index][0].max(0.01 * mean);
+            assert!(area(index) > 1e-4 * whole && share <= 1.001 * error, "{}: {share}", patch.name);
+        }
+    }
 }
 
 #[test]
@@ -211,4 +231,30 @@ fn shadows_are_where_points_see_them() {
     let mean = off.iter().sum::<f64>() / off.len() as f64;
     assert!(mean < 5e-3 * brightest, "{mean} of {brightest}");
     assert!(off[off.len() * 99 / 100] < 0.03 * brightest, "{} of {brightest}", off[off.len() * 99 / 100]);
+}
+
+/// Where a patch has a vertex on an edge that it shares with another, the other has it, too: no side of an element, on the rim of its patch, has
+/// a vertex in its middle.
+#[test]
+fn neighbours_share_the_vertices_on_their_edges() {
+    let scene = radiosity::scenes::scene("colour-bleeding").expect("a built-in scene");
+    let solution = solved(&scene, &radiosity::Quality::Draft.options());
+    let mesh = &solution.mesh;
+    let mut rim = std::collections::BTreeSet::new();
+    for element in &mesh.elements {
+        let [a, b, c] = element.corners;
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if !rim.remove(&[to, from]) {
+                rim.insert([from, to]);
+            }
+        }
+    }
+    assert!(rim.len() > 100, "{}", rim.len());
+    for [from, to] in rim.iter().map(|ends| ends.map(|end| mesh.vertices[end])) {
+        let is_inside = |place: &&radiosity::glam::DVec3| {
+            let (whole, parts) = (from.distance(to), from.distance(**place) + place.distance(to));
+            parts - whole < 1e-9 * whole && from.distance(**place).min(place.distance(to)) > 1e-6 * whole
+        };
+        assert_eq!(mesh.vertices.iter().find(is_inside), None, "between {from} and {to}");
+    }
 }

@@ -1,9 +1,11 @@
 //! Rounds of linking, solving and refining.
-use super::budget::{BandLight, cut, is_beyond, limits};
+use super::budget::{BandLight, cut, is_beyond, limits, uneven};
 use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
+use super::convergence::Convergence;
+use super::direct::Direct;
 use super::equilibrium::largest;
-use super::estimate::estimate;
+use super::estimate::means;
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link};
@@ -17,10 +19,14 @@ use crate::solve::{options::Options, solution::Solution, state::State};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
-/// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
-const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
-/// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
-const SUM: f64 = 2.0;
+/// What the errors of a patch's links may add up to at the first level, in units of what is asked for: errors are of any sign, and what is said of
+/// them is much.
+const COARSE: f64 = 32.0;
+/// The next level has the root of the part of the share that it would need were errors in proportion to it, as they are in proportion to more, but
+/// no less and no more than such parts of the last one.
+const TIGHTER: [f64; 2] = [0.25, 0.8];
+/// What errors may add up to at the last level.
+const FINEST: f64 = 0.5;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -33,6 +39,7 @@ struct Levels<'l> {
     start: Instant,
     tiling: Tiling<'l>,
     links: Links,
+    direct: Direct<'l>,
     /// What each tile sends, band by band.
     sent: Vec<Vec<Linear>>,
     /// How often the light was bettered.
@@ -40,6 +47,7 @@ struct Levels<'l> {
     products: usize,
     /// The light as of the last round.
     light: LeafLight,
+    convergence: Convergence,
     watch: Follower<'l>,
     fault: Option<Error>,
 }
@@ -53,39 +61,75 @@ pub(crate) fn solve(
     watch: Follower<'_>,
 ) -> Result<Solution, Error> {
     let tiling = Tiling::new(scene)?;
-    let links = Links::new(&tiling, state)?;
+    let (links, direct) = (Links::new(&tiling, state)?, Direct::new(&tiling));
     let emitted =
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
-    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent);
-    let mut levels =
-        Levels { options, start, tiling, links, sent, rounds: 0, products: 0, light, watch, fault: None };
-    let converged = levels.run(state)?;
-    levels.finish(converged, state)
+    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent, &direct);
+    let mut levels = Levels {
+        options,
+        start,
+        tiling,
+        links,
+        direct,
+        sent,
+        rounds: 0,
+        products: 0,
+        light,
+        convergence: Convergence::default(),
+        watch,
+        fault: None,
+    };
+    let is_right = levels.run(state)?;
+    levels.finish(is_right, state)
 }
 
 impl Levels<'_> {
-    /// Goes on until every patch is within its budget (true), or the watcher, the time or a defect ends the run (false).
-    fn run(&mut self, state: &mut State) -> Result<bool, Error> {
+    /// Goes on until all is estimated to be right, or nothing finer is to be had: tells which; nothing when the watcher, the time or a defect
+    /// ends the run.
+    fn run(&mut self, state: &mut State) -> Result<Option<bool>, Error> {
         let Pairs { far, near } = self.links.first_pairs(&self.tiling);
-        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(false) };
+        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(None) };
         self.links.clusters.all = clusters;
         let candidates: Vec<Candidate> =
             near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
-        let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
-        self.links.open(&self.tiling, links, self.options.error);
-        self.links.refuse_endless(&self.tiling)?;
-        for times in COARSE {
-            loop {
-                let mut lights = self.settle(FEW, false);
-                match self.refine(&mut lights, times * SUM * self.options.error, state)? {
-                    None => return Ok(false),
-                    Some(false) => break,
-                    Some(true) => {}
-                }
+        let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
+        self.links.open(&self.tiling, links);
+        if !self.shine(state)? {
+            return Ok(None);
+        }
+        self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
+        let lights = self.settle(FEW, false);
+        self.links.total(&self.tiling, &lights, self.options.error);
+        let (mut share, finest) = (COARSE * self.options.error, FINEST * self.options.error);
+        while let Some(excess) = self.level(share, state)? {
+            if excess <= 1.0 || share <= finest {
+                return Ok(Some(excess <= 1.0));
+            }
+            let [low, high] = TIGHTER;
+            share = (share * excess.powf(-0.5).clamp(low, high)).max(finest);
+        }
+        Ok(None)
+    }
+
+    /// Refines until the errors of every patch's links add up to no more than a share of its light; gives by how many times what is asked for is exceeded
+    /// then, or nothing when the run is to end.
+    fn level(&mut self, share: f64, state: &mut State) -> Result<Option<f64>, Error> {
+        loop {
+            if !self.shine(state)? {
+                return Ok(None);
+            }
+            let mut lights = self.settle(FEW, false);
+            match self.refine(&mut lights, share, state)? {
+                None => return Ok(None),
+                Some(true) => {}
+                Some(false) => break,
             }
         }
-        Ok(true)
+        let lights = self.settle(ALL, true);
+        let Levels { tiling, links, convergence, options, .. } = self;
+        convergence.reach(tiling, &links.all, &links.clusters, &lights);
+        Ok(Some(convergence.excess(tiling, &links.all, &links.clusters, &lights, options.error)))
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -105,6 +149,24 @@ impl Levels<'_> {
             }
         }
         Ok(Some(links))
+    }
+
+    /// Finds what lights bring to the leaves; false when the watcher wants to stop or something is found to be broken.
+    fn shine(&mut self, state: &State) -> Result<bool, Error> {
+        self.links.enclose(&self.tiling);
+        let known = self.links.known(&self.tiling);
+        loop {
+            match self.direct.grow(&self.tiling, &known) {
+                Ok(true) => return Ok(true),
+                Ok(false) if self.report(state).is_continue() => {}
+                Ok(false) => return Ok(false),
+                Err(defect @ Error::Defect { .. }) => {
+                    self.fault = Some(defect);
+                    return Ok(false);
+                }
+                Err(error) => return Err(error),
+            }
+        }
     }
 
     /// The links of pairs of clusters; nothing as for [`measure`](Self::measure).
@@ -136,12 +198,13 @@ impl Levels<'_> {
     }
 
     fn stand(&mut self) -> (Stand<'_>, Follower<'_>) {
-        let Levels { options, start, tiling, links, sent, rounds, products, light, watch, .. } = self;
+        let Levels { options, start, tiling, links, direct, sent, rounds, products, light, watch, .. } = self;
         let stand = Stand {
             options,
             start: *start,
             tiling,
             links,
+            direct,
             sent,
             rounds: *rounds,
             products: *products,
@@ -152,7 +215,6 @@ impl Levels<'_> {
 
     /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
     fn settle(&mut self, most: usize, is_last: bool) -> Vec<BandLight> {
-        self.links.enclose(&self.tiling);
         if is_last {
             (0..RESTORED).for_each(|_| self.links.restore(&self.tiling));
         }
@@ -161,7 +223,7 @@ impl Levels<'_> {
             let emitted: Vec<Linear> = equilibrium
                 .leaves()
                 .iter()
-                .map(|&leaf| [self.tiling.emittance(leaf, band), 0.0, 0.0])
+                .map(|&leaf| self.direct.given(&self.tiling, leaf, band))
                 .collect();
             let reflectance = equilibrium.reflectance(band);
             let mut light = equilibrium.of_leaves(sent);
@@ -173,12 +235,16 @@ impl Levels<'_> {
             products
         };
         self.products += self.sent.par_iter_mut().enumerate().map(better).sum::<usize>();
-        self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent);
+        self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent, &self.direct);
         self.rounds += 1;
-        let lit = (0..self.sent.len()).filter(|&band| largest(&self.sent[band]) > 0.0);
+        let is_lit = |band: &usize| {
+            [&self.sent[*band], &self.light.received[*band]].into_iter().any(|light| largest(light) > 0.0)
+        };
+        let lit = (0..self.sent.len()).filter(is_lit);
         let light = |band: usize| {
             let received = equilibrium.spread(&self.light.received[band]);
-            BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band)
+            let flaws = self.direct.flaws(&self.tiling, band);
+            BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band, flaws)
         };
         lit.collect::<Vec<usize>>().into_par_iter().map(light).collect()
     }
@@ -193,11 +259,16 @@ impl Levels<'_> {
         state: &mut State,
     ) -> Result<Option<bool>, Error> {
         let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, share);
+        let mut is_cut = false;
+        for leaf in uneven(&self.tiling, lights, &limits) {
+            is_cut |= self.cut_tile(leaf, self.direct.axis(leaf))?.is_some();
+        }
+        lights.iter_mut().for_each(|light| light.grow(&self.tiling));
         let kept = self.links.all.clone();
         let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
         let Some(near) = self.part_clusters(lights, &limits, state)? else { return Ok(None) };
         candidates.extend(near);
-        let is_cut = !candidates.is_empty();
+        is_cut |= !candidates.is_empty();
         while !candidates.is_empty() {
             let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
             let (fine, coarse) = self.part(links, lights, &limits)?;
@@ -264,33 +335,45 @@ impl Levels<'_> {
     fn halve(&mut self, link: &Link, first: usize) -> Result<Option<[Candidate; 2]>, Error> {
         for end in [first, 1 - first] {
             let (tile, bend) = (link.ends[end], link.transfer.bend[end]);
-            let before = self.tiling.tiles.len();
-            let Some(halves) = self.tiling.halve(tile, usize::from(bend[1] > bend[0]))? else { continue };
-            if self.tiling.tiles.len() > before {
-                for sent in &mut self.sent {
-                    let whole = sent[tile];
-                    sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
-                }
+            let halves = self.cut_tile(tile, usize::from(bend[1] > bend[0]))?;
+            if let Some(halves) = halves {
+                return Ok(Some(link.parts(end, halves)));
             }
-            return Ok(Some(link.parts(end, halves)));
         }
         Ok(None)
     }
 
-    /// The solution, with an estimate of its error.
-    fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
-        let most = if converged { ALL } else { 0 };
+    /// The halves of a tile, which send what it does; nothing where it is too small.
+    fn cut_tile(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
+        let before = self.tiling.tiles.len();
+        let halves = self.tiling.halve(tile, axis)?;
+        if let Some(halves) = halves.filter(|_| self.tiling.tiles.len() > before) {
+            for sent in &mut self.sent {
+                let whole = sent[tile];
+                sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
+            }
+            self.direct.inherit(&self.tiling);
+        }
+        Ok(halves)
+    }
+
+    /// The solution, with an estimate of its error; as it is shown, unless the run was ended.
+    fn finish(mut self, is_right: Option<bool>, state: &State) -> Result<Solution, Error> {
+        let is_lit = is_right.is_some() && self.shine(state)?;
+        let is_right = is_right.filter(|_| is_lit);
+        let most = if is_lit { ALL } else { 0 };
         let lights = self.settle(most, true);
         if self.options.record {
             // The run is over: there is nothing to stop.
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
+        let errors = self.convergence.errors(&self.tiling, &self.links.all, &self.links.clusters, &lights);
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = estimate(tiling, &links.all, &links.clusters, &lights, sent.len());
-        let shown = match converged.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
+        let estimate = means(tiling, &lights, &errors, sent.len());
+        let shown = match is_right.map(|_| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
                 None
@@ -301,7 +384,7 @@ impl Levels<'_> {
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            converged: is_shown && light.is_within(options.tolerance),
+            converged: is_shown && is_right == Some(true) && light.is_within(options.tolerance),
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,
             ..solution
