@@ -114,7 +114,8 @@ impl Cone {
         let low = if self.exponent == 0.0 { self.outer } else { self.outer.max(0.0) };
         let part = |from: f64, to: f64| {
             let step = (to - from) / PARTS as f64;
-            let inside = |c: f64| self.share(c.clamp(from.next_up(), to));
+            // At the rim itself a lamp without a penumbra jumps: what is just within counts.
+            let inside = |c: f64| self.share(c.max(from + f64::EPSILON).min(to));
             let of = |k: usize| {
                 let start = from + step * k as f64;
                 inside(start) + 4.0 * inside(start + step / 2.0) + inside(start + step)

@@ -111,7 +111,8 @@ impl<'s> Sources<'s> {
 
 /// What the middle of every pixel shows, where that is something.
 fn hits(record: &Record, camera: &Camera, width: u32) -> Vec<Hit> {
-    let height = (f64::from(width) / camera.aspect).round() as u32;
+    let is_enough = |rows: &u32| (f64::from(*rows) + 0.5) * camera.aspect > f64::from(width);
+    let height = (1..).find(is_enough).expect("a picture has an end");
     let forward = camera.direction.normalize();
     let right = forward.cross(camera.up).normalize();
     let up = right.cross(forward);

@@ -268,14 +268,16 @@ fn mixed() -> Scene {
 #[test]
 fn all_methods_find_the_same_light_and_their_ledgers_close() {
     let mixed = mixed();
-    let exact = solved(&mixed, &by(Method::Hierarchical));
+    let exact = solved(&mixed, &Options { error: 5e-3, ..by(Method::Hierarchical) });
     let wanted = means(&mixed, &exact);
     for method in METHODS {
         let solution = solved(&mixed, &Options { elements: 1500, ..by(method) });
         let ledger = &solution.ledger;
         assert!(solution.converged && ledger.defect[0].abs() < 1e-9 * ledger.emitted[0], "{ledger:?}");
+        // Elements of the mesh are a fifth as long as what the sun lights: its edges weigh most.
+        let allowed = if method == Method::Hierarchical { 0.02 } else { 0.15 };
         for (found, wanted) in means(&mixed, &solution).into_iter().zip(&wanted) {
-            assert!((found - wanted).abs() < 0.06 * wanted, "{method:?} {found} {wanted}");
+            assert!((found - wanted).abs() < allowed * wanted, "{method:?} {found} {wanted}");
         }
     }
 }

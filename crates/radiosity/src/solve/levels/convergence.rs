@@ -15,10 +15,17 @@ use super::tiling::Tiling;
 const FELL: f64 = 0.5;
 /// Levels are compared where at least this share of the patches tells something.
 const TELLING: f64 = 0.5;
-/// This share of the patches changed by less than what is believed.
-const MOST: f64 = 0.95;
+/// So many of so many patches changed by less than what is believed.
+const MOST: [usize; 2] = [19, 20];
 /// Of a sum no less than this share is believed, and no more than so many times as much.
-const BELIEVED: [f64; 2] = [0.1, 10.0];
+const BELIEVED: [f64; 2] = [0.5, 10.0];
+/// So many times as much as the change of the light tells is believed: that it changed little may be chance.
+const CAUTION: f64 = 1.5;
+/// At the next level a patch that is not right has the root of the part of its share that it would need were errors in proportion to it, as they are
+/// in proportion to more, but no less and no more than such parts of the last one.
+const TIGHTER: [f64; 2] = [0.25, 0.8];
+/// Such a part is left to a patch that is right: errors of others come from it by reflection, mostly where their own shares did not better them.
+const RIGHT: f64 = 0.95;
 /// Where an estimate is to hold: on this share of the area, and on all patches of more than such a share.
 const AREA: f64 = 0.95;
 const SMALL: f64 = 1e-4;
@@ -71,25 +78,50 @@ impl Convergence {
         all
     }
 
-    /// By how many times errors exceed what is asked for.
-    pub(super) fn excess(
+    /// By how many times the errors of patches exceed what is asked for.
+    pub(super) fn excesses(
         &self,
         tiling: &Tiling<'_>,
         links: &[Link],
         clusters: &ClusterLinks,
         lights: &[BandLight],
         asked: f64,
-    ) -> f64 {
+    ) -> Excesses {
         let mut excesses = vec![0.0f64; tiling.scene.patches.len()];
         for (errors, light) in self.errors(tiling, links, clusters, lights).iter().zip(lights) {
             for (excess, (error, unit)) in excesses.iter_mut().zip(errors.iter().zip(&light.unit)) {
                 *excess = excess.max(if *unit > 0.0 { error / (asked * unit) } else { 0.0 });
             }
         }
-        let mut areas = vec![0.0; excesses.len()];
+        Excesses(excesses)
+    }
+}
+
+/// By how many times the error of each patch exceeds what is asked for.
+#[derive(Debug)]
+pub(super) struct Excesses(Vec<f64>);
+
+impl Excesses {
+    /// What part of its share each patch keeps at the next level; less of those that are right unless all was bettered by the last one.
+    pub(super) fn parts(&self, is_better: bool) -> impl Iterator<Item = f64> {
+        let [low, high] = TIGHTER;
+        let right = if is_better { RIGHT } else { high };
+        self.0
+            .iter()
+            .map(move |excess| if *excess > 1.0 { excess.powf(-0.5).clamp(low, high) } else { right })
+    }
+
+    /// The patches that are not right.
+    pub(super) fn wrong(&self) -> impl Iterator<Item = usize> {
+        (0..self.0.len()).filter(|patch| self.0[*patch] > 1.0)
+    }
+
+    /// The most of all patches that have to be right.
+    pub(super) fn most(&self, tiling: &Tiling<'_>) -> f64 {
+        let mut areas = vec![0.0; self.0.len()];
         let roots = tiling.tiles.iter().filter(|tile| tile.parent.is_none());
         roots.for_each(|tile| areas[tile.patch] += tile.area);
-        most(excesses.into_iter().zip(areas).collect())
+        most(self.0.iter().copied().zip(areas).collect())
     }
 }
 
@@ -123,9 +155,10 @@ fn believed(before: &Level, now: &Level) -> Option<Vec<Vec<f64>>> {
         return None;
     }
     all.sort_by(f64::total_cmp);
-    let most = all[(MOST * (all.len() - 1) as f64).round() as usize];
+    let [some, of] = MOST;
+    let most = all[(all.len() - 1) * some / of];
     let [low, high] = BELIEVED;
-    let own = |share: Option<f64>| share.unwrap_or(0.0).max(most).clamp(low, high);
+    let own = |share: Option<f64>| (CAUTION * share.unwrap_or(0.0).max(most)).clamp(low, high);
     Some(shares.into_iter().map(|band| band.into_iter().map(own).collect()).collect())
 }
 
@@ -143,6 +176,13 @@ mod tests {
         assert_eq!(most(Vec::new()), 0.0);
     }
 
+    #[test]
+    fn patches_that_are_not_right_are_refined_most() {
+        let parts = |is_better: bool| Excesses(vec![0.5, 1.1, 4.0, 1e9]).parts(is_better).collect::<Vec<_>>();
+        assert_eq!(parts(true), [RIGHT, TIGHTER[1], 0.5, TIGHTER[0]]);
+        assert_eq!(parts(false), [TIGHTER[1], TIGHTER[1], 0.5, TIGHTER[0]]);
+    }
+
     fn level(received: f64, sum: f64) -> Level {
         Level { received: vec![vec![received; 4]], sums: vec![vec![sum; 4]] }
     }
@@ -151,8 +191,9 @@ mod tests {
     fn as_much_of_a_sum_is_believed_as_the_light_changed_of_what_it_fell_by() {
         let of = |before: Level, now: Level| believed(&before, &now).map(|believed| believed[0].clone());
         let share = of(level(1.0, 0.5), level(1.1, 0.1)).unwrap();
-        share.iter().for_each(|share| assert!((share - 0.25).abs() < 1e-12));
+        share.iter().for_each(|share| assert!((share - CAUTION * 0.25).abs() < 1e-12));
         assert_eq!(of(level(1.0, 0.5), level(1.0, 0.1)), Some(vec![BELIEVED[0]; 4]));
+        assert_eq!(of(level(1.0, 0.5), level(9.0, 0.1)), Some(vec![BELIEVED[1]; 4]));
         assert_eq!(of(level(1.0, 0.5), level(1.1, 0.4)), None, "hardly anything was refined");
         assert_eq!(of(level(1.0, 0.0), level(1.0, 0.0)), None, "nothing was wrong");
         // One changed by more than the others: of that alone more is believed.
@@ -162,6 +203,7 @@ mod tests {
         let mut now = Level { received: vec![vec![1.1; 30]], sums: vec![vec![0.1; 30]] };
         now.received[0][7] = 1.4;
         let share = of(before, now).unwrap();
-        assert!((share[7] - 1.0).abs() < 1e-12 && (share[8] - 0.25).abs() < 1e-12, "{share:?}");
+        let [one, other] = [share[7], share[8]].map(|share| share / CAUTION);
+        assert!((one - 1.0).abs() < 1e-12 && (other - 0.25).abs() < 1e-12, "{share:?}");
     }
 }

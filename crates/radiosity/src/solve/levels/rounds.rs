@@ -2,7 +2,7 @@
 use super::budget::{BandLight, cut, is_beyond, limits, uneven};
 use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
-use super::convergence::Convergence;
+use super::convergence::{Convergence, Excesses};
 use super::direct::Direct;
 use super::equilibrium::largest;
 use super::estimate::means;
@@ -22,9 +22,8 @@ use std::{ops::ControlFlow, time::Instant};
 /// What the errors of a patch's links may add up to at the first level, in units of what is asked for: errors are of any sign, and what is said of
 /// them is much.
 const COARSE: f64 = 32.0;
-/// The next level has the root of the part of the share that it would need were errors in proportion to it, as they are in proportion to more, but
-/// no less and no more than such parts of the last one.
-const TIGHTER: [f64; 2] = [0.25, 0.8];
+/// Errors that did not fall to so much of what they were have not been bettered.
+const BETTER: f64 = 0.9;
 /// What errors may add up to at the last level.
 const FINEST: f64 = 0.5;
 /// How often totals are restored and rooms closed in turn at the end.
@@ -101,26 +100,31 @@ impl Levels<'_> {
         self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
         let lights = self.settle(FEW, false);
         self.links.total(&self.tiling, &lights, self.options.error);
-        let (mut share, finest) = (COARSE * self.options.error, FINEST * self.options.error);
-        while let Some(excess) = self.level(share, state)? {
-            if excess <= 1.0 || share <= finest {
+        let (coarse, finest) = (COARSE * self.options.error, FINEST * self.options.error);
+        let mut shares = vec![coarse; self.tiling.scene.patches.len()];
+        let mut last = f64::INFINITY;
+        while let Some(excesses) = self.level(&shares, state)? {
+            let excess = excesses.most(&self.tiling);
+            let is_better = excess < BETTER * last;
+            if excess <= 1.0 || !is_better && excesses.wrong().all(|patch| shares[patch] <= finest) {
                 return Ok(Some(excess <= 1.0));
             }
-            let [low, high] = TIGHTER;
-            share = (share * excess.powf(-0.5).clamp(low, high)).max(finest);
+            let parts = excesses.parts(is_better);
+            shares.iter_mut().zip(parts).for_each(|(share, part)| *share = (*share * part).max(finest));
+            last = excess;
         }
         Ok(None)
     }
 
     /// Refines until the errors of every patch's links add up to no more than a share of its light; gives by how many times what is asked for is exceeded
     /// then, or nothing when the run is to end.
-    fn level(&mut self, share: f64, state: &mut State) -> Result<Option<f64>, Error> {
+    fn level(&mut self, shares: &[f64], state: &mut State) -> Result<Option<Excesses>, Error> {
         loop {
             if !self.shine(state)? {
                 return Ok(None);
             }
             let mut lights = self.settle(FEW, false);
-            match self.refine(&mut lights, share, state)? {
+            match self.refine(&mut lights, shares, state)? {
                 None => return Ok(None),
                 Some(true) => {}
                 Some(false) => break,
@@ -129,7 +133,7 @@ impl Levels<'_> {
         let lights = self.settle(ALL, true);
         let Levels { tiling, links, convergence, options, .. } = self;
         convergence.reach(tiling, &links.all, &links.clusters, &lights);
-        Ok(Some(convergence.excess(tiling, &links.all, &links.clusters, &lights, options.error)))
+        Ok(Some(convergence.excesses(tiling, &links.all, &links.clusters, &lights, options.error)))
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -255,10 +259,10 @@ impl Levels<'_> {
     fn refine(
         &mut self,
         lights: &mut [BandLight],
-        share: f64,
+        shares: &[f64],
         state: &mut State,
     ) -> Result<Option<bool>, Error> {
-        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, share);
+        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, shares);
         let mut is_cut = false;
         for leaf in uneven(&self.tiling, lights, &limits) {
             is_cut |= self.cut_tile(leaf, self.direct.axis(leaf))?.is_some();

@@ -139,7 +139,7 @@ impl<'s> Sights<'s> {
     /// What a point of a tile receives: from tiles, and straight from lights.
     fn at(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
         let straight = self.direct.at(self.tiling, point);
-        self.from_tiles(tile, point)
+        self.of_tiles(tile, point)
             .into_iter()
             .zip(straight)
             .map(|(light, straight)| light + straight)
@@ -147,7 +147,7 @@ impl<'s> Sights<'s> {
     }
 
     /// What a point of a tile receives from tiles: of even light 1 where ΣF is 1, nothing where something stands on the tile.
-    fn from_tiles(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
+    fn of_tiles(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
         let mut light = vec![0.0f64; self.sent.len()];
         if self.known[tile] == Some(0.0) {
             light.pop();
