@@ -199,10 +199,10 @@ fn overcast(normal: DVec3) -> f64 {
 /// A room with a skylight: its ceiling has a hole of side 1 in its middle.
 fn skylit(reflectance: f64) -> Scene {
     let mut patches = room([-2., -2., 0.], [2., 2., 3.], 1, reflectance, 0.0);
-    let ceiling = patches.pop().unwrap();
-    let outer: Vec<DVec3> = ceiling.polygon.loops().next().unwrap().to_vec();
+    let ceiling = patches.pop().expect("a room has a ceiling");
+    let outer: Vec<DVec3> = ceiling.polygon.loops().next().expect("an outline").to_vec();
     let hole = [[-0.5, -0.5, 3.], [0.5, -0.5, 3.], [0.5, 0.5, 3.], [-0.5, 0.5, 3.]].map(DVec3::from).to_vec();
-    let polygon = radiosity::formfactor::PlanarPolygon::new([outer, hole]).unwrap();
+    let polygon = radiosity::formfactor::PlanarPolygon::new([outer, hole]).expect("a ceiling with a hole");
     patches.push(radiosity::Patch::new("ceiling", polygon, vec![reflectance], vec![0.0]));
     Scene { asset: Asset { up: DVec3::Z, unit: 1.0 }, ..scene(patches) }
 }
