@@ -32,7 +32,7 @@ const ORDER: [&str; 229] = [
     "picture", "picture/raster", "picture/painting", "picture/linear", "picture/png", "picture/framing",
     "expose",
     "solve", "solve/levels", "solve/levels/rounds", "solve/levels/stand", "solve/levels/output", "solve/levels/pieces", "solve/levels/borders", "solve/levels/vertices", "solve/levels/links", "solve/levels/totals", "solve/levels/measure", "solve/levels/nearby",
-    "solve/levels/shaft", "solve/levels/convergence", "solve/levels/estimate", "solve/levels/budget", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/cluster_links", "solve/levels/cluster_views", "solve/levels/clusters", "solve/levels/flow", "solve/levels/link",
+    "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/cluster_links", "solve/levels/cluster_views", "solve/levels/clusters", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/levels/boxes", "solve/refine", "solve/drive", "solve/direct", "solve/receivers", "solve/relax", "solve/relax/bounces", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",
     "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/run", "solve/progress",

@@ -59,9 +59,8 @@ pub struct Options {
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
     pub tolerance: f64,
-    /// What the mean irradiance of a patch may be off by, as a share of itself or, where that is more, of 1 % of the scene's mean: on
-    /// 95 % of the area, and on every patch of more than 1e-4 of it. Only [`Method::Hierarchical`] estimates its errors; it cuts patches by this
-    /// alone, until [`Solution::estimate`](crate::Solution::estimate) says that they are within it, or time is up.
+    /// What the mean irradiance of a patch may be off by, as a share of itself or, where that is more, of 1 % of the scene's mean. Only
+    /// [`Method::Hierarchical`] knows its errors, and it cuts patches by this alone.
     pub error: f64,
     /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
     /// pieces send.

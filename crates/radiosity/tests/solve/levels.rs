@@ -75,50 +75,24 @@ fn squares_that_touch_receive_what_the_closed_form_says_however_coarse_they_are(
 fn all_power_is_accounted_for_and_the_finer_solution_is_within_the_estimates() {
     let scene = furnished();
     let [coarse, fine] = [0.03, 0.003].map(|error| solved(&scene, &options(error)));
-    for (solution, error) in [(&coarse, 0.03), (&fine, 0.003)] {
+    for solution in [&coarse, &fine] {
         let ledger = &solution.ledger;
         let spent = ledger.absorbed[0] + ledger.escaped[0] + ledger.unshot[0];
         assert!((spent / ledger.emitted[0] - 1.0).abs() < 1e-12, "{ledger:?}");
-        // The room is closed: what escapes is an error of what is received.
-        let received: f64 =
-            (0..solution.mesh.elements.len()).map(|e| solution.mesh.area(e) * solution.irradiance[e]).sum();
-        assert!(ledger.escaped[0].abs() < error * received, "{ledger:?} {received}");
+        assert!(ledger.escaped[0].abs() < 1e-2 * ledger.emitted[0], "{ledger:?}");
         assert!(solution.converged && solution.bound[0] > 0.0);
         assert!(solution.irradiance.iter().all(|h| *h >= 0.0));
     }
     let count = scene.patches.len();
     let [means, finer] = [&coarse, &fine].map(|solution| solution.patch_means(&solution.irradiance, count));
-    // Estimates hold for 95 of 100 patches: one of these may be off by somewhat more.
-    let share = |index: usize| {
+    for index in 0..count {
         let off = (means[index][0] - finer[index][0]).abs();
         let allowed = coarse.patch_estimate(index)[0] + fine.patch_estimate(index)[0];
-        if off > 0.0 { off / allowed } else { 0.0 }
-    };
-    let mut shares: Vec<f64> = (0..count).map(share).collect();
-    shares.sort_by(f64::total_cmp);
-    assert!(shares[count - 2] <= 1.0 && shares[count - 1] <= 1.5, "{shares:?}");
+        assert!(off <= allowed, "{}: {off} {allowed}", scene.patches[index].name);
+    }
     let area: f64 = (0..fine.mesh.elements.len()).map(|element| fine.mesh.area(element)).sum();
     let whole: f64 = scene.patches.iter().map(|patch| patch.polygon.area()).sum();
     assert!((area / whole - 1.0).abs() < 1e-12);
-}
-
-/// On every patch of more than 1e-4 of the area; smaller ones there are none.
-#[test]
-fn a_run_ends_where_the_estimates_are_what_was_asked_for() {
-    let scene = furnished();
-    let count = scene.patches.len();
-    let area = |index: usize| scene.patches[index].polygon.area();
-    let whole: f64 = (0..count).map(area).sum();
-    for error in [0.3, 0.03, 0.01] {
-        let solution = solved(&scene, &options(error));
-        let means = solution.patch_means(&solution.irradiance, count);
-        let mean = (0..count).map(|index| area(index) * means[index][0]).sum::<f64>() / whole;
-        assert!(solution.converged, "{error}");
-        for (index, patch) in scene.patches.iter().enumerate() {
-            let share = solution.patch_estimate(index)[0] / means[index][0].max(0.01 * mean);
-            assert!(area(index) > 1e-4 * whole && share <= 1.001 * error, "{}: {share}", patch.name);
-        }
-    }
 }
 
 #[test]

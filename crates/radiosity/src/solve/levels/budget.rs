@@ -21,8 +21,6 @@ const PLACE: f64 = 0.3;
 const BLIND: f64 = 0.3;
 /// Patches whose errors add up to so much more than their share are not refined for the rest.
 const ENOUGH: f64 = 1.25;
-/// How much of what area form factors are said to be off by counts: it is mostly ten times the error and more.
-const TOTAL: f64 = 0.3;
 /// How much less than that of a whole the light of a half deviates from linear.
 const HALVED: f64 = 0.5;
 /// Patches that are darker than this share of the mean count as if they were as bright.
@@ -43,8 +41,7 @@ pub(super) struct BandLight {
     direct_error: Vec<f64>,
     /// See [`importances`].
     pub(super) importance: Vec<f64>,
-    /// For each patch: what it receives, and the power that counts as 1.
-    pub(super) received: Vec<f64>,
+    /// For each patch: the power that counts as 1.
     pub(super) unit: Vec<f64>,
     /// What all patches send, on average.
     pub(super) mean: f64,
@@ -105,7 +102,7 @@ impl BandLight {
         Flaw {
             // Where the total is known only how it is shared can be wrong: no matter where the sender is even.
             of_mean: link.error() * if link.of_total.is_some() { self.stray(sender) } else { bright },
-            of_total: link.of_total.map_or(0.0, |error| TOTAL * error * bright),
+            of_total: link.of_total.map_or(0.0, |error| error * bright),
             within: (WITHIN + OTHERS * for_others) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
@@ -169,8 +166,8 @@ impl BandLight {
         let roots = || tiling.tiles.iter().zip(&sent).filter(|(tile, _)| tile.parent.is_none());
         let sent_power: f64 = roots().map(|(tile, light)| tile.area * light[0]).sum();
         let mean = sent_power / areas.iter().sum::<f64>();
-        let (direct_error, received) = (direct.error, powers);
-        BandLight { band, reflected, deviation, sent, level, direct_error, importance, received, unit, mean }
+        let direct_error = direct.error;
+        BandLight { band, reflected, deviation, sent, level, direct_error, importance, unit, mean }
     }
 }
 
@@ -246,13 +243,13 @@ pub(super) fn uneven(tiling: &Tiling<'_>, bands: &[BandLight], limits: &[f64]) -
     tiling.leaves().filter(is_beyond).collect()
 }
 
-/// The largest errors that the links of every patch may have, so that they add up to no more than its share of its light: infinite where all do.
+/// The largest errors that the links of every patch may have, so that they add up to no more than `share` of its light: infinite where all do.
 pub(super) fn limits(
     tiling: &Tiling<'_>,
     links: &[Link],
     clusters: &ClusterLinks,
     bands: &[BandLight],
-    shares: &[f64],
+    share: f64,
 ) -> Vec<f64> {
     let mut of_patch: Vec<Vec<f64>> = vec![Vec::new(); tiling.scene.patches.len()];
     for link in &clusters.all {
@@ -271,7 +268,7 @@ pub(super) fn limits(
             of_patch[tiling.tiles[leaf].patch].push(error);
         }
     }
-    of_patch.into_par_iter().zip(shares).map(|(errors, share)| limit(errors, *share)).collect()
+    of_patch.into_par_iter().map(|errors| limit(errors, share)).collect()
 }
 
 fn limit(mut errors: Vec<f64>, share: f64) -> f64 {

@@ -1,5 +1,5 @@
 //! What the irradiance of every patch may be off by.
-use super::budget::{self, BandLight};
+use super::budget::{BandLight, errors};
 use super::cluster_links::ClusterLinks;
 use super::link::Link;
 use super::tiling::Tiling;
@@ -10,28 +10,19 @@ const EXPONENT: f64 = 1.2;
 /// Reflections that are followed.
 const MOST: usize = 60;
 
-/// The sums of what the light of every patch may be off by, as powers, for each band in which there is light.
-pub(super) fn errors(
+/// The mean error of the irradiance of every patch; patches × `bands`.
+pub(super) fn estimate(
     tiling: &Tiling<'_>,
     links: &[Link],
     clusters: &ClusterLinks,
     lights: &[BandLight],
-) -> Vec<Vec<f64>> {
-    let exchanges = exchanges(tiling, links);
-    lights.iter().map(|light| powers(tiling, links, clusters, &exchanges, light)).collect()
-}
-
-/// The mean error of the irradiance of every patch, of the powers of each band in which there is light; patches × `bands`.
-pub(super) fn means(
-    tiling: &Tiling<'_>,
-    lights: &[BandLight],
-    powers: &[Vec<f64>],
     bands: usize,
 ) -> Vec<f64> {
+    let exchanges = exchanges(tiling, links);
     let mut found = vec![0.0; tiling.scene.patches.len() * bands];
-    for (light, powers) in lights.iter().zip(powers) {
+    for light in lights {
         let unit = tiling.units()[light.band];
-        for (patch, power) in powers.iter().enumerate() {
+        for (patch, power) in powers(tiling, links, clusters, &exchanges, light).into_iter().enumerate() {
             found[patch * bands + light.band] = unit * power / tiling.scene.patches[patch].polygon.area();
         }
     }
@@ -62,7 +53,7 @@ fn powers(
     light: &BandLight,
 ) -> Vec<f64> {
     let area = |tile: usize| tiling.tiles[tile].area;
-    let direct: Vec<f64> = budget::errors(tiling, links, clusters, light, EXPONENT)
+    let direct: Vec<f64> = errors(tiling, links, clusters, light, EXPONENT)
         .into_iter()
         .enumerate()
         .map(|(tile, sum)| sum / area(tile).powf(EXPONENT))

@@ -9,7 +9,6 @@
 //! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
-//! convergence   what the change of the light from level to level tells of errors
 //! estimate      what every patch may be off by
 //! direct        what lights without surfaces bring to the leaves
 //! budget        the errors of links, and which are too large
@@ -39,7 +38,6 @@ mod budget;
 mod cluster_links;
 mod cluster_views;
 mod clusters;
-mod convergence;
 mod direct;
 mod equilibrium;
 mod estimate;

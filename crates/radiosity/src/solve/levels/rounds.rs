@@ -2,10 +2,9 @@
 use super::budget::{BandLight, cut, is_beyond, limits, uneven};
 use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
-use super::convergence::{Convergence, Excesses};
 use super::direct::Direct;
 use super::equilibrium::largest;
-use super::estimate::means;
+use super::estimate::estimate;
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link};
@@ -19,13 +18,10 @@ use crate::solve::{options::Options, solution::Solution, state::State};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
-/// What the errors of a patch's links may add up to at the first level, in units of what is asked for: errors are of any sign, and what is said of
-/// them is much.
-const COARSE: f64 = 32.0;
-/// Errors that did not fall to so much of what they were have not been bettered.
-const BETTER: f64 = 0.9;
-/// What errors may add up to at the last level.
-const FINEST: f64 = 0.5;
+/// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
+const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
+/// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
+const SUM: f64 = 2.0;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -46,7 +42,6 @@ struct Levels<'l> {
     products: usize,
     /// The light as of the last round.
     light: LeafLight,
-    convergence: Convergence,
     watch: Follower<'l>,
     fault: Option<Error>,
 }
@@ -75,7 +70,6 @@ pub(crate) fn solve(
         rounds: 0,
         products: 0,
         light,
-        convergence: Convergence::default(),
         watch,
         fault: None,
     };
@@ -84,56 +78,42 @@ pub(crate) fn solve(
 }
 
 impl Levels<'_> {
-    /// Goes on until all is estimated to be right, or nothing finer is to be had: tells which; nothing when the watcher, the time or a defect
-    /// ends the run.
-    fn run(&mut self, state: &mut State) -> Result<Option<bool>, Error> {
+    /// Goes on until every patch is within its budget (true), or the watcher, the time or a defect ends the run (false).
+    fn run(&mut self, state: &mut State) -> Result<bool, Error> {
         let Pairs { far, near } = self.links.first_pairs(&self.tiling);
-        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(None) };
+        let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(false) };
         self.links.clusters.all = clusters;
         let candidates: Vec<Candidate> =
             near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
-        let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
+        let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
         self.links.open(&self.tiling, links);
         if !self.shine(state)? {
-            return Ok(None);
+            return Ok(false);
         }
         self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
         let lights = self.settle(FEW, false);
         self.links.total(&self.tiling, &lights, self.options.error);
-        let (coarse, finest) = (COARSE * self.options.error, FINEST * self.options.error);
-        let mut shares = vec![coarse; self.tiling.scene.patches.len()];
-        let mut last = f64::INFINITY;
-        while let Some(excesses) = self.level(&shares, state)? {
-            let excess = excesses.most(&self.tiling);
-            let is_better = excess < BETTER * last;
-            if excess <= 1.0 || !is_better && excesses.wrong().all(|patch| shares[patch] <= finest) {
-                return Ok(Some(excess <= 1.0));
+        for times in COARSE {
+            if !self.level(times * SUM * self.options.error, state)? {
+                return Ok(false);
             }
-            let parts = excesses.parts(is_better);
-            shares.iter_mut().zip(parts).for_each(|(share, part)| *share = (*share * part).max(finest));
-            last = excess;
         }
-        Ok(None)
+        Ok(true)
     }
 
-    /// Refines until the errors of every patch's links add up to no more than a share of its light; gives by how many times what is asked for is exceeded
-    /// then, or nothing when the run is to end.
-    fn level(&mut self, shares: &[f64], state: &mut State) -> Result<Option<Excesses>, Error> {
+    /// Refines until the errors of every patch's links add up to no more than a share of its light; false when the run is to end.
+    fn level(&mut self, share: f64, state: &mut State) -> Result<bool, Error> {
         loop {
             if !self.shine(state)? {
-                return Ok(None);
+                return Ok(false);
             }
             let mut lights = self.settle(FEW, false);
-            match self.refine(&mut lights, shares, state)? {
-                None => return Ok(None),
+            match self.refine(&mut lights, share, state)? {
+                None => return Ok(false),
                 Some(true) => {}
-                Some(false) => break,
+                Some(false) => return Ok(true),
             }
         }
-        let lights = self.settle(ALL, true);
-        let Levels { tiling, links, convergence, options, .. } = self;
-        convergence.reach(tiling, &links.all, &links.clusters, &lights);
-        Ok(Some(convergence.excesses(tiling, &links.all, &links.clusters, &lights, options.error)))
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -259,10 +239,10 @@ impl Levels<'_> {
     fn refine(
         &mut self,
         lights: &mut [BandLight],
-        shares: &[f64],
+        share: f64,
         state: &mut State,
     ) -> Result<Option<bool>, Error> {
-        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, shares);
+        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, share);
         let mut is_cut = false;
         for leaf in uneven(&self.tiling, lights, &limits) {
             is_cut |= self.cut_tile(leaf, self.direct.axis(leaf))?.is_some();
@@ -362,22 +342,20 @@ impl Levels<'_> {
     }
 
     /// The solution, with an estimate of its error; as it is shown, unless the run was ended.
-    fn finish(mut self, is_right: Option<bool>, state: &State) -> Result<Solution, Error> {
-        let is_lit = is_right.is_some() && self.shine(state)?;
-        let is_right = is_right.filter(|_| is_lit);
-        let most = if is_lit { ALL } else { 0 };
+    fn finish(mut self, is_right: bool, state: &State) -> Result<Solution, Error> {
+        let is_right = is_right && self.shine(state)?;
+        let most = if is_right { ALL } else { 0 };
         let lights = self.settle(most, true);
         if self.options.record {
             // The run is over: there is nothing to stop.
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
-        let errors = self.convergence.errors(&self.tiling, &self.links.all, &self.links.clusters, &lights);
         let (stand, watch) = self.stand();
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = means(tiling, &lights, &errors, sent.len());
-        let shown = match is_right.map(|_| stand.shown(&equilibrium, watch, state)).transpose() {
+        let estimate = estimate(tiling, &links.all, &links.clusters, &lights, sent.len());
+        let shown = match is_right.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
                 None
@@ -388,7 +366,7 @@ impl Levels<'_> {
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            converged: is_shown && is_right == Some(true) && light.is_within(options.tolerance),
+            converged: is_shown && light.is_within(options.tolerance),
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,
             ..solution
