@@ -7,7 +7,7 @@ use radiosity::inspect::coplanar_overlaps;
 use radiosity::io::Source;
 use radiosity::io::collada::Collada;
 use radiosity::io::gltf::{Gltf, glb};
-use radiosity::{Patch, PatchRecord, Record, Repaired, Scene, needed_sides, repair};
+use radiosity::{Patch, PatchRecord, Photometry, Record, Repaired, Scene, needed_sides, repair};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -51,10 +51,25 @@ pub fn survives_writing(scene: &Scene) {
     }
     let names = |scene: &Scene| scene.patches.iter().map(|patch| patch.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(scene), names(&again));
-    // The angles and axes of cameras are rounded when they are written.
-    if scene.cameras.is_empty() {
+    let lights = |scene: &Scene| (scene.lamps.len(), scene.suns.len());
+    assert_eq!(lights(scene), lights(&again), "{}", written.text());
+    // The angles and axes of cameras and lights are rounded when they are written.
+    if scene.cameras.is_empty() && lights(scene) == (0, 0) {
         assert_eq!(Collada::of(&again).text(), written.text());
     }
+}
+
+/// Looks in all directions.
+///
+/// # Panics
+/// When an intensity is negative, or the flux not finite.
+pub fn is_sound_photometry(table: &Photometry) {
+    for (x, y, z) in (0..343).map(|k| (k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3)).filter(|way| *way != (0, 0, 0))
+    {
+        let candela = table.candela(DVec3::new(f64::from(x), f64::from(y), f64::from(z)));
+        assert!(candela >= 0.0, "{candela} cd along {x} {y} {z}");
+    }
+    assert!(table.lumens().is_finite(), "{}", table.lumens());
 }
 
 /// Repairs a scene that a file has, writes the file repaired, and reads that.
@@ -146,6 +161,7 @@ fn lit(scene: &Scene) -> Record {
         cameras: scene.cameras.clone(),
         bands: scene.bands,
         wavelengths: Vec::new(),
+        lumens: Vec::new(),
         bound: ones(1),
         patches: scene.patches.iter().map(patch).collect(),
         vertex_radiosity: ones(vertices.len()),

@@ -1,6 +1,6 @@
 //! The visible part of a target as a region.
 use crate::exact::shadows::{Shadows, shadows};
-use crate::exact::{view::View, visible::union};
+use crate::exact::{pyramid::Pyramid, view::View, visible::union};
 use crate::shapes::{differential_area::DifferentialArea, loops::leaf, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
@@ -53,14 +53,33 @@ impl VisiblePart {
 /// ```
 #[must_use]
 pub fn visible_part(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> VisiblePart {
+    seen_past(from, to, |_| occluders)
+}
+
+/// The visible part past those of the occluders that `occluders` finds within reach of the target.
+pub(crate) fn seen_past<'a, I>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl Fn(&Pyramid) -> I,
+) -> VisiblePart
+where
+    I: IntoIterator<Item = &'a PlanarPolygon>,
+{
     VisiblePart { region: visible_region(from, to, occluders), target: to.clone() }
 }
 
-fn visible_region(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[PlanarPolygon]) -> Region {
+fn visible_region<'a, I>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl Fn(&Pyramid) -> I,
+) -> Region
+where
+    I: IntoIterator<Item = &'a PlanarPolygon>,
+{
     let Some(view) = View::in_place(from, to) else {
         return Region::default();
     };
-    match shadows(&view, occluders, &mut Stats::default()) {
+    match shadows(&view, occluders(&view.pyramid), &mut Stats::default()) {
         Shadows::Total => Region::default(),
         Shadows::Some(shadows, _) => (leaf(&view.flat) - union(&shadows)).evaluate(),
     }

@@ -309,3 +309,42 @@ proptest! {
         seen_once(as_they_are(&faces), &from)?;
     }
 }
+
+proptest! {
+    /// What a light sees of a polygon is where the polygon sees the light.
+    #[test]
+    fn a_point_sees_a_light_where_the_light_sees_the_point(
+        occluders in triangles(anywhere(), 12), target in prop::array::uniform3(anywhere()),
+        shares in prop::array::uniform2(0.0f64..1.0),
+    ) {
+        let light = DVec3::new(0.1, 0.2, 0.3);
+        let Some(target) = triangle(target) else { return Ok(()) };
+        let side = (light - target.loops().next().unwrap()[0]).dot(target.normal());
+        prop_assume!(side > 1e-3 && target.area() > 1e-3);
+        let from = DifferentialArea::new(light, -target.normal()).unwrap();
+        let all = Enclosure::new([vec![target.clone()], occluders.clone()].concat());
+        let seen = all.visible_part(&from, 0, &target);
+        let alone = formfactor::visible_part(&from, &target, &occluders);
+        prop_assert!((seen.area() - alone.area()).abs() <= 1e-12 * target.area());
+        let [a, b, c] = [0, 1, 2].map(|k| target.loops().next().unwrap()[k]);
+        let (u, v) = (shares[0].min(1.0 - shares[1]), shares[1]);
+        let place = a + (u + 0.01) / 1.04 * (b - a) + (v + 0.01) / 1.04 * (c - a);
+        let point = DifferentialArea::new(place, target.normal()).unwrap().owned_by(0);
+        let axis = (0..3).max_by(|i, j| target.normal()[*i].abs().total_cmp(&target.normal()[*j].abs())).unwrap();
+        let flat = |p: DVec3| {
+            let (u, v) = (p[(axis + 1) % 3], p[(axis + 2) % 3]);
+            if target.normal()[axis] > 0.0 { [u, v] } else { [v, u] }
+        };
+        let near = |ring: &[DVec3]| {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(p, q)| {
+                let share = ((place - *p).dot(*q - *p) / (*q - *p).length_squared()).clamp(0.0, 1.0);
+                place.distance(*p + share * (*q - *p))
+            }).fold(f64::INFINITY, f64::min)
+        };
+        // Rounding decides on the rim.
+        prop_assume!(seen.rings().all(|ring| near(&ring) > 1e-9));
+        let inside = seen.region().locate(flat(place).into()) == polycsg::Location::Inside;
+        prop_assert_eq!(all.sees(&point, light), inside);
+    }
+}

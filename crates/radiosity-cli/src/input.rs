@@ -35,9 +35,14 @@ pub(crate) struct RepairedInput {
     pub(crate) repairs: Vec<KindSummary>,
 }
 
-/// Reads a scene and repairs it; prints what the reader had to say on stderr, and in a line what was repaired.
-pub(crate) fn read_repaired(path: &Path, reading: Reading) -> Result<RepairedInput, Failure> {
-    let (scene, source) = read_quietly(path)?;
+/// Reads a scene, lets `light` light it, and repairs it; prints what the reader had to say on stderr, and in a line what was repaired.
+pub(crate) fn read_repaired(
+    path: &Path,
+    reading: Reading,
+    light: impl FnOnce(&mut Scene) -> Result<(), Failure>,
+) -> Result<RepairedInput, Failure> {
+    let (mut scene, source) = read_quietly(path)?;
+    light(&mut scene)?;
     let Repaired { scene, repairs, .. } = repair(&reading.sides.of(&scene));
     if reading.strict && !repairs.is_empty() {
         return Err(refusal(path, &repairs));

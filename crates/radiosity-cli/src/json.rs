@@ -1,6 +1,6 @@
 //! What `--json` prints.
 use radiosity::inspect::{Finding, KindSummary};
-use radiosity::{Record, Scene, Solution};
+use radiosity::{Record, Scene, Solution, Units};
 use serde::Serialize;
 
 /// The figures of a solution.
@@ -16,6 +16,8 @@ pub(crate) struct Figures<'s> {
     bound: &'s [f64],
     closure: Option<f64>,
     scaling: Option<f64>,
+    /// What powers are counted in: W or lm.
+    units: &'static str,
     energy: Energy<'s>,
     /// What was left out of the file, or read as something else.
     #[serde(skip_serializing_if = "<[Finding]>::is_empty")]
@@ -39,6 +41,8 @@ struct Energy<'s> {
     escaped: &'s [f64],
     unshot: &'s [f64],
     defect: &'s [f64],
+    /// What is emitted, in lm.
+    luminous: f64,
 }
 
 /// A patch and its means.
@@ -51,6 +55,8 @@ struct PatchFigures<'s> {
     #[serde(skip_serializing_if = "<[f64]>::is_empty")]
     estimate: &'s [f64],
     radiosity: Vec<f64>,
+    /// In lx.
+    illuminance: f64,
 }
 
 impl<'s> Figures<'s> {
@@ -75,18 +81,21 @@ impl<'s> Figures<'s> {
             bound: &solution.bound,
             closure: solution.closure,
             scaling: solution.scaling,
+            units: if scene.units == Units::Luminous { "lm" } else { "W" },
             energy: Energy {
                 emitted: &ledger.emitted,
                 absorbed: &ledger.absorbed,
                 escaped: &ledger.escaped,
                 unshot: &ledger.unshot,
                 defect: &ledger.defect,
+                luminous: scene.luminous(&ledger.emitted),
             },
             warnings: &scene.warnings,
             patches: patches
                 .map(|(index, ((patch, irradiance), radiosity))| PatchFigures {
                     name: &patch.name,
                     area: patch.polygon.area(),
+                    illuminance: scene.luminous(&irradiance),
                     irradiance,
                     estimate: solution.patch_estimate(index),
                     radiosity,

@@ -3,7 +3,9 @@ use crate::failure::Failure;
 use crate::input::STREAM;
 use crate::json;
 use crate::view_options::ViewOptions;
-use radiosity::io::{self, Source, gltf, obj, ply};
+use radiosity::expose::Exposure;
+use radiosity::io::{self, Source, collada::with_exposure, gltf, obj, ply};
+use radiosity::picture::LinearFormat;
 use radiosity::{Record, Scene, element_table, patch_table, viewer};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -19,6 +21,7 @@ pub(crate) struct Output {
 #[derive(Clone, Copy, Debug)]
 enum FileKind {
     Picture,
+    Linear(LinearFormat),
     Collada,
     Glb,
     Json,
@@ -30,10 +33,12 @@ enum FileKind {
 }
 
 /// By the end of the file's name.
-const KINDS: [(&str, FileKind); 9] = [
+const KINDS: [(&str, FileKind); 11] = [
     (".elements.csv", FileKind::Elements),
     (".csv", FileKind::Patches),
     (".png", FileKind::Picture),
+    (".exr", FileKind::Linear(LinearFormat::Exr)),
+    (".hdr", FileKind::Linear(LinearFormat::Hdr)),
     (".dae", FileKind::Collada),
     (".glb", FileKind::Glb),
     (".json", FileKind::Json),
@@ -88,21 +93,20 @@ impl Output {
 
     /// Whether it is for eyes alone.
     pub(crate) fn is_picture(&self) -> bool {
-        matches!(self.kind, FileKind::Picture)
+        matches!(self.kind, FileKind::Picture | FileKind::Linear(_))
     }
 
     /// Writes the file, whole or not at all.
     pub(crate) fn write(&self, contents: &Contents<'_>) -> Result<(), Failure> {
         let bytes = match self.kind {
             FileKind::Picture => contents.picture()?,
+            FileKind::Linear(format) => contents.linear_picture(format)?,
             FileKind::Collada => contents.collada()?,
             FileKind::Glb => contents.glb()?,
             FileKind::Json => contents.json().into_bytes(),
-            FileKind::Page => {
-                viewer::page(contents.record, contents.view.exposure(contents.record)).into_bytes()
-            }
-            FileKind::Obj => obj::lit(contents.record, contents.view.exposure(contents.record)).into_bytes(),
-            FileKind::Ply => ply::lit(contents.record, contents.view.exposure(contents.record)),
+            FileKind::Page => viewer::page(contents.record, contents.exposure()?).into_bytes(),
+            FileKind::Obj => obj::lit(contents.record, contents.exposure()?).into_bytes(),
+            FileKind::Ply => ply::lit(contents.record, contents.exposure()?),
             FileKind::Patches => patch_table(contents.record).into_bytes(),
             FileKind::Elements => element_table(contents.record).into_bytes(),
         };
@@ -129,11 +133,21 @@ fn refuse_terminal() -> Result<(), Failure> {
 }
 
 impl Contents<'_> {
+    /// As asked, or chosen from what the camera sees.
+    fn exposure(&self) -> Result<Exposure, Failure> {
+        Ok(self.view.exposure(self.record, &self.view.camera(self.record)?))
+    }
+
     /// PNG as the camera sees it.
     fn picture(&self) -> Result<Vec<u8>, Failure> {
         let (record, view) = (self.record, self.view);
-        let camera = view.camera(record)?;
-        Ok(record.draw(&camera, view.exposure(record), view.width))
+        Ok(record.draw(&view.camera(record)?, self.exposure()?, view.width))
+    }
+
+    /// Radiance as the camera sees it.
+    fn linear_picture(&self, format: LinearFormat) -> Result<Vec<u8>, Failure> {
+        let camera = self.view.camera(self.record)?;
+        self.record.draw_linear(&camera, format, self.view.width).map_err(Failure::internal)
     }
 
     /// The scene's own COLLADA with the unscaled radiosity at the vertices.
@@ -143,12 +157,13 @@ impl Contents<'_> {
                 "only solve writes COLLADA, into the scene's own file; expose then turns it into colours",
             )
         })?;
-        Ok(source.with_light(scene, &self.record.mesh(), &self.record.colours())?.into_bytes())
+        let text = source.with_light(scene, &self.record.mesh(), &self.record.colours())?;
+        Ok(with_exposure(&text, self.exposure()?).into_bytes())
     }
 
     /// glTF binary.
     fn glb(&self) -> Result<Vec<u8>, Failure> {
-        Ok(gltf::glb(self.record, self.view.exposure(self.record))?)
+        Ok(gltf::glb(self.record, self.exposure()?)?)
     }
 
     /// The figures and the light.

@@ -10,6 +10,16 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A finite number of zero or more.
+pub(crate) fn strength(text: &str) -> Result<f64, String> {
+    let number: f64 = text.trim().parse().map_err(|_| format!("{text:?} is not a number"))?;
+    if number >= 0.0 && number.is_finite() {
+        Ok(number)
+    } else {
+        Err("give a finite number of 0 or more".to_owned())
+    }
+}
+
 /// A share above zero, as a number or in percent.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     match text.trim().strip_suffix('%') {

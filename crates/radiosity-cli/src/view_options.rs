@@ -9,7 +9,7 @@ use radiosity::{Camera, Record};
 /// The options of every command that writes pictures.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct ViewOptions {
-    /// The exposure K: intensity is 1 - exp(-K B) [default: chosen from the light]
+    /// The exposure K: intensity is 1 - exp(-K B) [default: chosen from what the camera sees]
     #[arg(short = 'k', visible_short_alias = 'K', long, value_name = "K", value_parser = positive)]
     pub(crate) exposure: Option<f64>,
     /// The width of a picture in pixels
@@ -22,9 +22,9 @@ pub(crate) struct ViewOptions {
 }
 
 impl ViewOptions {
-    /// As asked, or chosen from the light.
-    pub(crate) fn exposure(&self, record: &Record) -> Exposure {
-        self.exposure.and_then(Exposure::new).unwrap_or_else(|| record.exposure())
+    /// As asked, or chosen from what the camera sees.
+    pub(crate) fn exposure(&self, record: &Record, camera: &Camera) -> Exposure {
+        self.exposure.and_then(Exposure::new).unwrap_or_else(|| record.exposure_for(camera))
     }
 
     /// As asked; where there is no such camera, what there is instead.

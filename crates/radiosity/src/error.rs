@@ -66,6 +66,14 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
+    /// A light cannot shine.
+    #[error("light {light}: {reason}; correct or remove it")]
+    Light {
+        /// The light's name.
+        light: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A patch has another number of bands than the scene.
     #[error(
         "patch {patch}: {found} bands where the scene has {expected}; give every patch the scene's bands"

@@ -1,13 +1,16 @@
 //! Exposure: from radiosity, which has no upper limit, to the colours of a screen.
-use crate::scene::Scene;
-use crate::solve::solution::Solution;
 use crate::spectrum::Colours;
 
-/// The intensity that the average surface gets: mid grey.
+/// The intensity that the middle of what is seen gets: mid grey.
 const MID_GREY: f64 = 0.18;
+/// What a twentieth of what is seen exceeds gets an intensity between these.
+const BRIGHT: [f64; 2] = [0.5, 0.9];
 
 /// An exposure: it turns a radiosity B into the intensity 1 − exp(−K·B). A small K is dark, a large K bright (Gomes 2010,
 /// equation 2.17).
+///
+/// Of a colour the largest part gets that intensity, and the others keep their shares of it: bright colours stay as saturated as
+/// dark ones, and no part exceeds 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposure {
     k: f64,
@@ -20,27 +23,35 @@ impl Exposure {
         (k.is_finite() && k > 0.0).then_some(Self { k })
     }
 
-    /// The exposure at which the average radiosity of patches that do not emit becomes mid grey, 0.18 of full intensity.
+    /// The automatic exposure of what is seen: colours, each given as red, green and blue radiosity, how much of the picture it
+    /// covers, and whether it is an emitter's.
     ///
-    /// The average is the geometric mean of the luminance (Rec. 709) over lit elements, weighted by area. Where nothing but
-    /// emitters is lit, the emitters count; where nothing is lit, K is 1.
+    /// The median brightness becomes mid grey, 0.18 of full intensity, as far as the 95th percentile stays between 0.5 and 0.9.
+    /// The brightness of a colour is its largest part. What is not lit does not count, and emitters only where nothing else is
+    /// lit; where nothing is lit, K is 1. K has four digits, so that it can be given again. O(n log n).
+    ///
+    /// ```
+    /// use radiosity::expose::Exposure;
+    ///
+    /// let wall = |brightness: f64| ([brightness; 3], 1.0, false);
+    /// let lamp = ([1e4; 3], 1.0, true);
+    /// let exposure = Exposure::of([wall(2.0), wall(3.0), wall(4.0), lamp].into_iter());
+    /// assert!((exposure.intensity([3.0; 3])[0] - 0.4054).abs() < 1e-4); // the brightest wall gets 0.5
+    /// ```
     #[must_use]
-    pub fn automatic(scene: &Scene, solution: &Solution) -> Self {
-        let mesh = &solution.mesh;
-        let colours = Colours::of(solution.bands, &scene.wavelengths).rows(&solution.radiosity);
-        Self::of(colours.into_iter().enumerate().map(|(index, colour)| {
-            (colour, mesh.area(index), scene.patches[mesh.elements[index].patch].emits())
-        }))
-    }
-
-    /// The automatic exposure of any colours, each given as red, green and blue radiosity, the area that it covers, and whether
-    /// it is an emitter's; see [`Exposure::automatic`].
-    #[must_use]
-    pub fn of(lit: impl Iterator<Item = ([f64; 3], f64, bool)> + Clone) -> Self {
-        let others = lit.clone().filter(|(_, _, emitter)| !emitter);
-        let mean = mean_luminance(others).or_else(|| mean_luminance(lit));
-        let k = mean.map(|luminance| -(-MID_GREY).ln_1p() / luminance);
-        k.and_then(Self::new).unwrap_or(Self { k: 1.0 })
+    pub fn of(seen: impl Iterator<Item = ([f64; 3], f64, bool)>) -> Self {
+        let brightness = |colour: [f64; 3]| colour.into_iter().fold(0.0, f64::max);
+        let lit = seen.map(|(colour, area, emitter)| (brightness(colour), area, emitter));
+        let (emitters, others): (Vec<_>, Vec<_>) =
+            lit.filter(|(bright, area, _)| *bright > 0.0 && *area > 0.0).partition(|(.., emitter)| *emitter);
+        let mut lit = if others.is_empty() { emitters } else { others };
+        lit.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let k_at = |intensity: f64, brightness: f64| -(-intensity).ln_1p() / brightness;
+        let k = percentile(&lit, 0.5).zip(percentile(&lit, 0.95)).map(|(middle, bright)| {
+            let [least, most] = BRIGHT.map(|intensity| k_at(intensity, bright));
+            k_at(MID_GREY, middle).clamp(least, most)
+        });
+        k.and_then(rounded).and_then(Self::new).unwrap_or(Self { k: 1.0 })
     }
 
     /// K, in m²/W.
@@ -52,7 +63,10 @@ impl Exposure {
     /// The linear intensities, 0 to 1, of a red, green and blue radiosity.
     #[must_use]
     pub fn intensity(self, radiosity: [f64; 3]) -> [f64; 3] {
-        radiosity.map(|band| -(-self.k * band.max(0.0)).exp_m1())
+        let brightest = radiosity.into_iter().fold(0.0, f64::max);
+        let intensity = -(-self.k * brightest).exp_m1();
+        let share = |part: f64| if brightest > 0.0 { part.max(0.0) / brightest } else { 0.0 };
+        radiosity.map(|part| intensity * share(part))
     }
 }
 
@@ -77,17 +91,20 @@ pub fn srgb(intensity: f64) -> f64 {
     if intensity <= 0.003_130_8 { 12.92 * intensity } else { 1.055 * intensity.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// The geometric mean, weighted by area, over what is lit.
-fn mean_luminance(lit: impl Iterator<Item = ([f64; 3], f64, bool)>) -> Option<f64> {
-    let (mut sum, mut weight) = (0.0, 0.0);
-    for (colour, area, _) in lit {
-        let luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
-        if luminance > 0.0 {
-            sum += area * luminance.ln();
-            weight += area;
-        }
-    }
-    (weight > 0.0).then(|| (sum / weight).exp())
+/// A number to four digits.
+fn rounded(number: f64) -> Option<f64> {
+    format!("{number:.3e}").parse().ok()
+}
+
+/// The brightness that a share of the area does not exceed; `sorted` holds brightness and area.
+fn percentile(sorted: &[(f64, f64, bool)], share: f64) -> Option<f64> {
+    let whole: f64 = sorted.iter().map(|(_, area, _)| area).sum();
+    let mut below = 0.0;
+    let reached = sorted.iter().find(|(_, area, _)| {
+        below += area;
+        below >= share * whole
+    });
+    reached.or(sorted.last()).map(|(brightness, ..)| *brightness)
 }
 
 #[cfg(test)]
@@ -97,10 +114,32 @@ mod tests {
     #[test]
     fn intensity_starts_at_zero_rises_and_never_passes_one() {
         let exposure = Exposure::new(2.0).unwrap();
-        let [none, some, all] = exposure.intensity([0.0, std::f64::consts::LN_2 / 2.0, 1e300]);
-        assert_eq!((none, all), (0.0, 1.0));
-        assert!((some - 0.5).abs() < 1e-15);
-        assert_eq!(exposure.intensity([-1.0; 3]), [0.0; 3]);
+        let grey = |radiosity: f64| exposure.intensity([radiosity; 3]);
+        assert_eq!((grey(0.0), grey(1e300)), ([0.0; 3], [1.0; 3]));
+        assert!((grey(std::f64::consts::LN_2 / 2.0)[0] - 0.5).abs() < 1e-15);
+        assert_eq!(grey(-1.0), [0.0; 3]);
+    }
+
+    #[test]
+    fn colours_keep_their_shares_however_bright_they_are() {
+        let exposure = Exposure::new(1.0).unwrap();
+        for height in [1e-6, 1.0, 1e3] {
+            let [red, green, blue] = exposure.intensity([4.0 * height, 2.0 * height, -height]);
+            assert!((green / red - 0.5).abs() < 1e-15 && blue == 0.0 && red <= 1.0, "{height}");
+        }
+    }
+
+    #[test]
+    fn faint_light_and_lamps_do_not_change_an_exposure() {
+        let wall = |brightness: f64| ([brightness; 3], 1.0, false);
+        let walls = || (1..=99).map(|step| wall(f64::from(step)));
+        let plain = Exposure::of(walls());
+        assert!((plain.intensity([50.0; 3])[0] - 0.306).abs() < 0.01, "the 95th percentile holds it at 0.5");
+        let lamp = std::iter::once(([1e6; 3], 50.0, true));
+        assert_eq!(Exposure::of(walls().chain(lamp)), plain);
+        // Four fifths of the picture is a dark room; what is lit is not burnt out.
+        let dim = Exposure::of(walls().chain((0..400).map(|_| wall(1e-17))));
+        assert!(dim.intensity([95.0; 3])[0] < 0.95, "{}", dim.k());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 use crate::expose::Exposure;
 use crate::image_file::fetch;
 use crate::mesh::element::{Element, Mesh};
-use crate::picture::{framing::framing, paint, painting::Painting};
+use crate::picture::{framing::framing, linear::LinearFormat, paint, painting::Painting, radiance, seen};
 use crate::recording::Recording;
 use crate::scene::{Scene, asset::Asset, camera::Camera, patch::Patch, texture::Image};
 use crate::solve::solution::Solution;
@@ -29,6 +29,9 @@ pub struct Record {
     /// The wavelength of each band in nm; see [`Scene::wavelengths`].
     #[serde(default)]
     pub wavelengths: Vec<f64>,
+    /// Lumens in a unit of power of each band: an irradiance times these, added up, is an illuminance in lx. See [`Scene::lumens`].
+    #[serde(default)]
+    pub lumens: Vec<f64>,
     /// Per band, a bound on the algebraic error of every radiosity, W/m²; see [`Solution::bound`].
     pub bound: Vec<f64>,
     /// The patches, in the scene's order.
@@ -95,6 +98,7 @@ impl Record {
             cameras: scene.cameras.clone(),
             bands: solution.bands,
             wavelengths: scene.wavelengths.clone(),
+            lumens: scene.lumens(),
             bound: solution.bound.clone(),
             patches: patches
                 .map(|(index, (patch, (irradiance, radiosity)))| PatchRecord {
@@ -146,6 +150,9 @@ impl Record {
                 self.wavelengths.len(),
                 self.bands
             ));
+        }
+        if ![0, self.bands].contains(&self.lumens.len()) {
+            return Err(format!("lumens has {} values where {} are needed", self.lumens.len(), self.bands));
         }
         if ![0, vertices].contains(&self.places.len()) {
             return Err(format!("places has {} rows where {vertices} are needed", self.places.len()));
@@ -205,6 +212,19 @@ impl Record {
     /// on them. `width` is in pixels.
     #[must_use]
     pub fn draw(&self, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
+        self.painted(|painting| paint(painting, camera, exposure, width))
+    }
+
+    /// The bytes of a picture as [`Record::draw`] draws it, but of linear radiance, W/m²/sr, without an exposure.
+    ///
+    /// # Errors
+    /// What the encoder says where such a picture cannot be written.
+    pub fn draw_linear(&self, camera: &Camera, format: LinearFormat, width: u32) -> Result<Vec<u8>, String> {
+        self.painted(|painting| radiance(painting, camera, format, width))
+    }
+
+    /// What `drawn` makes of the mesh with its light and pictures.
+    fn painted<T>(&self, drawn: impl FnOnce(&Painting<'_>) -> T) -> T {
         let pictures: Vec<Option<Image>> =
             self.pictures.iter().map(|address| fetch(address, None).ok()).collect();
         let shown = |patch: &PatchRecord| pictures[patch.picture?].as_ref();
@@ -215,8 +235,7 @@ impl Record {
                 light[corner] = under[corner];
             }
         }
-        let painting = Painting { mesh: &self.mesh(), light: &light, places: &self.places, images: &images };
-        paint(&painting, camera, exposure, width)
+        drawn(&Painting { mesh: &self.mesh(), light: &light, places: &self.places, images: &images })
     }
 
     /// What a picture's colours are multiplied with at every vertex: the irradiance times the patch's tint.
@@ -234,15 +253,37 @@ impl Record {
         light
     }
 
-    /// The automatic exposure; see [`Exposure::automatic`].
+    /// The automatic exposure of what the first camera sees; see [`Record::exposure_for`].
     #[must_use]
     pub fn exposure(&self) -> Exposure {
-        let (mesh, colours) = (self.mesh(), self.shown().rows(&self.radiosity));
-        let lit = colours.iter().enumerate().map(|(index, colour)| {
-            let emitter = self.patches[mesh.elements[index].patch].emission.iter().any(|band| *band > 0.0);
-            (*colour, mesh.area(index), emitter)
-        });
-        Exposure::of(lit)
+        self.exposure_for(&self.first_camera())
+    }
+
+    /// The automatic exposure of what a camera sees, or of the whole scene where that is nothing: see [`Exposure::of`]. Pictures
+    /// on patches count as their means. Takes as long as a small picture.
+    #[must_use]
+    pub fn exposure_for(&self, camera: &Camera) -> Exposure {
+        let emits = |patch: usize| self.patches[patch].emission.iter().any(|band| *band > 0.0);
+        let mut lit: Vec<[f64; 3]> = self.colours();
+        let brightest = |colour: [f64; 3]| colour.into_iter().fold(0.0, f64::max);
+        lit.iter_mut().for_each(|colour| *colour = [brightest(*colour), 0.0, 0.0]);
+        for &[_, a, b, c] in self.elements.iter().filter(|element| emits(element[0])) {
+            [a, b, c].into_iter().for_each(|corner| lit[corner][1] = 1.0);
+        }
+        let mesh = self.mesh();
+        let painting = Painting { mesh: &mesh, light: &lit, places: &[], images: &[] };
+        let of_sample = |[bright, emits, _]: [f64; 3]| ([bright; 3], 1.0, emits > 0.0);
+        let seen: Vec<_> = seen(&painting, camera).into_iter().map(of_sample).collect();
+        if seen.iter().any(|([bright, ..], ..)| *bright > 0.0) {
+            return Exposure::of(seen.into_iter());
+        }
+        let colours = self.shown().rows(&self.radiosity);
+        Exposure::of(
+            colours
+                .iter()
+                .enumerate()
+                .map(|(index, colour)| (*colour, mesh.area(index), emits(mesh.elements[index].patch))),
+        )
     }
 
     /// The camera of that name, or `None` if there is none. Without a name the first camera, or one that sees all of the scene.
@@ -250,8 +291,12 @@ impl Record {
     pub fn camera(&self, name: Option<&str>) -> Option<Camera> {
         match name {
             Some(name) => self.cameras.iter().find(|camera| camera.name == name).cloned(),
-            None => Some(self.cameras.first().cloned().unwrap_or_else(|| self.framing())),
+            None => Some(self.first_camera()),
         }
+    }
+
+    fn first_camera(&self) -> Camera {
+        self.cameras.first().cloned().unwrap_or_else(|| self.framing())
     }
 
     fn framing(&self) -> Camera {

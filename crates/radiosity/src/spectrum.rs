@@ -68,6 +68,11 @@ fn observer(nm: f64) -> [f64; 3] {
     ]
 }
 
+/// How bright light of a wavelength in nm is to the eye: 1 at the peak.
+pub(crate) fn eye(nm: f64) -> f64 {
+    observer(nm)[1]
+}
+
 /// Linear sRGB of x, y and z (IEC 61966-2-1).
 fn primaries([x, y, z]: [f64; 3]) -> [f64; 3] {
     [

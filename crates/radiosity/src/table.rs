@@ -2,17 +2,22 @@
 use crate::record::{PatchRecord, Record};
 
 /// A table with a row for every patch: its name, area, reflectances, emissions, mean irradiances and mean radiosities
-/// per band, and what the irradiances may be off by where that was estimated.
+/// per band, what the irradiances may be off by where that was estimated, and the mean illuminance in lx.
 #[must_use]
 pub fn patch_table(record: &Record) -> String {
     let is_estimated = record.patches.iter().any(|patch| !patch.estimate.is_empty());
     let groups = ["reflectance", "emission", "irradiance", "radiosity", "estimate"];
     let groups = &groups[..if is_estimated { 5 } else { 4 }];
-    let header = ["patch", "area"].map(Into::into).into_iter().chain(columns(groups, record.bands));
+    let is_luminous = !record.lumens.is_empty();
+    let last = is_luminous.then(|| "illuminance".to_owned());
+    let header =
+        ["patch", "area"].map(Into::into).into_iter().chain(columns(groups, record.bands)).chain(last);
     let row = |patch: &PatchRecord| {
+        let lux: f64 = patch.irradiance.iter().zip(&record.lumens).map(|(h, lumens)| h * lumens).sum();
         let values =
             [&patch.reflectance, &patch.emission, &patch.irradiance, &patch.radiosity, &patch.estimate];
         let numbers = std::iter::once(&patch.area).chain(values.into_iter().flatten());
+        let numbers = numbers.chain(is_luminous.then_some(&lux));
         std::iter::once(patch.name.clone()).chain(numbers.map(ToString::to_string)).collect()
     };
     table(header.collect(), record.patches.iter().map(row))

@@ -3,7 +3,7 @@
 mod browser;
 
 use browser::{browser, reported};
-use radiosity::{Method, Options, Record, Recorder, scenes, solve, viewer};
+use radiosity::{Camera, Method, Options, Record, Recorder, scenes, solve, viewer};
 use std::ops::ControlFlow;
 
 /// Uses the controls as a person would, one after the other, and notes a hash of the picture after each.
@@ -18,7 +18,8 @@ const look = () => {
     hash = (hash * 31 + pixels[i] * 65536 + pixels[i + 1] * 256 + pixels[i + 2]) % 4294967291;
     lit += pixels[i] + pixels[i + 1] + pixels[i + 2] > 30;
   }
-  return { hash, lit: 4 * lit / pixels.length };
+  const legend = $("legend").hidden ? "" : $("legend").getAttribute("aria-label");
+  return { hash, lit: 4 * lit / pixels.length, legend };
 };
 const input = (id, property, value) => {
   $(id)[property] = value;
@@ -64,8 +65,22 @@ const steps = {
   reset_5: () => key("r"),
   moved_fast: () => { key("+"); key("+"); key("w"); },
   reset_6: () => key("r"),
+  turned_by_key: () => key("ArrowUp"),
+  nearer: () => key("PageUp"),
+  reset_7: () => key("r"),
+  brighter: () => key("]"),
+  darker: () => key("["),
+  radiosity: () => key("5"),
+  irradiance: () => key("6"),
+  lux: () => key("y"),
+  interpolated_again: () => key("3"),
+  other_camera: () => key("c"),
+  reset_8: () => key("r"),
+  below: () => { turn(0, 1.4); redraw(); },
+  backs: () => key("b"),
+  fronts: () => { key("b"); key("r"); },
 };
-window.onload = () => {
+window.onload = async () => {
   const report = {};
   for (const [name, act] of Object.entries(steps)) {
     act();
@@ -73,6 +88,17 @@ window.onload = () => {
   }
   pointer("pointermove", canvas.clientWidth / 2, canvas.clientHeight * 0.8);
   report.probe = $("probe").textContent;
+  pointer("pointerleave", 0, 0);
+  report.left = $("probe").textContent;
+  key("x");
+  draw();
+  report.middle = $("probe").textContent;
+  report.saved = await new Promise(named => {
+    HTMLAnchorElement.prototype.click = function () { named(this.download); };
+    key("i");
+  });
+  report.title = document.title;
+  report.wide = document.documentElement.scrollWidth > innerWidth;
   report.error = gl.getError();
   document.body.innerHTML = "<pre>REPORT" + ":" + JSON.stringify(report) + "</pre>";
 };
@@ -86,7 +112,7 @@ const look = () => {
   const pixels = new Uint8Array(4 * canvas.width * canvas.height);
   gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
   return { hash: pixels.reduce((hash, byte) => (hash * 31 + byte) % 4294967291, 7), story: $("story").textContent,
-    shares: $("shares").textContent, wide: document.documentElement.scrollWidth > innerWidth, step: Number($("step").value) };
+    shares: $("shares").textContent, wide: document.documentElement.scrollWidth > innerWidth || $("panel").open, step: Number($("step").value) };
 };
 const key = name => window.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
 const slide = value => { $("step").value = value; $("step").dispatchEvent(new Event("input", { bubbles: true })); };
@@ -176,7 +202,10 @@ fn the_page_draws_and_its_controls_change_the_picture() {
     let scene = scenes::scene("chessboard").unwrap();
     let options = Options { max_shots: 100, ..Options::mesh(600) };
     let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).unwrap();
-    let record = Record::new("chessboard", &scene, &solution);
+    let mut record = Record::new("scenes/chessboard.dae", &scene, &solution);
+    let other =
+        Camera { name: "other".into(), position: [3.0, -5.0, 3.0].into(), ..record.cameras[0].clone() };
+    record.cameras.push(other);
     let folder = tempfile::tempdir().unwrap();
     let text = viewer::page(&record, record.exposure()).replace("</html>", SCRIPT);
     std::fs::write(folder.path().join("page.html"), text).unwrap();
@@ -185,7 +214,7 @@ fn the_page_draws_and_its_controls_change_the_picture() {
 
     let hash = |step: &str| report[step]["hash"].as_u64().unwrap_or_else(|| panic!("no step {step}"));
     let lit = |step: &str| report[step]["lit"].as_f64().unwrap_or_else(|| panic!("{step}: {report}"));
-    assert!(lit("first") > 0.15, "{report}");
+    assert!(lit("first") > 0.1, "{report}");
     let changes = [
         "patches",
         "elements",
@@ -200,6 +229,12 @@ fn the_page_draws_and_its_controls_change_the_picture() {
         "pinched",
         "moved",
         "moved_fast",
+        "turned_by_key",
+        "nearer",
+        "brighter",
+        "radiosity",
+        "irradiance",
+        "other_camera",
     ];
     for step in changes {
         assert_ne!(hash(step), hash("first"), "{step} changes nothing");
@@ -208,10 +243,24 @@ fn the_page_draws_and_its_controls_change_the_picture() {
     assert_ne!(hash("moved"), hash("moved_fast"), "faster is farther");
     let back =
         ["interpolated", "no_wireframe", "lights", "textures", "exposure", "reset_1", "reset_2", "reset_3"];
-    for step in back.into_iter().chain(["reset_4", "reset_5", "reset_6"]) {
+    let by_keys = ["reset_7", "darker", "interpolated_again", "reset_8", "fronts"];
+    for step in back.into_iter().chain(["reset_4", "reset_5", "reset_6"]).chain(by_keys) {
         assert_eq!(hash(step), hash("first"), "{step} does not lead back");
     }
     assert!(lit("zoomed") < lit("first"), "farther away less is seen");
+    assert_ne!(hash("backs"), hash("below"), "from below the floor's back is seen");
+    assert_ne!(hash("radiosity"), hash("irradiance"));
+    let legend = |step: &str| report[step]["legend"].as_str().unwrap().to_owned();
+    assert!(
+        legend("irradiance").starts_with("irradiance, W/m²: dark violet to yellow is 0 to ≥ "),
+        "{report}"
+    );
+    assert!(legend("lux").starts_with("illuminance, lx: "), "{report}");
+    assert_eq!(legend("first"), "");
+    assert_eq!(report["left"], "point at a surface", "values go when the pointer does");
+    assert!(report["middle"].as_str().unwrap().starts_with("patch       "), "{report}");
+    assert_eq!(report["saved"], "chessboard.png");
+    assert_eq!((&report["title"], &report["wide"]), (&"chessboard.dae – radiosity".into(), &false.into()));
     let probe = report["probe"].as_str().unwrap();
     for word in ["patch       floor", "element ", "radiosity ", "irradiance ", "bound "] {
         assert!(probe.contains(word), "{word}: {probe}");

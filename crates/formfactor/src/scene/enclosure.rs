@@ -1,11 +1,14 @@
 //! Enclosures: many polygons that see and hide each other.
+use super::line::LineOfSight;
 use super::{body::Bodies, pool::Pool, shaft::Shaft, shell::Adjacency, surfaces::Surfaces, tree::Tree};
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
+use crate::numeric::predicates::place;
 use crate::pipeline::{self, Reach};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
+use crate::visible_part::{VisiblePart, seen_past};
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -238,6 +241,45 @@ impl Enclosure {
     fn is_edge_on(&self, from: &DifferentialArea, id: usize) -> bool {
         from.owner()
             .is_some_and(|owner| id == owner || self.polygons[id].lies_in_plane_of(&self.polygons[owner]))
+    }
+
+    /// The part of `part`, a part of polygon `id` in the plane of that polygon, that `from` sees past all other polygons: see
+    /// [`visible_part`](fn@crate::visible_part).
+    ///
+    /// # Panics
+    /// When there is no polygon `id`.
+    #[must_use]
+    pub fn visible_part(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> VisiblePart {
+        let deviation = self.deviation + part.deviation();
+        seen_past(from, part, |pyramid| {
+            let near = self.tree.find(|extent| pyramid.misses_box(extent, deviation));
+            self.others(from, id, near).collect::<Vec<_>>()
+        })
+    }
+
+    /// Whether `from` sees a place: it is above the horizon, and no polygon meets the way there strictly between its ends. Decided exactly.
+    ///
+    /// The polygon that [owns](DifferentialArea::owned_by) `from`, and those in its plane, stand in no way. Takes O(log n) where few
+    /// boxes are on the way.
+    ///
+    /// ```
+    /// use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
+    /// let board = PlanarPolygon::new([[[-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]]])?;
+    /// let room = Enclosure::new(vec![board]);
+    /// let floor = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+    /// assert!(!room.sees(&floor, DVec3::new(1.5, 0.0, 2.0)));
+    /// assert!(room.sees(&floor, DVec3::new(2.5, 0.0, 2.0)));
+    /// assert!(!room.sees(&floor, DVec3::new(2.5, 0.0, -2.0)));
+    /// # Ok::<(), formfactor::Error>(())
+    /// ```
+    #[must_use]
+    pub fn sees(&self, from: &DifferentialArea, there: DVec3) -> bool {
+        if place(from.given_normal(), from.position(), there) != Ordering::Greater {
+            return false;
+        }
+        let line = LineOfSight::between(from.position(), there);
+        let near = self.tree.find(|extent| line.misses_box(extent));
+        !near.into_iter().any(|id| !self.is_edge_on(from, id) && line.is_blocked_by(&self.polygons[id]))
     }
 
     /// The form factors from `from` to every polygon, by id.

@@ -5,6 +5,8 @@ pub(crate) mod cap;
 pub(crate) mod coplanar;
 pub(crate) mod enclosure;
 pub(crate) mod inside;
+pub(crate) mod line;
+
 pub(crate) mod occluder;
 pub(crate) mod plates;
 pub(crate) mod pool;

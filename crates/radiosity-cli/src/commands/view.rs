@@ -15,7 +15,7 @@ pub(crate) struct View {
     /// Write the page to this file [default: beside the solution, as .html; - for stdout]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The exposure K to start with: intensity is 1 - exp(-K B) [default: chosen from the light]
+    /// The exposure K to start with: intensity is 1 - exp(-K B) [default: chosen from what the first camera sees]
     #[arg(short = 'k', long, value_name = "K", value_parser = positive)]
     exposure: Option<f64>,
 }

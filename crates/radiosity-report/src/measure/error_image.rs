@@ -80,8 +80,12 @@ fn error_picture(test_scene: &TestScene<'_>, step: &Step, camera: &Camera) -> Ve
         (row.iter().sum::<f64>() - exact).abs()
     };
     let errors: Vec<f64> = test_scene.points.par_iter().zip(&test_scene.light).map(off).collect();
-    // The light that the exposure turns to the colour.
-    let light = |error: f64| linear(error).map(|share| -(-share.min(0.9999)).ln_1p());
+    // The light that the exposure turns to the colour: its largest part decides how bright it is.
+    let light = |error: f64| {
+        let colour = linear(error).map(|share| share.min(0.9999));
+        let largest = colour.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        colour.map(|share| -(-largest).ln_1p() * share / largest)
+    };
     let light: Vec<[f64; 3]> = errors.into_iter().map(light).collect();
     picture::draw(&loose(&test_scene.mesh), &three(&light), camera, exposure, WIDTH)
 }

@@ -48,7 +48,7 @@ pub struct Inspection {
     pub up: [f64; 3],
     /// The smallest and the largest coordinates.
     pub extent: [[f64; 3]; 2],
-    /// The patches that emit.
+    /// The patches that emit, and the lamps.
     pub emitters: Vec<Emitter>,
     /// Whether the scene is closed: no opening is wider than rounding.
     pub closed: bool,
@@ -62,13 +62,13 @@ pub struct Inspection {
     pub cost: Cost,
 }
 
-/// A patch that emits.
+/// A patch that emits, or a lamp.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct Emitter {
-    /// The patch's name.
+    /// Its name.
     pub name: String,
-    /// Emitted power per band, πLA: in W where the unit is a metre.
+    /// Emitted power per band, of a patch πLA: in W where the unit is a metre.
     pub power: Vec<f64>,
 }
 
@@ -113,5 +113,10 @@ fn emitters(scene: &Scene) -> Vec<Emitter> {
         patch.emission.iter().map(|radiance| std::f64::consts::PI * radiance * area).collect()
     };
     let lit = scene.patches.iter().filter(|patch| patch.emits());
-    lit.map(|patch| Emitter { name: patch.name.clone(), power: power(patch) }).collect()
+    let area = scene.asset.unit * scene.asset.unit;
+    let lamps = scene.lamps.iter().map(|lamp| Emitter {
+        name: lamp.name.clone(),
+        power: lamp.power().into_iter().map(|power| power / area).collect(),
+    });
+    lit.map(|patch| Emitter { name: patch.name.clone(), power: power(patch) }).chain(lamps).collect()
 }

@@ -3,16 +3,15 @@ use crate::repair::repair;
 use crate::scene::{
     Scene,
     finding::{Finding, Kind},
-    patch::Patch,
 };
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     let told = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_none()).cloned();
-    let dark = (!scene.patches.iter().any(Patch::emits)).then(|| Finding {
+    let dark = (!scene.has_light()).then(|| Finding {
         kind: Kind::Dark,
         patches: Vec::new(),
-        what: "no patch emits light".into(),
-        repair: "give the material of an emitter an emission above 0".into(),
+        what: "no patch emits light, and there is no other light".into(),
+        repair: "give the material of an emitter an emission above 0, or solve with --emit or --sky".into(),
         places: Vec::new(),
     });
     told.chain(dark).chain(repair(scene).repairs).collect()

@@ -83,6 +83,12 @@ pub enum FileError {
         /// The file.
         file: String,
     },
+    /// The file's extension names no photometry that is read.
+    #[error("{file}: unknown kind of photometry; give an IES (.ies) or EULUMDAT (.ldt) file")]
+    Photometry {
+        /// The file.
+        file: String,
+    },
     /// The extension names no format that scenes are written in.
     #[error("{}: unknown kind of scene; name it .dae, .glb, .obj, .ply or .stl", path.display())]
     UnknownOutput {

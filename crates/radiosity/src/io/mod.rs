@@ -11,6 +11,7 @@
 //! stl         STL, read and written
 //! collada     COLLADA 1.4 and 1.5, read and written
 //! vs3         View3D's input, read
+//! photometry  IES and EULUMDAT files of luminaires, read
 //! surface     what all readers do with polygons
 //! words       lists and numbers as text
 //! save        whole files or none
@@ -21,6 +22,7 @@ pub(crate) mod error;
 mod format;
 pub mod gltf;
 pub mod obj;
+pub mod photometry;
 pub mod ply;
 mod save;
 mod scene_file;

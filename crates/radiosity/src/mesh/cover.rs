@@ -18,21 +18,29 @@ pub(crate) struct Cover {
 pub(crate) type TileCorners<'t> = &'t [(DVec2, DVec3)];
 
 impl Cover {
-    /// Adds the tiles of a patch, each with its number; `contacts` are the lines on which other patches touch it.
+    /// Adds the tiles of a patch, each with its number; `contacts` are the lines on which other patches touch it, `guests` what else must
+    /// be a vertex: places on the patch's edges.
     ///
     /// ```text
     /// +-------+---+
-    /// |       |   |    corners of a neighbour in the middle of a side are vertices of the tile: it becomes a fan around
+    /// |       |   |    corners of a neighbour in the middle of a side are vertices of the tile; a tile becomes a fan around
     /// |       +---+    its middle
     /// |       |   |
     /// +-------+---+
     /// ```
-    pub(crate) fn add(&mut self, patch: usize, tiles: &[(usize, TileCorners<'_>)], contacts: &[[DVec2; 2]]) {
-        let mut knots = Knots::of(tiles.iter().flat_map(|(_, corners)| corners.iter().copied()));
+    pub(crate) fn add(
+        &mut self,
+        patch: usize,
+        tiles: &[(usize, TileCorners<'_>)],
+        contacts: &[[DVec2; 2]],
+        guests: &[(DVec2, DVec3)],
+    ) {
+        let own = tiles.iter().flat_map(|(_, corners)| corners.iter());
+        let mut knots = Knots::of(own.chain(guests).copied());
         let mut triangles = Vec::new();
         for &(tile, corners) in tiles {
             let ring = knots.ring(corners);
-            for triangle in knots.fan(&ring, corners.len()) {
+            for triangle in knots.fan(&ring) {
                 triangles.push(triangle);
                 self.owners.push(tile);
             }
@@ -64,11 +72,16 @@ impl Knots {
         let size = corners.iter().map(|corner| corner.0.abs().max_element()).fold(0.0, f64::max);
         let mut knots = Knots { flat: Vec::new(), places: Vec::new(), sorted: Vec::new(), near: NEAR * size };
         for (flat, place) in corners {
-            if knots.find(flat).is_none() {
-                knots.sorted.push(knots.flat.len());
-                knots.flat.push(flat);
-                knots.places.push(place);
+            if let Some(known) = knots.find(flat) {
+                // All patches that meet in a place choose the same of what rounding made of it.
+                if place.to_array() < knots.places[known].to_array() {
+                    knots.places[known] = place;
+                }
+                continue;
             }
+            knots.sorted.push(knots.flat.len());
+            knots.flat.push(flat);
+            knots.places.push(place);
         }
         knots
     }
@@ -111,11 +124,11 @@ impl Knots {
         inside
     }
 
-    /// Triangles of a ring; around its middle where it has more knots than corners, or many.
-    fn fan(&mut self, ring: &[usize], corners: usize) -> Vec<[usize; 3]> {
+    /// Triangles of a ring: around its middle where it has more than three knots, so that no diagonal shows.
+    fn fan(&mut self, ring: &[usize]) -> Vec<[usize; 3]> {
         let count = ring.len();
-        if count == corners && count <= 4 {
-            return (2..count).map(|k| [ring[0], ring[k - 1], ring[k]]).collect();
+        if let [a, b, c] = *ring {
+            return vec![[a, b, c]];
         }
         let middle = self.flat.len();
         let share = 1.0 / count as f64;

@@ -5,6 +5,7 @@
 //! plan         how fine to cut what
 //! convex       a patch in convex parts
 //! cover        convex tiles in triangles that share their vertices
+//! guests       corners of other patches' tiles on the edges of a patch
 //! shadows      lines where the light of strong emitters starts or ceases to be hidden
 //! spacing      how long the sides of cells are
 //! outline      the polygon around any node of the tree: what a shooter looks like
@@ -24,6 +25,7 @@ pub(crate) mod cover;
 mod divide;
 pub(crate) mod element;
 pub(crate) mod frame;
+pub(crate) mod guests;
 pub(crate) mod lattice;
 pub(crate) mod outline;
 pub(crate) mod plan;

@@ -5,7 +5,7 @@
 //! other way round, that touches both bodies and crosses neither (Nishita and Nakamae 1985; Lischinski 1992). A body is a
 //! set of patches that share vertices, or a single loop of a patch that shares none. Lines that are missing cost some
 //! sharpness, lines too many some elements: so plain arithmetic will do.
-use super::spacing::strongest;
+use super::spacing::power;
 use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;
 use glam::DVec3;
@@ -22,22 +22,65 @@ struct Body {
     patches: BTreeSet<usize>,
 }
 
-/// The lines on every patch, in the light of its `emitters` strongest emitters.
-pub(crate) fn shadows(scene: &Scene, emitters: usize) -> Vec<Vec<[DVec3; 2]>> {
-    let bodies = bodies(scene);
-    let emitters = strongest(scene, emitters);
-    let on_patch = |patch: usize| {
-        let seen = emitters.iter().filter(|&&emitter| emitter != patch && faces(scene, patch, emitter));
-        let lit = |&emitter: &usize| {
-            let hiding = bodies
-                .iter()
-                .filter(move |body| !body.patches.contains(&patch) && !body.patches.contains(&emitter));
-            hiding
-                .flat_map(move |body| lines(&scene.patches[patch], &Body::of(&scene.patches[emitter]), body))
-        };
-        seen.flat_map(lit).collect()
-    };
-    (0..scene.patches.len()).map(on_patch).collect()
+/// Two rays in one plane that touches a lamp and what hides it: each from a point of the one past a point of the other.
+type Wedge = [[DVec3; 2]; 2];
+
+/// A lamp, what hides it, and the planes that touch both.
+#[derive(Debug)]
+struct Eclipse {
+    lamp: usize,
+    hiding: BTreeSet<usize>,
+    wedges: Vec<Wedge>,
+}
+
+/// The borders of the shadows in the light of some lamps.
+#[derive(Debug)]
+pub(crate) struct Shadows<'s> {
+    scene: &'s Scene,
+    /// The patches of each lamp.
+    lamps: Vec<BTreeSet<usize>>,
+    eclipses: Vec<Eclipse>,
+}
+
+impl<'s> Shadows<'s> {
+    /// The shadows in the light of the strongest lamps, that many of them. A lamp is a set of emitting patches that share vertices.
+    pub(crate) fn new(scene: &'s Scene, lamps: usize) -> Shadows<'s> {
+        let emits = |patch: &usize| scene.patches[*patch].emits();
+        let mut lamps_of: Vec<Body> =
+            groups(scene, emits).iter().map(|patches| whole(scene, patches)).collect();
+        let strength =
+            |lamp: &Body| lamp.patches.iter().map(|&patch| power(&scene.patches[patch])).sum::<f64>();
+        lamps_of.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+        lamps_of.truncate(lamps);
+        let bodies = if lamps_of.is_empty() { Vec::new() } else { bodies(scene) };
+        let mut eclipses = Vec::new();
+        for (index, lamp) in lamps_of.iter().enumerate() {
+            for body in bodies.iter().filter(|body| body.patches.is_disjoint(&lamp.patches)) {
+                let (lamp, hiding, wedges) = (index, body.patches.clone(), wedges(lamp, body));
+                eclipses.push(Eclipse { lamp, hiding, wedges });
+            }
+        }
+        Shadows { scene, lamps: lamps_of.into_iter().map(|lamp| lamp.patches).collect(), eclipses }
+    }
+
+    /// How many planes the borders of shadows lie in.
+    pub(crate) fn planes(&self) -> usize {
+        self.eclipses.iter().map(|eclipse| eclipse.wedges.len()).sum()
+    }
+
+    /// The borders on a patch.
+    pub(crate) fn on(&self, patch: usize) -> Vec<[DVec3; 2]> {
+        let scene = self.scene;
+        let lit: Vec<bool> = self
+            .lamps
+            .iter()
+            .map(|lamp| !lamp.contains(&patch) && lamp.iter().any(|&emitter| faces(scene, patch, emitter)))
+            .collect();
+        let seen =
+            self.eclipses.iter().filter(|eclipse| lit[eclipse.lamp] && !eclipse.hiding.contains(&patch));
+        let wedges = seen.flat_map(|eclipse| &eclipse.wedges);
+        wedges.filter_map(|wedge| line(&scene.patches[patch], wedge)).collect()
+    }
 }
 
 /// Whether some of the emitter is before the patch, and some of the patch before the emitter.
@@ -50,49 +93,48 @@ fn faces(scene: &Scene, patch: usize, emitter: usize) -> bool {
     before(patch, emitter) && before(emitter, patch)
 }
 
-/// What may hide light.
-fn bodies(scene: &Scene) -> Vec<Body> {
-    let mut groups = UnionFind::new(scene.patches.len());
+/// The patches that share vertices with each other, of those that are asked for.
+fn groups(scene: &Scene, is_wanted: impl Fn(&usize) -> bool) -> Vec<Vec<usize>> {
+    let wanted: Vec<usize> = (0..scene.patches.len()).filter(is_wanted).collect();
+    let mut groups = UnionFind::new(wanted.len());
     let mut first = BTreeMap::new();
-    for (index, patch) in scene.patches.iter().enumerate() {
-        for point in patch.polygon.loops().flatten() {
+    for (index, &patch) in wanted.iter().enumerate() {
+        for point in scene.patches[patch].polygon.loops().flatten() {
             groups.join(*first.entry(point.to_array().map(f64::to_bits)).or_insert(index), index);
         }
     }
     let (numbers, firsts) = groups.number();
     let mut members = vec![Vec::new(); firsts.len()];
-    numbers.iter().enumerate().for_each(|(patch, &group)| members[group].push(patch));
-    members.iter().flat_map(|patches| body(scene, patches)).collect()
+    numbers.iter().zip(wanted).for_each(|(&group, patch)| members[group].push(patch));
+    members
+}
+
+/// What may hide light.
+fn bodies(scene: &Scene) -> Vec<Body> {
+    groups(scene, |_| true).iter().flat_map(|patches| body(scene, patches)).collect()
 }
 
 /// One body of several patches; of a single patch each loop is one: a hole lets light through as its outline does.
 fn body(scene: &Scene, patches: &[usize]) -> Vec<Body> {
-    let named = |body: Body| Body { patches: patches.iter().copied().collect(), ..body };
-    let [patch] = patches else {
-        let mut whole = Body::default();
-        patches
-            .iter()
-            .flat_map(|&patch| scene.patches[patch].polygon.loops())
-            .for_each(|points| whole.add(points));
-        whole.unify();
-        return vec![named(whole)];
-    };
+    let [patch] = patches else { return vec![whole(scene, patches)] };
     let ring = |points: &[DVec3]| {
-        let mut ring = Body::default();
+        let mut ring = Body { patches: [*patch].into(), ..Body::default() };
         ring.add(points);
-        named(ring)
+        ring
     };
     scene.patches[*patch].polygon.loops().map(ring).collect()
 }
 
-impl Body {
-    /// A patch as a body.
-    fn of(patch: &Patch) -> Body {
-        let mut body = Body::default();
-        patch.polygon.loops().for_each(|points| body.add(points));
-        body
-    }
+/// One body of some patches.
+fn whole(scene: &Scene, patches: &[usize]) -> Body {
+    let mut whole = Body { patches: patches.iter().copied().collect(), ..Body::default() };
+    let loops = patches.iter().flat_map(|&patch| scene.patches[patch].polygon.loops());
+    loops.for_each(|points| whole.add(points));
+    whole.unify();
+    whole
+}
 
+impl Body {
     /// Adds a loop.
     fn add(&mut self, points: &[DVec3]) {
         self.points.extend(points);
@@ -111,36 +153,49 @@ impl Body {
     /// Whether no two points are on different sides of the plane through three points.
     fn is_on_one_side(&self, apex: DVec3, edge: [DVec3; 2]) -> bool {
         let normal = (edge[0] - apex).cross(edge[1] - apex);
-        let sides = self.points.iter().map(|point| {
+        let (mut before, mut behind) = (false, false);
+        for point in &self.points {
             let arm = *point - apex;
             let height = normal.dot(arm);
-            if height.abs() <= NEAR * normal.length() * arm.length() { 0.0 } else { height.signum() }
-        });
-        let (low, high) = sides.fold((0.0f64, 0.0f64), |(low, high), side| (low.min(side), high.max(side)));
-        low == 0.0 || high == 0.0
+            let is_off = height.abs() > NEAR * normal.length() * arm.length();
+            before |= is_off && height > 0.0;
+            behind |= is_off && height < 0.0;
+            if before && behind {
+                return false;
+            }
+        }
+        true
     }
 }
 
-/// The borders of the shadow that a body casts on a patch in an emitter's light.
-fn lines(patch: &Patch, emitter: &Body, body: &Body) -> Vec<[DVec3; 2]> {
+/// The planes that touch a lamp and a body.
+fn wedges(lamp: &Body, body: &Body) -> Vec<Wedge> {
+    let touches =
+        |apex: DVec3, edge: [DVec3; 2]| lamp.is_on_one_side(apex, edge) && body.is_on_one_side(apex, edge);
+    let mut wedges = Vec::new();
+    for (points, edges, is_from_apex) in
+        [(&lamp.points, &body.edges, true), (&body.points, &lamp.edges, false)]
+    {
+        for &apex in points {
+            let touching = edges.iter().filter(|edge| touches(apex, **edge));
+            wedges.extend(
+                touching.map(|ends| ends.map(|end| if is_from_apex { [apex, end] } else { [end, apex] })),
+            );
+        }
+    }
+    wedges
+}
+
+/// Where the plane of a wedge meets a patch, if its rays get there.
+fn line(patch: &Patch, wedge: &Wedge) -> Option<[DVec3; 2]> {
     let normal = patch.polygon.normal();
     let origin = patch.polygon.loops().flatten().next().copied().unwrap_or_default();
     let height = |point: DVec3| (point - origin).dot(normal);
-    let touches =
-        |apex: DVec3, edge: [DVec3; 2]| emitter.is_on_one_side(apex, edge) && body.is_on_one_side(apex, edge);
-    let cast = |from: DVec3, past: DVec3| {
+    let cast = |[from, past]: [DVec3; 2]| {
         let (above, below) = (height(from), height(past).max(0.0));
         (above > 0.0 && below < above * (1.0 - NEAR))
             .then(|| from + (past - from) * (above / (above - below)))
     };
-    let past_edges = emitter.points.iter().flat_map(|&apex| body.edges.iter().map(move |&edge| (apex, edge)));
-    let past_edges = past_edges
-        .filter(|&(apex, edge)| touches(apex, edge))
-        .filter_map(|(apex, [a, b])| Some([cast(apex, a)?, cast(apex, b)?]));
-    let past_points =
-        body.points.iter().flat_map(|&apex| emitter.edges.iter().map(move |&edge| (apex, edge)));
-    let past_points = past_points
-        .filter(|&(apex, edge)| touches(apex, edge))
-        .filter_map(|(apex, [a, b])| Some([cast(a, apex)?, cast(b, apex)?]));
-    past_edges.chain(past_points).filter(|[a, b]| a != b).collect()
+    let (a, b) = (cast(wedge[0])?, cast(wedge[1])?);
+    (a != b).then_some([a, b])
 }

@@ -43,7 +43,7 @@ fn lit_share(scene: &Scene, patch: usize) -> f64 {
 }
 
 /// The patches that emit most power, all bands together.
-pub(super) fn strongest(scene: &Scene, count: usize) -> Vec<usize> {
+fn strongest(scene: &Scene, count: usize) -> Vec<usize> {
     let mut emitters: Vec<usize> =
         (0..scene.patches.len()).filter(|&patch| scene.patches[patch].emits()).collect();
     emitters.sort_by(|&a, &b| power(&scene.patches[b]).total_cmp(&power(&scene.patches[a])));
@@ -51,6 +51,7 @@ pub(super) fn strongest(scene: &Scene, count: usize) -> Vec<usize> {
     emitters
 }
 
-fn power(patch: &Patch) -> f64 {
+/// What a patch emits, all bands together.
+pub(super) fn power(patch: &Patch) -> f64 {
     patch.polygon.area() * patch.emission.iter().sum::<f64>()
 }

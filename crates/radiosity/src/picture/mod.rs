@@ -1,17 +1,20 @@
-//! Pictures: a mesh with its light, as a camera sees it, in PNG.
+//! Pictures: a mesh with its light, as a camera sees it, exposed in PNG, or linear in OpenEXR and Radiance HDR.
 //!
 //! ```text
 //! raster     triangles to samples
 //! painting   what is drawn
+//! linear     pixels without an upper limit to the bytes of a file
 //! png        pixels to the bytes of a file
 //! framing    a camera for scenes that have none
 //! ```
 pub(crate) mod framing;
+pub(crate) mod linear;
 pub(crate) mod painting;
 pub(crate) mod png;
 mod raster;
 
 pub use framing::framing;
+pub use linear::LinearFormat;
 
 use crate::expose::{Exposure, srgb};
 use crate::mesh::element::Mesh;
@@ -19,9 +22,12 @@ use crate::scene::camera::Camera;
 use painting::Painting;
 use raster::{Eye, SAMPLES, raster};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Rows drawn at a time by one thread.
 const BAND: usize = 8;
+/// How many pixels wide a picture is that exposures are chosen by.
+const GLANCE: u32 = 256;
 /// The longest side, in pixels.
 const MAX_SIDE: u32 = 16_384;
 
@@ -41,29 +47,54 @@ pub fn draw(mesh: &Mesh, radiosity: &[[f64; 3]], camera: &Camera, exposure: Expo
 
 /// Draws as [`draw`] does; pictures are multiplied with the light that falls on them.
 pub(crate) fn paint(painting: &Painting<'_>, camera: &Camera, exposure: Exposure, width: u32) -> Vec<u8> {
-    let (width, height) = size(camera, width);
-    let eye = Eye::new(camera, width, height);
-    let triangles = eye.triangles(painting);
-    let mut bytes = vec![0; 3 * width * height];
-    let bands = bytes.par_chunks_mut(3 * width * BAND).enumerate();
-    bands.for_each(|(band, bytes)| {
+    let size = size(camera, width);
+    png::rgb(&pixels(painting, camera, size, |samples| pixel_of(samples, exposure)), size)
+}
+
+/// The radiance of every pixel, W/m²/sr, in a file without an upper limit; drawn as by [`paint`].
+pub(crate) fn radiance(
+    painting: &Painting<'_>,
+    camera: &Camera,
+    format: LinearFormat,
+    width: u32,
+) -> Result<Vec<u8>, String> {
+    let size = size(camera, width);
+    linear::file(pixels(painting, camera, size, radiance_of), size, format)
+}
+
+/// The colours that a camera sees, evenly picked; nothing where it sees nothing.
+pub(crate) fn seen(painting: &Painting<'_>, camera: &Camera) -> Vec<[f64; 3]> {
+    let size = size(camera, GLANCE);
+    let middle = |samples: &[[f64; 3]]| samples[SAMPLES / 2];
+    pixels(painting, camera, size, middle).chunks_exact(3).map(|row| [row[0], row[1], row[2]]).collect()
+}
+
+/// Every pixel, row by row, out of its samples.
+fn pixels<T: Copy + Default + Send>(
+    painting: &Painting<'_>,
+    camera: &Camera,
+    [width, height]: [usize; 2],
+    pixel_of: impl Fn(&[[f64; 3]]) -> [T; 3] + Sync,
+) -> Vec<T> {
+    let triangles = Eye::new(camera, width, height).triangles(painting);
+    let mut parts = vec![T::default(); 3 * width * height];
+    parts.par_chunks_mut(3 * width * BAND).enumerate().for_each(|(band, parts)| {
         let top = band * BAND;
-        let rows = bytes.len() / (3 * width);
-        let samples = raster(&triangles, top..top + rows, width);
-        for (pixel, samples) in bytes.chunks_mut(3).zip(samples.chunks(SAMPLES)) {
-            pixel.copy_from_slice(&pixel_of(samples, exposure));
+        let samples = raster(&triangles, top..top + parts.len() / (3 * width), width);
+        for (pixel, samples) in parts.chunks_mut(3).zip(samples.chunks(SAMPLES)) {
+            pixel.copy_from_slice(&pixel_of(samples));
         }
     });
-    png::rgb(&bytes, [width, height])
+    parts
 }
 
 /// Width as asked, height by the aspect.
-fn size(camera: &Camera, width: u32) -> (usize, usize) {
+fn size(camera: &Camera, width: u32) -> [usize; 2] {
     let width = width.clamp(1, MAX_SIDE);
     let height = (f64::from(width) / camera.aspect).round().clamp(1.0, f64::from(MAX_SIDE));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and MAX_SIDE")]
     let height = height as usize;
-    (width as usize, height)
+    [width as usize, height]
 }
 
 /// The mean of the samples' intensities, encoded.
@@ -78,5 +109,16 @@ fn pixel_of(samples: &[[f64; 3]], exposure: Exposure) -> [u8; 3] {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 255")]
         let byte = (255.0 * srgb(band / samples)).round() as u8;
         byte
+    })
+}
+
+/// The mean of the samples' radiances, B / π.
+fn radiance_of(samples: &[[f64; 3]]) -> [f32; 3] {
+    let sum =
+        samples.iter().fold([0.0; 3], |sum: [f64; 3], sample| std::array::from_fn(|k| sum[k] + sample[k]));
+    sum.map(|part| {
+        #[allow(clippy::cast_possible_truncation, reason = "the file's precision")]
+        let part = (part / (PI * SAMPLES as f64)) as f32;
+        part
     })
 }

@@ -2,6 +2,7 @@
 use super::texture::Texture;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A planar surface that reflects diffusely and may emit, on its front side.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub struct Patch {
     pub emission: Vec<f64>,
     /// A picture on the patch: the reflectance of each point. `reflectance` is then its mean.
     pub texture: Option<Texture>,
+    /// The name of its material in the file; empty where it has none.
+    pub material: Arc<str>,
     /// The smoothing group: patches of one object with the same number are facets of one curved surface and share their light
     /// where they meet. `None` for a flat surface.
     pub smoothing: Option<usize>,
@@ -48,7 +51,19 @@ impl Patch {
         let name = name.into();
         let (texture, smoothing, only_blocks, is_back, origin) =
             (None, None, false, false, Origin::default());
-        Patch { name, polygon, reflectance, emission, texture, smoothing, only_blocks, is_back, origin }
+        let material = Arc::from("");
+        Patch {
+            name,
+            polygon,
+            reflectance,
+            emission,
+            texture,
+            material,
+            smoothing,
+            only_blocks,
+            is_back,
+            origin,
+        }
     }
 
     /// The reflectance per band of a triangle on the patch: the patch's own, or the mean of the texture over the triangle.
@@ -95,4 +110,9 @@ pub struct Origin {
     pub primitive: usize,
     /// Which polygon of that primitive.
     pub polygon: usize,
+}
+
+impl Origin {
+    /// Of a patch that is no geometry of its file, such as a lamp's.
+    pub(crate) const NOWHERE: Origin = Origin { instance: usize::MAX, primitive: 0, polygon: 0 };
 }

@@ -4,6 +4,7 @@
 //! light they reflect they reflect on their front, which faces the lamp.
 use super::shapes::{Quad, Z_UP, camera, face, grid, lamp, level, quad, solid, square, surface, turned};
 use crate::io::collada::model::{Face, Model};
+use crate::scene::camera::Camera;
 use glam::DVec3;
 
 const BASE: usize = 0;
@@ -13,14 +14,18 @@ const OCCLUDER: usize = 2;
 /// A lamp of one polygon and one of a hundred of the same total area give the same light.
 pub(super) fn emission() -> Model {
     let lamps = lamps();
-    model("Barreto 2008, figure 4.2: the light does not depend on how a lamp is cut", lamps, 0.5)
+    // From below the lamps, of which the shining sides are seen.
+    let eye = camera([0.0, -14.0, 3.6], [0.0, 0.0, 1.2], 42.0);
+    model("Barreto 2008, figure 4.2: the light does not depend on how a lamp is cut", lamps, 0.5, eye)
 }
 
 /// The same lamps, each with a black square under it: two equal shadows.
 pub(super) fn obstruction() -> Model {
+    // From so high that the squares are seen before the base.
+    let eye = camera([0.0, -12.0, 9.0], [0.0, -0.3, 0.6], 42.0);
     let black = |(name, x)| quad(name, OCCLUDER, square([x, 0.0], 0.6, 2.0));
     let faces = lamps().into_iter().chain([("black-left", -2.5), ("black-right", 2.5)].map(black));
-    model("Barreto 2008, figure 4.3: two equal shadows", faces.collect(), 0.0)
+    model("Barreto 2008, figure 4.3: two equal shadows", faces.collect(), 0.0, eye)
 }
 
 fn lamps() -> Vec<Face> {
@@ -40,7 +45,9 @@ pub(super) fn beams() -> Model {
         let along_y = |place: DVec3| DVec3::new(-place.y, place.x, place.z);
         faces.extend(beam(&format!("upper-{}", number + 1), -across, [3.0, 4.5], along_y));
     }
-    model("Barreto 2008, figure 4.4: shadows whose hardness varies along a beam", faces, 0.5)
+    // From the side, so that both layers and their shadows are seen.
+    let eye = camera([-6.5, -13.0, 9.5], [0.0, 0.0, 1.3], 45.0);
+    model("Barreto 2008, figure 4.4: shadows whose hardness varies along a beam", faces, 0.5, eye)
 }
 
 /// A beam of 9 by 0.3 by 0.3 along x; its underside rises from the first to the second height.
@@ -60,7 +67,8 @@ pub(super) fn small_occluders() -> Model {
         square([places[i as usize], places[j as usize]], 1.0, z).map(DVec3::from).to_vec()
     });
     let faces = vec![ceiling_lamp(), face("square", OCCLUDER, outlines)];
-    model("Barreto 2008, figure 4.5: penumbrae of small occluders", faces, 0.5)
+    let eye = camera([0.0, -13.0, 7.0], [0.0, -0.3, 0.6], 42.0);
+    model("Barreto 2008, figure 4.5: penumbrae of small occluders", faces, 0.5, eye)
 }
 
 /// A panel with nine holes, as one polygon.
@@ -70,7 +78,13 @@ pub(super) fn perforated() -> Model {
     let loops = std::iter::once(outline).chain(holes).map(|corners| corners.map(DVec3::from).to_vec());
     let panel =
         Face { name: "panel".into(), material: OCCLUDER, polygons: vec![loops.collect()], texture: None };
-    model("Barreto 2008, figure 4.6: lit spots under the holes of a panel", vec![ceiling_lamp(), panel], 0.5)
+    let faces = vec![ceiling_lamp(), panel];
+    model("Barreto 2008, figure 4.6: lit spots under the holes of a panel", faces, 0.5, under_panel())
+}
+
+/// From so low that two rows of spots are seen below the panel's edge.
+fn under_panel() -> Camera {
+    camera([0.0, -14.0, 5.4], [0.0, -0.6, 0.3], 42.0)
 }
 
 /// The same panel cut into rectangles: one between each two rows of holes, and those between the holes of a row.
@@ -101,7 +115,7 @@ pub(super) fn perforated_cut() -> Model {
     let pieces: Vec<Quad> = bars.chain(sides).chain(between).collect();
     let outlines = pieces.into_iter().map(|corners| corners.map(DVec3::from).to_vec());
     let faces = vec![ceiling_lamp(), face("panel", OCCLUDER, outlines)];
-    model("Barreto 2008, figure 4.6, with the panel cut into 12 rectangles", faces, 0.5)
+    model("Barreto 2008, figure 4.6, with the panel cut into 12 rectangles", faces, 0.5, under_panel())
 }
 
 const PANEL: f64 = 7.07;
@@ -114,8 +128,8 @@ fn ceiling_lamp() -> Face {
     quad("lamp", LAMP, turned(square([0.0, 0.0], 10.0, 10.0)))
 }
 
-/// The base, the faces above it, and a camera that looks down from the south.
-fn model(title: &str, faces: Vec<Face>, occluders: f64) -> Model {
+/// The base, and the faces above it.
+fn model(title: &str, faces: Vec<Face>, occluders: f64, camera: Camera) -> Model {
     let base = quad("base", BASE, square([0.0, 0.0], 10.0, 0.0));
     Model {
         title: title.into(),
@@ -123,6 +137,6 @@ fn model(title: &str, faces: Vec<Face>, occluders: f64) -> Model {
         wavelengths: Vec::new(),
         materials: vec![surface("base", [0.7; 3]), lamp(0.5, 10.0), surface("occluder", [occluders; 3])],
         faces: std::iter::once(base).chain(faces).collect(),
-        cameras: vec![camera([0.0, -13.0, 9.0], [0.0, -0.5, 0.5], 45.0)],
+        cameras: vec![camera],
     }
 }

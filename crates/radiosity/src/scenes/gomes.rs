@@ -24,7 +24,7 @@ pub(super) fn wall() -> Model {
             quad("wall", WHITE, upright),
             quad("lamp", LAMP, shine),
         ],
-        cameras: vec![camera([3.0, -7.0, 4.5], [0.0, 0.5, 1.2], 45.0)],
+        cameras: vec![camera([3.0, -7.0, 4.5], [-0.3, 0.3, 1.6], 45.0)],
     }
 }
 
@@ -48,7 +48,8 @@ pub(super) fn chessboard() -> Model {
             quad("wall-north", 2, turned(front)),
             face("lamp", LAMP, sphere(DVec3::new(1.0, -1.0, 2.5), 0.25)),
         ],
-        cameras: vec![camera([2.5, -6.0, 4.0], [0.0, 0.0, 0.7], 45.0)],
+        // From the west: the wall's shadow lies to the left of it, what is lit to the right.
+        cameras: vec![camera([-5.6, -1.6, 4.0], [0.3, 0.2, 0.6], 45.0)],
     }
 }
 

@@ -46,7 +46,7 @@ pub(super) fn separating_wall() -> Model {
     faces.push(quad("wall-west", 0, toward_west));
     faces.push(quad("wall-east", 0, turned(toward_west)));
     faces.push(quad("lamp", 1, turned(square([1.0, 1.0], 0.5, 1.5))));
-    let eye = camera([2.0, -7.0, 1.4], [2.0, 1.0, 0.9], 35.0);
+    let eye = camera([2.6, -6.0, 1.6], [2.0, 1.0, 0.95], 38.0);
     model(
         "Two rooms, a thin wall between them, light in one",
         vec![surface("white", [0.8; 3]), lamp(0.5, 10.0)],
@@ -74,7 +74,7 @@ pub(super) fn sphere_lamp() -> Model {
         quad("floor", 0, square([0.0, 0.0], 4.0, 0.0)),
         face("lamp", 1, sphere(DVec3::new(0.0, 0.0, 1.5), 0.25)),
     ];
-    let eye = camera([0.0, -6.0, 4.0], [0.0, 0.0, 0.5], 45.0);
+    let eye = camera([0.0, -5.0, 4.4], [0.0, 0.0, 0.5], 45.0);
     model("A round lamp over a plane", vec![surface("white", [0.8; 3]), lamp(0.8, 10.0)], faces, eye)
 }
 

@@ -19,7 +19,7 @@ impl Run<'_> {
     }
 
     fn solve(&mut self, scene: &Scene) -> Result<bool, Error> {
-        let choice = if self.sample(scene)? { self.choose(scene)? } else { None };
+        let choice = if self.sample(scene)? && self.shine()? { self.choose(scene)? } else { None };
         match choice {
             None => Ok(false),
             Some(Method::Shoot) => shoot(self),
@@ -70,9 +70,10 @@ impl Run<'_> {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
-        if converged && last && self.options.gather {
-            let direct = gather(scene, &mut self);
-            gathered = self.survive(direct)?;
+        if converged && last {
+            let with_emitters = self.options.gather;
+            let direct = gather(scene, &mut self, with_emitters);
+            gathered = self.survive(direct)?.flatten();
         }
         Ok(self.into_solution(converged, closure, gathered))
     }

@@ -1,11 +1,11 @@
 //! Exact form factors from the elements to the pieces.
 use super::state::{Column, State};
-use super::{fingerprint, hemicube::Hemicubes, occluders::Occluders, workers};
+use super::{fingerprint, hemicube::Hemicubes, lights::Lights, occluders::Occluders, workers};
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
 #[derive(Debug)]
@@ -13,6 +13,7 @@ pub(super) struct Factors<'s> {
     scene: &'s Scene,
     pub(super) subdivision: &'s Subdivision,
     enclosure: Enclosure,
+    lights: Lights<'s>,
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
     receivers: Vec<DifferentialArea>,
@@ -42,6 +43,7 @@ impl<'s> Factors<'s> {
             receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
             scene,
             subdivision,
+            lights: Lights::new(scene, &polygons),
             enclosure: Enclosure::new(polygons),
             surface_of,
             hemicubes: None,
@@ -78,6 +80,32 @@ impl<'s> Factors<'s> {
         let column = Arc::new(Column::new(&self.find(node)?));
         self.state.keep(self.fingerprint, node, &column);
         Ok(column)
+    }
+
+    /// What lights without surfaces bring to the centroids of some elements, in all and from beyond the scene: elements × bands.
+    pub(super) fn direct(&self, elements: Range<usize>) -> Result<[Vec<f64>; 2], Error> {
+        self.straight(&self.receivers[elements])
+    }
+
+    /// What lights without surfaces bring to any points, in all and from beyond the scene: points × bands.
+    pub(super) fn straight(&self, points: &[DifferentialArea]) -> Result<[Vec<f64>; 2], Error> {
+        let mut all = [(); 2].map(|()| Vec::with_capacity(points.len() * self.scene.bands));
+        let find = |point: &DifferentialArea| self.lights.irradiance(&self.enclosure, point);
+        for [lamps, beyond] in workers::from_all(points, "what a light shines on", find)? {
+            all[0].extend(lamps.iter().zip(&beyond).map(|(lamps, beyond)| lamps + beyond));
+            all[1].extend(beyond);
+        }
+        Ok(all)
+    }
+
+    /// Whether there are lights without surfaces.
+    pub(super) fn are_lit(&self) -> bool {
+        !self.lights.is_empty()
+    }
+
+    /// The power of the lamps per band.
+    pub(super) fn lamp_power(&self) -> &[f64] {
+        self.lights.power()
     }
 
     /// A point of a patch, as the enclosure knows it.

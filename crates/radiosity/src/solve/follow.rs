@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;
 
-/// Follows the light from the emitters. What no light reaches is left out, and no factor to it is found; what only
+/// Follows the light from the emitters, and from where lights shine. What no light reaches is left out, and no factor to it is found; what only
 /// receives is lit but sends the light no further. Nothing when the watcher wants to stop.
 pub(super) fn follow(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Rooms>, Error> {
     let patches = scene.patches.len();
@@ -12,6 +12,8 @@ pub(super) fn follow(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Rooms>, 
     let patch_of: Vec<usize> = elements.iter().map(|element| element.patch).collect();
     let sends = senders(scene, &run.light, &patch_of);
     let mut lit: Vec<bool> = scene.patches.iter().map(Patch::emits).collect();
+    let direct = run.light.direct.chunks_exact(run.light.bands).zip(&patch_of);
+    direct.filter(|(light, _)| light.iter().any(|h| *h > 0.0)).for_each(|(_, &patch)| lit[patch] = true);
     let mut open: Vec<usize> = (0..patches).filter(|&patch| lit[patch]).collect();
     let mut sums = vec![0.0; patch_of.len()];
     let mut groups = UnionFind::new(patches);

@@ -1,11 +1,12 @@
 //! From one value per element to one value per vertex.
 //!
 //! Around a vertex lie the elements that share it, all of one patch and of one side of whatever stands there. Facets of
-//! one curved surface, patches of one object and one smoothing group, share their light where they meet; nothing else
-//! does, so that light neither leaks nor bleeds over edges.
+//! one curved surface, patches of one object and one smoothing group, share their light where they meet, and what that changes
+//! fades out over each facet; nothing else does, so that light neither leaks nor bleeds over edges.
 use super::solution::Solution;
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
+use crate::union_find::UnionFind;
 use std::collections::BTreeMap;
 
 impl Solution {
@@ -55,16 +56,33 @@ pub(crate) fn welds(scene: &Scene, mesh: &Mesh) -> Vec<usize> {
         places.entry((patch.origin.instance, smoothing, place)).or_default().push(vertex);
     }
     let mut welds: Vec<usize> = (0..mesh.vertices.len()).collect();
+    let normal = |vertex: usize| patch_of[vertex].map(|patch| scene.patches[patch].polygon.normal());
+    let is_smooth = |one: usize, other: usize| {
+        normal(one).zip(normal(other)).is_some_and(|(one, other)| one.dot(other) >= SMOOTH)
+    };
     for vertices in places.values() {
         let mut patches: Vec<_> = vertices.iter().map(|&vertex| patch_of[vertex]).collect();
         patches.sort_unstable();
         patches.dedup();
         if patches.len() == vertices.len() {
-            vertices.iter().for_each(|&vertex| welds[vertex] = vertices[0]);
+            let mut facets = UnionFind::new(vertices.len());
+            for (one, other) in (0..vertices.len()).flat_map(|one| (0..one).map(move |other| (one, other))) {
+                if is_smooth(vertices[one], vertices[other]) {
+                    facets.join(one, other);
+                }
+            }
+            for (facet, &vertex) in vertices.iter().enumerate() {
+                welds[vertex] = vertices[facets.first(facet)];
+            }
         }
     }
     welds
 }
+
+/// How often what facets share is spread to the vertices inside of them.
+const SPREAD: usize = 64;
+/// Facets share their light where their normals have at least this dot product: beyond 60 degrees an edge is an edge.
+const SMOOTH: f64 = 0.5;
 
 /// Area-weighted means around vertices.
 struct Means<'m> {
@@ -108,11 +126,42 @@ impl<'m> Means<'m> {
                 sums[first * self.bands + band] += self.weights[vertex] * values[vertex * self.bands + band];
             }
         }
-        let shared = |(at, value): (usize, f64)| {
-            let first = welds[at / self.bands];
-            let alone = weights[first] == self.weights[at / self.bands];
-            if alone { value } else { sums[first * self.bands + at % self.bands] / weights[first] }
+        let is_shared = |vertex: usize| weights[welds[vertex]] != self.weights[vertex];
+        if !(0..welds.len()).any(is_shared) {
+            return values;
+        }
+        let mean = |at: usize| {
+            sums[welds[at / self.bands] * self.bands + at % self.bands] / weights[welds[at / self.bands]]
         };
-        values.into_iter().enumerate().map(shared).collect()
+        let change =
+            |(at, value): (usize, &f64)| if is_shared(at / self.bands) { mean(at) - value } else { 0.0 };
+        let changes = self.spread(values.iter().enumerate().map(change).collect(), is_shared);
+        let changed = |(at, value): (usize, f64)| {
+            if is_shared(at / self.bands) { mean(at) } else { (value + changes[at]).max(0.0) }
+        };
+        values.into_iter().enumerate().map(changed).collect()
+    }
+
+    /// Changes that are known at some vertices, at all of them: elsewhere each is the mean of its neighbours' on its patch. 0 on patches
+    /// without any that is known.
+    fn spread(&self, mut changes: Vec<f64>, is_known: impl Fn(usize) -> bool) -> Vec<f64> {
+        let mut around = BTreeMap::<usize, Vec<usize>>::new();
+        for element in &self.mesh.elements {
+            let [a, b, c] = element.corners;
+            for (vertex, others) in [(a, [b, c]), (b, [c, a]), (c, [a, b])] {
+                if !is_known(vertex) {
+                    around.entry(vertex).or_default().extend(others);
+                }
+            }
+        }
+        for _ in 0..SPREAD {
+            for (&vertex, others) in &around {
+                for band in 0..self.bands {
+                    let sum: f64 = others.iter().map(|other| changes[other * self.bands + band]).sum();
+                    changes[vertex * self.bands + band] = sum / others.len() as f64;
+                }
+            }
+        }
+        changes
     }
 }

@@ -5,11 +5,11 @@ use super::{light::Light, shooters::Shooters};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Ledger {
-    /// Emitted power, ΣAE.
+    /// Emitted power: ΣAE, the power of the lamps, and what the scene receives straight from the sun and the sky.
     pub emitted: Vec<f64>,
     /// Absorbed power, ΣA(1 − ρ)H.
     pub absorbed: Vec<f64>,
-    /// Shot power that no element received: with the reciprocal form factors A_i F_ij / A_j, Σ(A_j − ΣA_i F_ij)ΔB_j.
+    /// Shot power that no element received: with the reciprocal form factors A_i F_ij / A_j, Σ(A_j − ΣA_i F_ij)ΔB_j; and that of lamps.
     pub escaped: Vec<f64>,
     /// Power still to be shot, ΣAΔB.
     pub unshot: Vec<f64>,
@@ -23,10 +23,14 @@ impl Ledger {
         let kept: Vec<_> =
             light.irradiance.iter().zip(&light.reflectance).map(|(h, rho)| h * (1.0 - rho)).collect();
         let received = light.total(&light.irradiance);
+        let own = light.total(&light.emittance);
+        // What the lights have given: all but what patches emit.
+        let lights: Vec<f64> = light.emitted.iter().zip(own).map(|(emitted, own)| emitted - own).collect();
+        let sent = shooters.sent.iter().zip(lights).map(|(sent, lights)| sent + lights);
         let mut ledger = Ledger {
             emitted: light.emitted.clone(),
             absorbed: light.total(&kept),
-            escaped: shooters.sent.iter().zip(&received).map(|(sent, received)| sent - received).collect(),
+            escaped: sent.zip(&received).map(|(sent, received)| sent - received).collect(),
             unshot: shooters.unshot(),
             defect: Vec::new(),
         };

@@ -14,12 +14,23 @@ pub(super) struct Light {
     pub(super) reflectance: Vec<f64>,
     /// Emitted radiosity E = πL.
     pub(super) emittance: Vec<f64>,
+    /// The irradiance straight from lights without surfaces: it does not change.
+    pub(super) direct: Vec<f64>,
     /// Emitted power per band.
     pub(super) emitted: Vec<f64>,
 }
 
+/// What lights without surfaces bring to the elements, as far as it is known.
+#[derive(Clone, Debug, Default)]
+pub(super) struct DirectLight {
+    /// Irradiance, elements × bands.
+    pub(super) irradiance: Vec<f64>,
+    /// What comes from beyond the scene: the part of it that counts as emitted.
+    pub(super) beyond: Vec<f64>,
+}
+
 impl Light {
-    /// Only what the patches emit: B = E.
+    /// Only what the patches emit.
     pub(super) fn new(scene: &Scene, mesh: &Mesh) -> Light {
         let patch = |element: &Element| &scene.patches[element.patch];
         let emission = mesh.elements.iter().flat_map(|element| &patch(element).emission);
@@ -27,15 +38,29 @@ impl Light {
         let reflectance = |(index, element)| patch(element).reflectance_over(mesh.triangle(index));
         let mut light = Light {
             bands: scene.bands,
-            radiosity: emittance.clone(),
-            irradiance: vec![0.0; emittance.len()],
+            radiosity: Vec::new(),
+            irradiance: Vec::new(),
             areas: (0..mesh.elements.len()).map(|element| mesh.area(element)).collect(),
             reflectance: mesh.elements.iter().enumerate().flat_map(reflectance).collect(),
             emittance,
+            direct: Vec::new(),
             emitted: Vec::new(),
         };
-        light.emitted = light.total(&light.emittance);
+        light.shine(DirectLight::default(), &vec![0.0; scene.bands]);
         light
+    }
+
+    /// What the patches emit, and reflect of what lights bring, B = E + ρH: where that is not known they bring nothing. `power` is that of the
+    /// lamps per band.
+    pub(super) fn shine(&mut self, mut direct: DirectLight, power: &[f64]) {
+        let count = self.emittance.len();
+        direct.irradiance.resize(count, 0.0);
+        direct.beyond.resize(count, 0.0);
+        let (own, beyond) = (self.total(&self.emittance), self.total(&direct.beyond));
+        let emitted = own.iter().zip(beyond).zip(power);
+        self.emitted = emitted.map(|((own, beyond), lamps)| own + beyond + lamps).collect();
+        self.direct = direct.irradiance;
+        self.receive_all(vec![0.0; count]);
     }
 
     /// The bands in which something emits: no other needs to be solved.
@@ -60,11 +85,27 @@ impl Light {
         }
     }
 
-    /// Takes an irradiance of every element and band; B = E + ρH.
-    pub(super) fn receive_all(&mut self, irradiance: Vec<f64>) {
+    /// Takes the irradiance of every element and band from other elements; B = E + ρH.
+    pub(super) fn receive_all(&mut self, mut irradiance: Vec<f64>) {
+        irradiance.iter_mut().zip(&self.direct).for_each(|(h, direct)| *h += direct);
         let reflected = irradiance.iter().zip(&self.reflectance).map(|(h, rho)| h * rho);
         self.radiosity = reflected.zip(&self.emittance).map(|(reflected, e)| e + reflected).collect();
         self.irradiance = irradiance;
+    }
+
+    /// What an element sends before anything is exchanged, E + ρH for the H of lights: elements × bands.
+    pub(super) fn given(&self) -> Vec<f64> {
+        let reflected = self.reflectance.iter().zip(&self.direct).map(|(rho, h)| rho * h);
+        self.emittance.iter().zip(reflected).map(|(e, reflected)| e + reflected).collect()
+    }
+
+    /// Of the power that is emitted, what lights bring to the elements and these absorb, and what misses them: per band.
+    pub(super) fn spent_directly(&self) -> [Vec<f64>; 2] {
+        let kept: Vec<f64> =
+            self.direct.iter().zip(&self.reflectance).map(|(h, rho)| h * (1.0 - rho)).collect();
+        let (own, received) = (self.total(&self.emittance), self.total(&self.direct));
+        let missed = self.emitted.iter().zip(own).zip(received);
+        [self.total(&kept), missed.map(|((emitted, own), received)| emitted - own - received).collect()]
     }
 
     /// Σ A·value over some elements, for each band.

@@ -6,6 +6,7 @@
 //! levels       light between parts of patches of any size; the mesh follows
 //! direct       light straight from the emitters, exact at every vertex
 //! receivers    where the light of vertices is gathered
+//! lights       lamps, the sun and the sky: what points and polygons receive of them
 //! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! shoot        progressive refinement: the piece with most to shoot shoots, again and again
 //! follow       the light followed through the rooms
@@ -44,6 +45,7 @@ mod interpolate;
 pub(crate) mod ledger;
 mod levels;
 mod light;
+mod lights;
 mod magnitude;
 pub(crate) mod norm;
 pub(crate) mod occluders;
@@ -63,7 +65,7 @@ pub(crate) mod state;
 mod workers;
 
 use crate::error::Error;
-use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::shadows, subdivide::Subdivision};
+use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::Shadows, subdivide::Subdivision};
 use crate::scene::Scene;
 use options::{Method, Options};
 use progress::Progress;
@@ -111,7 +113,8 @@ pub fn solve_from(
     // Each pass has twice the elements of the one before.
     let mut plan = Plan::even(scene, options.elements >> options.passes.min(LEVELS.into()));
     if options.shadows > 0 {
-        plan.shadows = shadows(scene, options.shadows);
+        let shadows = Shadows::new(scene, options.shadows);
+        plan.shadows = (0..scene.patches.len()).map(|patch| shadows.on(patch)).collect();
     }
     let mut passes_left = options.passes;
     loop {

@@ -1,7 +1,10 @@
 //! A run of the solver: all that its steps share.
 use super::ledger::{Ledger, bound, gaps};
 use super::solution::{Gathered, Solution};
-use super::{factors::Factors, interpolate::welds, light::Light, magnitude::largest, options::Options};
+use super::{
+    factors::Factors, interpolate::welds, light::DirectLight, light::Light, magnitude::largest,
+    options::Options,
+};
 use super::{
     progress::{LinkedTiles, Moment, Progress},
     rooms::Rooms,
@@ -11,7 +14,11 @@ use super::{
 use crate::error::Error;
 use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
+use formfactor::DifferentialArea;
 use std::{ops::ControlFlow, time::Instant};
+
+/// At so many points light is found before the watcher is asked whether to go on.
+const BATCH: usize = 256;
 
 /// Whoever follows a run.
 pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
@@ -53,8 +60,8 @@ impl<'r> Run<'r> {
         state: &'r mut State,
         watch: Watch<'r>,
     ) -> Result<Run<'r>, Error> {
-        let light = Light::new(scene, &subdivision.mesh);
         let factors = Factors::new(scene, subdivision, state)?;
+        let light = Light::new(scene, &subdivision.mesh);
         Ok(Run {
             options,
             start,
@@ -72,6 +79,43 @@ impl<'r> Run<'r> {
             scaling: None,
             watch,
         })
+    }
+
+    /// Finds what lights without surfaces bring to the elements; false when the watcher wants to stop.
+    pub(super) fn shine(&mut self) -> Result<bool, Error> {
+        if !self.factors.are_lit() {
+            return Ok(true);
+        }
+        let (count, mut direct) = (self.light.areas.len(), DirectLight::default());
+        let mut goes_on = true;
+        for first in (0..count).step_by(BATCH) {
+            goes_on = self.report().is_continue();
+            if !goes_on {
+                break;
+            }
+            let [irradiance, beyond] = self.factors.direct(first..count.min(first + BATCH))?;
+            direct.irradiance.extend(irradiance);
+            direct.beyond.extend(beyond);
+        }
+        self.light.shine(direct, self.factors.lamp_power());
+        self.shooters = Shooters::new(self.shooters.front(), self.factors.subdivision, &self.light);
+        self.gaps = gaps(&self.light, None);
+        (self.bound, self.unshot) = (live(&self.light, f64::INFINITY), live(&self.light, 1.0));
+        self.ledger = Ledger::dark(&self.light);
+        Ok(goes_on)
+    }
+
+    /// What lights without surfaces bring to any points, points × bands; nothing when the watcher wants to stop.
+    pub(super) fn straight(&mut self, points: &[DifferentialArea]) -> Result<Option<Vec<f64>>, Error> {
+        let mut all = Vec::with_capacity(points.len() * self.light.bands);
+        for points in points.chunks(BATCH) {
+            if self.report().is_break() {
+                return Ok(None);
+            }
+            let [irradiance, _] = self.factors.straight(points)?;
+            all.extend(irradiance);
+        }
+        Ok(Some(all))
     }
 
     /// Refuses a state of another scene or mesh.

@@ -32,7 +32,7 @@ pub struct Solution {
     pub shots: usize,
     /// How many matrix-vector products were made.
     pub products: usize,
-    /// Whether the tolerance was reached.
+    /// Whether the tolerance was reached; by levels also whether the estimate is within [`Options::error`](crate::Options::error).
     pub converged: bool,
     /// The [`Error::Defect`] that ended the run early, if one did; the light is as far as the run had come.
     pub fault: Option<Error>,

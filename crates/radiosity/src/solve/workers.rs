@@ -1,19 +1,19 @@
-//! Form factors from many points at once, by all threads.
+//! Form factors, and light, of many points at once, by all threads.
 use crate::error::Error;
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// A factor for each point: each by itself, so threads change nothing.
+/// A factor, or the light, of each point: each by itself, so threads change nothing.
 ///
 /// # Errors
 /// [`Error::Defect`] when one of them panics: what a run has found until then must not be lost for it.
-pub(super) fn from_all(
+pub(super) fn from_all<T: Send>(
     points: &[DifferentialArea],
     patch: &str,
-    factor: impl Fn(&DifferentialArea) -> f64 + Sync,
-) -> Result<Vec<f64>, Error> {
+    factor: impl Fn(&DifferentialArea) -> T + Sync,
+) -> Result<Vec<T>, Error> {
     let all = || points.par_iter().with_min_len(8).map(&factor).collect();
     attempt(patch, all)
 }

@@ -1,8 +1,9 @@
 //! Pictures of scenes whose pixels are known.
 use radiosity::expose::{Exposure, srgb};
+use radiosity::formfactor::PlanarPolygon;
 use radiosity::glam::DVec3;
-use radiosity::picture::draw;
-use radiosity::{Camera, Element, Mesh};
+use radiosity::picture::{LinearFormat, draw};
+use radiosity::{Camera, Element, Mesh, Patch, Quality, Record, Scene};
 
 /// Looks from the origin along −z, 90 degrees high.
 fn camera(aspect: f64) -> Camera {
@@ -74,7 +75,11 @@ fn a_wall_of_one_radiosity_is_of_one_colour_without_cracks() {
     let mesh = quads(&all);
     let pixels = drawn(&mesh, &vec![[0.5, 1.0, 2.0]; mesh.vertices.len()], 2.0, 128);
     assert_eq!((pixels.width, pixels.height), (128, 64));
-    let expected = [0.5, 1.0, 2.0].map(|radiosity| format!("{:.0}", byte(radiosity)).parse::<u8>().unwrap());
+    // The largest part decides how bright it is; the others keep their shares of it.
+    let expected = [0.25, 0.5, 1.0].map(|share| {
+        let intensity = share * (1.0 - (-2.0_f64).exp());
+        format!("{:.0}", 255.0 * srgb(intensity)).parse::<u8>().unwrap()
+    });
     assert!((0..64).all(|y| (0..128).all(|x| pixels.at(x, y) == expected)));
 }
 
@@ -162,4 +167,46 @@ fn extreme_sizes_are_kept_in_range() {
     let mesh = quads(&[square(1.0, 2.0)]);
     assert_eq!(drawn(&mesh, &[[1.0; 3]; 4], 1e-9, 1).height, 16_384);
     assert_eq!(drawn(&mesh, &[[1.0; 3]; 4], 1e9, 0).height, 1);
+}
+
+/// In a furnace the radiosity is 1 everywhere, so that the radiance of every pixel is 1 / π.
+#[test]
+fn linear_pictures_hold_radiance() {
+    let scene = radiosity::scenes::scene("furnace").unwrap();
+    let solution =
+        radiosity::solve(&scene, &Quality::Draft.options(), |_| std::ops::ControlFlow::Continue(())).unwrap();
+    let record = Record::new("furnace", &scene, &solution);
+    let camera = record.camera(None).unwrap();
+    for (format, kind, off) in [
+        (LinearFormat::Exr, image::ImageFormat::OpenExr, 1e-2),
+        (LinearFormat::Hdr, image::ImageFormat::Hdr, 2e-2),
+    ] {
+        let bytes = record.draw_linear(&camera, format, 40).unwrap();
+        let pixels = image::load_from_memory_with_format(&bytes, kind).unwrap().into_rgb32f();
+        assert_eq!(pixels.dimensions(), (40, 30));
+        let wanted = std::f64::consts::FRAC_1_PI;
+        assert!(pixels.iter().all(|part| (f64::from(*part) / wanted - 1.0).abs() < off), "{format:?}");
+    }
+}
+
+/// A dark room, of which the camera sees none, does not make what it sees white.
+#[test]
+fn what_a_camera_does_not_see_does_not_change_its_exposure() {
+    let mut scene = Scene { bands: 1, ..Scene::default() };
+    let square = |name: &str, z: f64, emission: f64| {
+        let corners = [[-1.0, -1.0, z], [1.0, -1.0, z], [1.0, 1.0, z], [-1.0, 1.0, z]];
+        Patch::new(name, PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![emission])
+    };
+    let lamp = [[-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [-1.0, -1.0, 1.0]];
+    let lamp = Patch::new("lamp", PlanarPolygon::new([lamp]).unwrap(), vec![0.0], vec![10.0]);
+    scene.patches = vec![square("seen", -1.0, 0.0), lamp];
+    let exposure = |scene: &Scene| {
+        let options = Quality::Draft.options();
+        let solution = radiosity::solve(scene, &options, |_| std::ops::ControlFlow::Continue(())).unwrap();
+        Record::new("squares", scene, &solution).exposure_for(&camera(1.0)).k()
+    };
+    let alone = exposure(&scene);
+    scene.patches.extend((0..20).map(|at| square(&format!("hidden-{at}"), -10.0 - f64::from(at), 1e-17)));
+    let beside = exposure(&scene);
+    assert!((beside / alone - 1.0).abs() < 0.02, "{alone} {beside}");
 }

@@ -96,6 +96,7 @@ pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
         cameras: scene.cameras.clone(),
         bands: 3,
         wavelengths: Vec::new(),
+        lumens: vec![1.0; 3],
         bound: vec![0.0; 3],
         patches: scene
             .patches

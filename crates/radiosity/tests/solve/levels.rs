@@ -212,3 +212,29 @@ fn shadows_are_where_points_see_them() {
     assert!(mean < 5e-3 * brightest, "{mean} of {brightest}");
     assert!(off[off.len() * 99 / 100] < 0.03 * brightest, "{} of {brightest}", off[off.len() * 99 / 100]);
 }
+
+/// Where a patch has a vertex on an edge that it shares with another, the other has it, too: no side of an element, on the rim of its patch, has
+/// a vertex in its middle.
+#[test]
+fn neighbours_share_the_vertices_on_their_edges() {
+    let scene = radiosity::scenes::scene("colour-bleeding").expect("a built-in scene");
+    let solution = solved(&scene, &radiosity::Quality::Draft.options());
+    let mesh = &solution.mesh;
+    let mut rim = std::collections::BTreeSet::new();
+    for element in &mesh.elements {
+        let [a, b, c] = element.corners;
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if !rim.remove(&[to, from]) {
+                rim.insert([from, to]);
+            }
+        }
+    }
+    assert!(rim.len() > 100, "{}", rim.len());
+    for [from, to] in rim.iter().map(|ends| ends.map(|end| mesh.vertices[end])) {
+        let is_inside = |place: &&radiosity::glam::DVec3| {
+            let (whole, parts) = (from.distance(to), from.distance(**place) + place.distance(to));
+            parts - whole < 1e-9 * whole && from.distance(**place).min(place.distance(to)) > 1e-6 * whole
+        };
+        assert_eq!(mesh.vertices.iter().find(is_inside), None, "between {from} and {to}");
+    }
+}

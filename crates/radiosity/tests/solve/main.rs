@@ -4,6 +4,7 @@ mod build;
 mod extreme;
 mod interpolation;
 mod levels;
+mod lights;
 mod recording;
 mod resume;
 mod sources;

@@ -5,9 +5,11 @@
 //! solve_outputs  every output of a solution
 //! progress       the bar on a terminal
 //! steps          bound and ledger of every step, as CSV
+//! lights         lights that the command line adds to a scene
 //! options        what may be asked, and what the solver is asked
 //! ```
 mod interrupt;
+mod lights;
 pub(crate) mod options;
 mod progress;
 mod solve_outputs;
@@ -17,6 +19,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{Output, is_stream, print};
 use interrupt::{Follower, resume};
+use lights::{light, warn_of_darkness};
 use options::{Solve, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
@@ -37,9 +40,9 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     }
     let options = options(arguments)?;
     let outputs = Output::all(&arguments.output, &arguments.format)?;
-    let input = input::read_repaired(&arguments.scene, arguments.reading)?;
+    let lit = |scene: &mut Scene| light(scene, &arguments.lights);
+    let input = input::read_repaired(&arguments.scene, arguments.reading, lit)?;
     let scene = &input.scene;
-    warn_of_darkness(scene);
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
@@ -53,6 +56,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
         print(&figures)?;
     }
     report(scene, &solution);
+    warn_of_darkness(&solution.ledger.emitted);
     Ok(follower.code(&solution))
 }
 
@@ -83,13 +87,4 @@ fn worst_estimate<'s>(scene: &'s Scene, solution: &Solution) -> Option<(f64, &'s
         shares.map(|(estimate, of)| (estimate / of, patch.name.as_str())).collect::<Vec<_>>()
     });
     shares.reduce(|a, b| if b.0 > a.0 { b } else { a })
-}
-
-/// A scene without light is solved: it is dark. Most likely it was not meant.
-fn warn_of_darkness(scene: &Scene) {
-    if scene.patches.iter().all(|patch| patch.emission.iter().all(|&radiance| radiance == 0.0)) {
-        eprintln!(
-            "warning: no patch emits light, so the scene is dark; give a material an <emission> above 0"
-        );
-    }
 }

@@ -1,4 +1,5 @@
 //! The options of `radiosity solve`, and those of the solver that they lead to.
+use super::lights::LightOptions;
 use crate::failure::Failure;
 use crate::input::Reading;
 use crate::parse::{count, positive, share};
@@ -14,8 +15,9 @@ pub(crate) struct Solve {
     pub(super) scene: PathBuf,
     #[command(flatten)]
     pub(super) reading: Reading,
-    /// Write the result to this file, in the format of its extension: a picture (.png), a scene (.dae, .glb, .obj, .ply), a page (.html),
-    /// everything (.json), a table of patches (.csv) or of elements (.elements.csv); - for stdout; may be given several times
+    /// Write the result to this file, in the format of its extension: a picture (.png; .exr or .hdr without exposure), a scene (.dae, .glb,
+    /// .obj, .ply), a page (.html), everything (.json), a table of patches (.csv) or of elements (.elements.csv); - for stdout; may be given
+    /// several times
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// What -o - writes: an extension as above
@@ -74,6 +76,8 @@ pub(crate) struct Solve {
     /// Keep the steps of the run in the page (.html) and in .json, to walk through them: who shoots, each reflection, each round of links
     #[arg(long, requires = "output")]
     pub(super) record: bool,
+    #[command(flatten)]
+    pub(super) lights: LightOptions,
     #[command(flatten)]
     pub(super) view: ViewOptions,
 }

@@ -1,4 +1,5 @@
 //! A model as COLLADA 1.4 text: one node, geometry and polygon list per face.
+use super::light_text::WrittenLights;
 use super::model::{Face, Material, Model};
 use super::spectra::PROFILE;
 use crate::escape::escape;
@@ -9,6 +10,11 @@ use std::{collections::HashMap, fmt::Write};
 
 /// The whole file, always the same bytes for the same model.
 pub(crate) fn text(model: &Model) -> String {
+    text_with(model, &WrittenLights { lamps: &[], suns: &[], wavelengths: &[] })
+}
+
+/// The whole file, with lights that are no surfaces.
+pub(super) fn text_with(model: &Model, lights: &WrittenLights<'_>) -> String {
     let images: String = model.materials.iter().filter_map(image).collect();
     let effects: String =
         model.materials.iter().map(|material| effect(material, &model.wavelengths)).collect();
@@ -27,9 +33,9 @@ pub(crate) fn text(model: &Model) -> String {
     format!(
         r##"<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-{asset}{cameras}{images}{effects}{materials}{geometries}  <library_visual_scenes>
+{asset}{cameras}{lights}{images}{effects}{materials}{geometries}  <library_visual_scenes>
     <visual_scene id="scene">
-{views}{nodes}    </visual_scene>
+{views}{lamps}{nodes}    </visual_scene>
   </library_visual_scenes>
   <scene>
     <instance_visual_scene url="#scene"/>
@@ -38,6 +44,8 @@ pub(crate) fn text(model: &Model) -> String {
 "##,
         asset = asset(&model.title, &model.asset),
         cameras = library("cameras", &lenses),
+        lights = library("lights", &lights.library()),
+        lamps = lights.nodes(),
         images = library("images", &images),
         effects = library("effects", &effects),
         materials = library("materials", &materials),

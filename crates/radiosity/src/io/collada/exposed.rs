@@ -13,8 +13,27 @@ struct ColourSource<'a> {
     numbers: Vec<f64>,
 }
 
+/// Under which name the file keeps its exposure.
+const PROFILE: &str = "radiosity";
+
+/// The text with an exposure for its light, as an `<extra>` at its end.
+pub(super) fn with_exposure(text: &str, exposure: Exposure) -> String {
+    let (body, end) = text.split_at(text.rfind("</").unwrap_or(text.len()));
+    let k = decimal(&exposure.k());
+    format!(
+        "{body}<extra><technique profile=\"{PROFILE}\"><exposure>{k}</exposure></technique></extra>\n{end}"
+    )
+}
+
+/// The exposure that a file was given last.
+fn kept(file: &File<'_>) -> Option<Exposure> {
+    let techniques = children(file.root, "extra").flat_map(|extra| children(extra, "technique"));
+    let own = techniques.filter(|technique| technique.attribute("profile") == Some(PROFILE)).last()?;
+    Exposure::new(descend(own, &["exposure"])?.text()?.trim().parse().ok()?)
+}
+
 /// The text with the first three numbers of every row of every vertex colour exposed; all else byte for byte. Without an
-/// exposure one is chosen: the geometric mean over the lit rows becomes mid grey.
+/// exposure it is the one that the file was given, or that of all its rows.
 pub(super) fn exposed<'a>(
     text: &str,
     file: &File<'a>,
@@ -25,8 +44,8 @@ pub(super) fn exposed<'a>(
         return Err(file.fault(file.root, Fault::Child("input semantic=\"COLOR\"")));
     }
     let rows = sources.values().flat_map(|light| light.numbers.chunks_exact(light.stride));
-    let exposure =
-        exposure.unwrap_or_else(|| Exposure::of(rows.map(|row| ([row[0], row[1], row[2]], 1.0, false))));
+    let of_rows = || Exposure::of(rows.map(|row| ([row[0], row[1], row[2]], 1.0, false)));
+    let exposure = exposure.or_else(|| kept(file)).unwrap_or_else(of_rows);
     let (mut new, mut at) = (String::new(), 0);
     for light in sources.values() {
         let range = light.array.range();

@@ -1,6 +1,7 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
 use super::file::{File, XmlNode, child, children, descend};
-use super::{images::Images, spectra::spectra, walk::Instance};
+use super::walk::{Instance, name_of};
+use super::{images::Images, spectra::spectra};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Finish;
 use crate::scene::finding::Finding;
@@ -19,12 +20,14 @@ pub(super) fn finish<'a>(
     let mut plain = |what: &str| {
         Finding::note(warnings, file.place(instance), what, "give it a material with a diffuse colour");
         let reflectance = [DEFAULT_REFLECTANCE; 3];
-        Ok(Finish { reflectance, emission: [0.0; 3], image: None, spectra: None })
+        let name = symbol.unwrap_or_default().into();
+        Ok(Finish { material: name, reflectance, emission: [0.0; 3], image: None, spectra: None })
     };
     let Some(symbol) = symbol else { return plain("polygons without a material have a reflectance of 0.5") };
     let Some(material) = bound(file, instance, symbol)? else {
         return plain("polygons whose material is not bound have a reflectance of 0.5");
     };
+    let name = name_of(material, symbol).into();
     let effect = file.target(file.child(material, "instance_effect")?, "url", "effect")?;
     let spectra = spectra(file, effect)?;
     let Some(shader) = shader(effect) else {
@@ -42,9 +45,11 @@ pub(super) fn finish<'a>(
         Slot::Texture(texture) => {
             let image = images.of_texture(file, effect, texture, warnings);
             let reflectance = if image.is_some() { [1.0; 3] } else { [DEFAULT_REFLECTANCE; 3] };
-            Ok(Finish { reflectance, emission, image, spectra })
+            Ok(Finish { material: name, reflectance, emission, image, spectra })
         }
-        other => Ok(Finish { reflectance: other.colour(file)?, emission, image: None, spectra }),
+        other => {
+            Ok(Finish { material: name, reflectance: other.colour(file)?, emission, image: None, spectra })
+        }
     }
 }
 

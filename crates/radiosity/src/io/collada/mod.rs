@@ -3,7 +3,7 @@
 //! Read: the visual scene that `<scene>` instances, nodes with their transforms (all but `<skew>`), `<instance_node>`,
 //! `<polylist>`, `<polygons>` with holes, `<triangles>`, `<tristrips>`, `<trifans>`, materials by the diffuse colour
 //! (reflectance) and the emission colour (radiance) of their common profile, or spectra of any number of bands from an
-//! `<extra>` of this program, perspective cameras. A warning tells what is not read. Every polygon becomes a one-sided patch;
+//! `<extra>` of this program, point, spot and directional lights and Blender's area lights, perspective cameras. A warning tells what is not read. Every polygon becomes a one-sided patch;
 //! its front is the side from which it is counter-clockwise.
 //!
 //! A polygon that is not planar is split into triangles, and one without area is left out, both with a warning. A solid keeps
@@ -15,6 +15,8 @@ mod encoding;
 mod exposed;
 mod file;
 mod images;
+mod light_text;
+mod lights;
 mod lit_mesh;
 mod material;
 pub(crate) mod model;
@@ -35,9 +37,10 @@ use crate::expose::Exposure;
 use crate::io::surface::changes::{changes, dimmed};
 use crate::mesh::element::Mesh;
 use crate::scene::{Scene, asset::Asset};
-use compose::text;
+use compose::text_with;
 use file::{File, child};
 use glam::DVec3;
+use light_text::WrittenLights;
 use model::Model;
 use std::path::Path;
 
@@ -68,11 +71,15 @@ impl Collada {
         Ok(Self { text: encoding::text(&name, bytes.into())?, name })
     }
 
-    /// A new file of a scene, with a node for each patch. Read again, it has the same patches. Spectra are written as such,
-    /// beside their colours.
+    /// A new file of a scene, with a node for each patch. Read again, it has the same patches, lamps and suns. Spectra are written as such,
+    /// beside their colours. A measured lamp is written as even: COLLADA has no place for a table.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        Self::from_text("scene.dae", text(&Model::of(scene)))
+        let Scene { lamps, suns, wavelengths, .. } = scene;
+        Self::from_text(
+            "scene.dae",
+            text_with(&Model::of(scene), &WrittenLights { lamps, suns, wavelengths }),
+        )
     }
 
     /// The file's text.
@@ -92,14 +99,27 @@ impl Collada {
     /// [`FileError::Xml`] and [`FileError::Scene`], with the line.
     pub fn scene(&self) -> Result<Scene, FileError> {
         self.with_file(|file| {
-            let walk::Walk { instances, camera_instances, mut warnings } = walk::walk(file)?;
+            let walk::Walk { instances, camera_instances, light_instances, mut warnings } = walk::walk(file)?;
             unread::tell(file, &mut warnings);
+            let asset = asset(file)?;
             let folder = Path::new(&self.name).parent();
             let mut images = images::Images::new(folder);
-            let patches = patches::patches(file, &instances, &mut images, &mut warnings)?;
+            let lights = lights::lights(file, &light_instances, asset.unit, &mut warnings)?;
+            let patches = patches::patches(file, &instances, &lights.areas, &mut images, &mut warnings)?;
             let cameras = camera::cameras(file, &camera_instances, &mut warnings);
             let (bands, wavelengths) = spectra::bands(file, &patches)?;
-            Ok(Scene { patches, cameras, bands, wavelengths, warnings, asset: asset(file)? })
+            let lights::ReadLights { lamps, suns, .. } = lights;
+            Ok(Scene {
+                patches,
+                lamps,
+                suns,
+                cameras,
+                bands,
+                wavelengths,
+                warnings,
+                asset,
+                ..Scene::default()
+            })
         })
     }
 
@@ -131,7 +151,7 @@ impl Collada {
     }
 
     /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte
-    /// for byte. Without an exposure, the geometric mean over the lit vertices becomes mid grey.
+    /// for byte. Without an exposure it is the one of [`with_exposure`], or that of all lit vertices: see [`Exposure::of`].
     ///
     /// # Errors
     /// [`FileError::Xml`] and [`FileError::Scene`], with the line; the latter also when no surface has vertex colours.
@@ -144,6 +164,12 @@ impl Collada {
             .map_err(|source| FileError::Xml { file: self.name.clone(), source })?;
         read(&File::new(&self.name, &document)?)
     }
+}
+
+/// The text of a file with light, in which an exposure for it is kept: see [`Collada::exposed`].
+#[must_use]
+pub fn with_exposure(text: &str, exposure: Exposure) -> String {
+    exposed::with_exposure(text, exposure)
 }
 
 fn asset(file: &File) -> Result<Asset, FileError> {

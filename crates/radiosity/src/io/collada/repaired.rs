@@ -23,7 +23,7 @@ use crate::io::words::{decimal, list};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// The new text; `None` where the file's arrays have no room for more vertices, and where spectra were dimmed.
+/// The new text; `None` where the file's arrays have no room for more vertices, where spectra were dimmed, or what changed is no geometry.
 pub(super) fn repaired(
     text: &str,
     file: &File<'_>,
@@ -37,7 +37,8 @@ pub(super) fn repaired(
         splice.edit(Vec::new(), range, colour);
     }
     for (index, pieces) in changes {
-        let instance = &instances[*index];
+        // A lamp that is no geometry has no place in the text.
+        let Some(instance) = instances.get(*index) else { return Ok(None) };
         let Some(edits) = edits(&mut splice, instance, pieces)? else { return Ok(None) };
         let shared = instances.iter().filter(|other| other.geometry == instance.geometry).count() > 1;
         if !shared {

@@ -51,13 +51,13 @@ pub(super) fn bands<'a>(file: &File<'a>, patches: &[Patch]) -> Result<(usize, Ve
 }
 
 /// This program's technique among an element's extras.
-fn own<'a>(element: XmlNode<'a>) -> Option<XmlNode<'a>> {
+pub(super) fn own<'a>(element: XmlNode<'a>) -> Option<XmlNode<'a>> {
     let techniques = children(element, "extra").flat_map(|extra| children(extra, "technique"));
     techniques.into_iter().find(|technique| technique.attribute("profile") == Some(PROFILE))
 }
 
 /// One number or more, none below 0.
-fn values<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Vec<f64>, FileError> {
+pub(super) fn values<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Vec<f64>, FileError> {
     let numbers = file.numbers(element)?;
     if numbers.is_empty() {
         return Err(file.fault(element, Fault::Count { found: 0, wanted: 1 }));

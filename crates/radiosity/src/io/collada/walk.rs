@@ -31,11 +31,18 @@ pub(super) struct CameraInstance<'a> {
     pub(super) camera: XmlNode<'a>,
 }
 
+/// An `<instance_light>` met on the way.
+pub(super) struct LightInstance<'a> {
+    pub(super) visit: Visit<'a>,
+    pub(super) light: XmlNode<'a>,
+}
+
 /// What the walk met, in the order of the file, and what it had to say.
 #[derive(Default)]
 pub(super) struct Walk<'a> {
     pub(super) instances: Vec<Instance<'a>>,
     pub(super) camera_instances: Vec<CameraInstance<'a>>,
+    pub(super) light_instances: Vec<LightInstance<'a>>,
     pub(super) warnings: Vec<Finding>,
 }
 
@@ -124,11 +131,13 @@ fn meet<'a>(file: &File<'a>, visit: &Visit<'a>, walk: &mut Walk<'a>) -> Result<(
                 let (place, what) = (file.place(element), "skinned and morphed geometry is left out");
                 Finding::note(&mut walk.warnings, place, what, "bake it into plain geometry");
             }
-            "instance_light" => {
-                let (place, what) =
-                    (file.place(element), "lights are left out; only surfaces that emit give light");
-                Finding::note(&mut walk.warnings, place, what, "put a surface with an emission in its place");
-            }
+            "instance_light" => match file.target(element, "url", "light") {
+                Ok(light) => walk.light_instances.push(LightInstance { visit: visit.clone(), light }),
+                Err(error) => {
+                    let what = "a light that is not in the file is left out";
+                    Finding::note(&mut walk.warnings, error.to_string(), what, "add it, or give --emit");
+                }
+            },
             _ => {}
         }
     }

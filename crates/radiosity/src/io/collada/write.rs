@@ -55,7 +55,9 @@ fn elements_of(instances: &[Instance], light: &LitScene) -> Vec<BTreeMap<usize, 
     let mut all = vec![BTreeMap::<usize, Vec<usize>>::new(); instances.len()];
     for (index, element) in light.mesh.elements.iter().enumerate() {
         let origin = light.scene.patches[element.patch].origin;
-        all[origin.instance].entry(origin.primitive).or_default().push(index);
+        // A lamp that is no geometry stays as it is.
+        let instance = all.get_mut(origin.instance);
+        instance.into_iter().for_each(|all| all.entry(origin.primitive).or_default().push(index));
     }
     all
 }

@@ -7,8 +7,8 @@ use crate::io::save::bytes_of;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The bytes of a GLB file that [`glb`](super::glb) wrote, with colours of another exposure. Without an exposure, the geometric
-/// mean over the lit vertices becomes mid grey.
+/// The bytes of a GLB file that [`glb`](super::glb) wrote, with colours of another exposure. Without an exposure it is the one
+/// that the file was written with, or that of all lit vertices: see [`Exposure::of`].
 ///
 /// # Errors
 /// [`FileError::Read`] and [`FileError::Gltf`]; [`FileError::Part`] where no primitive has `_RADIOSITY` and `COLOR_0` of three floats.
@@ -27,7 +27,9 @@ pub fn exposed(path: impl AsRef<Path>, exposure: Option<Exposure>) -> Result<Vec
         fault: Fault::Missing("no primitive has _RADIOSITY and COLOR_0 of three floats each".into()),
     })?;
     let all = lit.iter().flat_map(|(light, _)| light.iter().map(|colour| (*colour, 1.0, false)));
-    let exposure = exposure.unwrap_or_else(|| Exposure::of(all));
+    let kept = || Exposure::new(document["asset"]["extras"]["exposure"].as_f64()?);
+    let exposure = exposure.or_else(kept).unwrap_or_else(|| Exposure::of(all));
+    document["asset"]["extras"]["exposure"] = exposure.k().into();
     for (light, colours) in &lit {
         let rows: Vec<[f32; 3]> = light.iter().map(|row| exposure.intensity(*row).map(single)).collect();
         let bound = |pick: fn(f32, f32) -> f32| {

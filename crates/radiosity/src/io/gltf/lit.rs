@@ -7,6 +7,9 @@ use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
+/// What single precision holds.
+const BRIGHTEST: f64 = f32::MAX as f64;
+
 /// The primitives; material 0 is the plain one, material `1 + p` that of picture `p`.
 pub(super) fn primitives(
     buffer: &mut Buffer,
@@ -21,8 +24,9 @@ pub(super) fn primitives(
             groups.entry(record.patches[patch].picture).or_default().push([a, b, c]);
         }
     }
-    let light = record.colours();
-    let received = record.under_pictures();
+    // Exposed as it is written, so that the file says the same when it is exposed again.
+    let light: Vec<[f64; 3]> = record.colours().into_iter().map(dimmed).collect();
+    let received: Vec<[f64; 3]> = record.under_pictures().into_iter().map(dimmed).collect();
     let mut primitives = Vec::new();
     for (picture, triangles) in groups {
         let (used, indices) = own(&triangles);
@@ -46,9 +50,20 @@ pub(super) fn primitives(
     primitives
 }
 
-/// A point as it is written, in single precision.
+/// A number as it is written, in single precision.
+fn held(number: f64) -> f64 {
+    f64::from(single(number))
+}
+
+/// A colour as it is written: what is too bright for that keeps its shares.
+fn dimmed(colour: [f64; 3]) -> [f64; 3] {
+    let share = colour.into_iter().fold(BRIGHTEST, f64::max) / BRIGHTEST;
+    colour.map(|part| held(part / share))
+}
+
+/// A point as it is written.
 fn rounded(point: DVec3) -> DVec3 {
-    DVec3::from(point.to_array().map(|number| f64::from(single(number))))
+    DVec3::from(point.to_array().map(held))
 }
 
 /// Whether something is left of a triangle when it is written.

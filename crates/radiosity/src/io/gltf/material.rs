@@ -70,7 +70,9 @@ impl<'f> Materials<'f> {
         let emission = material.emissive_factor().map(|band| strength * as_written(band));
         let texture = surface.base_color_texture();
         let image = texture.as_ref().and_then(|info| self.image(&info.texture().source(), warnings));
-        let finish = Finish { reflectance: [red, green, blue], emission, image, spectra: None };
+        let named = material.name().unwrap_or_default().into();
+        let finish =
+            Finish { material: named, reflectance: [red, green, blue], emission, image, spectra: None };
         ReadMaterial {
             finish,
             places: texture.as_ref().map_or(0, places),

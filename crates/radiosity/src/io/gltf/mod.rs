@@ -2,7 +2,7 @@
 //!
 //! Read: the default scene's nodes with their transforms, triangles, strips and fans (those of a plane joined back to
 //! polygons), the base colour as reflectance, its texture, the emissive factor times `KHR_materials_emissive_strength` as
-//! radiance, perspective cameras. A double-sided material makes two patches of each polygon, the second one named
+//! radiance, the lights of `KHR_lights_punctual`, perspective cameras. A double-sided material makes two patches of each polygon, the second one named
 //! `.back`. A warning tells what is not read. Lengths are metres, y is up.
 mod accessor;
 mod buffer;
@@ -11,6 +11,7 @@ mod container;
 mod dimmed;
 mod document;
 mod exposed;
+mod lights;
 mod lit;
 mod material;
 mod prepare;

@@ -1,11 +1,14 @@
 //! The default scene, walked: meshes become patches, cameras cameras.
 use super::material::{Materials, ReadMaterial, as_written};
-use super::{accessor::Buffers, document::GltfFile};
+use super::{accessor::Buffers, document::GltfFile, lights, lights::ReadLight};
 use crate::io::error::{Fault, FileError};
+use crate::io::surface::lamps::LampPose;
 use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
 use crate::io::{surface::facets, surface::finish::Surface};
-use crate::scene::{Scene, camera::Camera, finding::Finding, patch::Origin};
+use crate::scene::{
+    Scene, camera::Camera, finding::Finding, lamp::Lamp, patch::Origin, sky::Sun, units::Units,
+};
 use glam::{DAffine2, DMat4, DQuat, DVec2, DVec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
@@ -43,13 +46,17 @@ pub(super) fn read(
         materials: Materials::new(&buffers, folder),
         surfaces: Surfaces::default(),
         cameras: Vec::new(),
+        lamps: Vec::new(),
+        suns: Vec::new(),
+        units: lights::units(&gltf.document),
         warnings,
         instances: 0,
         primitives: Vec::new(),
     };
     reader.walk(&gltf.document)?;
-    let Reader { surfaces, cameras, warnings, primitives, .. } = reader;
-    Ok((Scene { patches: surfaces.named(), cameras, bands: 3, warnings, ..Scene::default() }, primitives))
+    let Reader { surfaces, cameras, lamps, suns, units, warnings, primitives, .. } = reader;
+    let patches = surfaces.named();
+    Ok((Scene { patches, lamps, suns, units, cameras, bands: 3, warnings, ..Scene::default() }, primitives))
 }
 
 struct Reader<'f> {
@@ -57,6 +64,9 @@ struct Reader<'f> {
     materials: Materials<'f>,
     surfaces: Surfaces,
     cameras: Vec<Camera>,
+    lamps: Vec<Lamp>,
+    suns: Vec<Sun>,
+    units: Units,
     warnings: Vec<Finding>,
     instances: usize,
     primitives: Vec<ReadPrimitive>,
@@ -69,10 +79,6 @@ impl Reader<'_> {
         if gltf.scenes().count() > 1 {
             let what = format!("of several scenes, number {} is taken", scene.index());
             self.note(self.file, &what, "make the one you want the default scene");
-        }
-        if gltf.extensions_used().any(|name| name == "KHR_lights_punctual") {
-            let what = "lights are left out; only surfaces that emit give light";
-            self.note(self.file, what, "put a surface with an emission in their place");
         }
         let mut stack: Vec<(gltf::Node<'_>, DMat4, usize)> =
             scene.nodes().map(|node| (node, DMat4::IDENTITY, 0)).collect();
@@ -104,6 +110,9 @@ impl Reader<'_> {
         if let Some(camera) = node.camera() {
             self.look(&camera, &name, world);
         }
+        if let Some(light) = node.light() {
+            self.shine(&light, &name, world);
+        }
         let Some(mesh) = node.mesh() else { return Ok(()) };
         if node.skin().is_some() || mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
             self.note(&name, "skins and morphs are left out", "bake them into plain geometry");
@@ -115,6 +124,18 @@ impl Reader<'_> {
             self.cover(&name, (node.index(), &mesh), &primitive, world, origin)?;
         }
         Ok(())
+    }
+
+    fn shine(&mut self, light: &gltf::khr_lights_punctual::Light<'_>, name: &str, world: DMat4) {
+        let read = LampPose::of(world).and_then(|pose| lights::read(light, name, pose, self.units));
+        match read {
+            Some(ReadLight::Lamp(lamp)) => self.lamps.push(lamp),
+            Some(ReadLight::Sun(sun)) => self.suns.push(sun),
+            None => {
+                let repair = "correct its intensity, its colour, or the node's transform";
+                self.note(name, "a light without strength or direction is left out", repair);
+            }
+        }
     }
 
     /// The patches of a primitive.

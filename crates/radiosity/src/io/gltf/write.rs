@@ -26,7 +26,11 @@ pub fn glb(record: &Record, exposure: Exposure) -> Result<Vec<u8>, FileError> {
     let (middle, radius) = ball(&record.vertices);
     let mut buffer = Buffer::default();
     let mut document = json!({
-        "asset": {"version": "2.0", "generator": concat!("radiosity ", env!("CARGO_PKG_VERSION"))},
+        "asset": {
+            "version": "2.0",
+            "generator": concat!("radiosity ", env!("CARGO_PKG_VERSION")),
+            "extras": {"exposure": exposure.k()},
+        },
         "scene": 0,
         "scenes": [{"nodes": [0]}],
     });

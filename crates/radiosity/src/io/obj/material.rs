@@ -22,7 +22,8 @@ pub(super) struct Mtl {
 impl Default for Mtl {
     fn default() -> Mtl {
         let reflectance = [DEFAULT_REFLECTANCE; 3];
-        let finish = Finish { reflectance, emission: [0.0; 3], image: None, spectra: None };
+        let (material, emission) = ("".into(), [0.0; 3]);
+        let finish = Finish { material, reflectance, emission, image: None, spectra: None };
         Mtl { finish, scale: DVec2::ONE, offset: DVec2::ZERO }
     }
 }
@@ -38,7 +39,9 @@ pub(super) fn materials(
     let mut pictures = HashMap::new();
     for statement in Statement::all(text) {
         if statement.keyword == "newmtl" {
-            all.insert(statement.name(), Mtl::default());
+            let mut material = Mtl::default();
+            material.finish.material = statement.name().into();
+            all.insert(statement.name(), material);
             name = Some(statement.name());
             continue;
         }

@@ -26,7 +26,8 @@ pub(super) fn scene(file: &str, bytes: &[u8], folder: Option<&Path>) -> Result<S
     }
     for (primitive, (colour, polygons)) in groups.into_iter().enumerate() {
         let reflectance = if image.is_some() { [1.0; 3] } else { colour.map(f64::from_bits) };
-        let finish = Finish { reflectance, emission: [0.0; 3], image: image.clone(), spectra: None };
+        let (material, emission) = ("".into(), [0.0; 3]);
+        let finish = Finish { material, reflectance, emission, image: image.clone(), spectra: None };
         let facets = facets(&polygons, is_cut(&polygons), image.is_some());
         let origin = Origin { instance: 0, primitive, polygon: 0 };
         let (name, place, world) = ("patch", file, DMat4::IDENTITY);

@@ -61,7 +61,8 @@ impl Stl {
         Finding::note(&mut warnings, self.name.as_str(), what, "use another format where colours matter");
         for (instance, solid) in solids.iter().enumerate() {
             let facets = facets(&solid.triangles, true, false);
-            let finish = Finish { reflectance: [0.5; 3], emission: [0.0; 3], image: None, spectra: None };
+            let (material, reflectance, emission) = ("".into(), [0.5; 3], [0.0; 3]);
+            let finish = Finish { material, reflectance, emission, image: None, spectra: None };
             let origin = Origin { instance, primitive: 0, polygon: 0 };
             let name = if solid.name.is_empty() { "patch" } else { &solid.name };
             let (place, world) = (solid.place.as_str(), DMat4::IDENTITY);

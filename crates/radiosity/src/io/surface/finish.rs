@@ -7,6 +7,8 @@ use std::sync::Arc;
 /// What a surface reflects and emits, in red, green and blue.
 #[derive(Clone, Debug)]
 pub(crate) struct Finish {
+    /// The material's name; empty where it has none.
+    pub(crate) material: Arc<str>,
     /// The reflectance, or what the picture's colours are multiplied by.
     pub(crate) reflectance: [f64; 3],
     /// Radiance.

@@ -5,6 +5,7 @@
 //! flaws     what was wrong with a surface's polygons, told once
 //! merge     triangles that form a planar polygon become that polygon, when exact
 //! split     a polygon cut into triangles
+//! lamps     lamps where their nodes put them
 //! finish    what a surface reflects and emits
 //! polygon   polygons as a file gives them
 //! changes   what became of them when the scene was repaired
@@ -12,6 +13,7 @@
 pub(super) mod changes;
 pub(super) mod finish;
 mod flaws;
+pub(super) mod lamps;
 mod merge;
 pub(super) mod place;
 pub(super) mod polygon;

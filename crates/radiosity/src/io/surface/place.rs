@@ -157,12 +157,13 @@ fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
 
 /// A patch without a name; its reflectance is the texture's mean where it has one.
 fn finished(polygon: PlanarPolygon, finish: &Finish, texture: Option<Texture>) -> Patch {
+    let material = finish.material.clone();
     if let Some(Spectra { reflectance, emission }) = finish.spectra.clone() {
-        return Patch::new("", polygon, reflectance, emission);
+        return Patch { material, ..Patch::new("", polygon, reflectance, emission) };
     }
     let reflectance = texture.as_ref().map_or(finish.reflectance, |texture| texture.overall());
     let patch = Patch::new("", polygon, reflectance.into(), finish.emission.into());
-    Patch { texture, ..patch }
+    Patch { texture, material, ..patch }
 }
 
 /// The picture laid over the polygon, if it has one.

@@ -1,6 +1,7 @@
 //! Which links to refine: the errors of the links of every patch add up to no more than its share.
 use super::cluster_links::{ClusterLink, ClusterLinks};
 use super::clusters::Clusters;
+use super::direct::DirectFlaws;
 use super::equilibrium::deviations;
 use super::flow::{Linear, square};
 use super::link::Link;
@@ -36,10 +37,14 @@ pub(super) struct BandLight {
     pub(super) reflected: Vec<f64>,
     /// For each tile, the mean of what the whole that it is a part of sends.
     level: Vec<f64>,
+    /// What the mean of what lights bring to each leaf may be off by.
+    direct_error: Vec<f64>,
     /// See [`importances`].
     pub(super) importance: Vec<f64>,
     /// For each patch: the power that counts as 1.
     pub(super) unit: Vec<f64>,
+    /// What all patches send, on average.
+    pub(super) mean: f64,
 }
 
 /// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, the sender's part, and
@@ -119,6 +124,7 @@ impl BandLight {
             self.reflected.push((light[0] - tiling.emittance(index, self.band)).abs());
             self.importance.push(self.importance[parent]);
             self.level.push(self.level[parent]);
+            self.direct_error.push(self.direct_error[parent] * HALVED);
         }
     }
 
@@ -129,10 +135,11 @@ impl BandLight {
         sent: Vec<Linear>,
         received: &[Linear],
         band: usize,
+        direct: DirectFlaws,
     ) -> BandLight {
         let mut deviation = vec![0.0; sent.len()];
         for _ in 0..2 {
-            let of_leaves = unresolved(tiling, links, &sent, &deviation);
+            let of_leaves = unresolved(tiling, links, &sent, &deviation, &direct.deviation);
             let of_leaves: Vec<f64> =
                 tiling.tiles.iter().zip(of_leaves).map(|(tile, d)| tile.reflectance[band] * d).collect();
             deviation = deviations(tiling, &sent, &of_leaves);
@@ -156,13 +163,24 @@ impl BandLight {
             level[index] = tile.parent.map_or(level[index], |parent| level[parent]);
         }
         let importance = importances(tiling, links, &unit);
-        BandLight { band, reflected, deviation, sent, level, importance, unit }
+        let roots = || tiling.tiles.iter().zip(&sent).filter(|(tile, _)| tile.parent.is_none());
+        let sent_power: f64 = roots().map(|(tile, light)| tile.area * light[0]).sum();
+        let mean = sent_power / areas.iter().sum::<f64>();
+        let direct_error = direct.error;
+        BandLight { band, reflected, deviation, sent, level, direct_error, importance, unit, mean }
     }
 }
 
-/// How far the irradiance of each leaf is from linear: the curvatures of all that it receives, those of larger tiles by their share.
-fn unresolved(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear], deviation: &[f64]) -> Vec<f64> {
-    let mut squares = vec![0.0; tiling.tiles.len()];
+/// How far the irradiance of each leaf is from linear: the curvatures of all that it receives, those of larger tiles by their share, and what
+/// lights bring.
+fn unresolved(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    sent: &[Linear],
+    deviation: &[f64],
+    direct: &[f64],
+) -> Vec<f64> {
+    let mut squares: Vec<f64> = direct.iter().map(|deviation| deviation * deviation).collect();
     for link in links {
         for end in [0, 1] {
             let [here, there] = [link.ends[end], link.ends[1 - end]];
@@ -203,7 +221,26 @@ pub(super) fn errors(
             sums[root_of[link.ends[end]]] += (flaw.of_mean + flaw.of_sender + flaw.of_total).powf(exponent);
         }
     }
+    for leaf in tiling.leaves() {
+        sums[root_of[leaf]] += (tiling.tiles[leaf].area * light.direct_error[leaf]).powf(exponent);
+    }
     sums
+}
+
+/// What the light that a leaf receives straight from lights may be off by, as a share of its patch's, in the worst band.
+fn worst_direct(tiling: &Tiling<'_>, leaf: usize, bands: &[BandLight]) -> f64 {
+    let tile = &tiling.tiles[leaf];
+    let share = |light: &BandLight| {
+        let (power, unit) = (tile.area * light.direct_error[leaf], light.unit[tile.patch]);
+        if unit > 0.0 { power / unit } else { 0.0 }
+    };
+    bands.iter().map(share).fold(0.0, f64::max)
+}
+
+/// The leaves whose light straight from lights is beyond the limit of their patch.
+pub(super) fn uneven(tiling: &Tiling<'_>, bands: &[BandLight], limits: &[f64]) -> Vec<usize> {
+    let is_beyond = |leaf: &usize| worst_direct(tiling, *leaf, bands) > limits[tiling.tiles[*leaf].patch];
+    tiling.leaves().filter(is_beyond).collect()
 }
 
 /// The largest errors that the links of every patch may have, so that they add up to no more than `share` of its light: infinite where all do.
@@ -223,6 +260,12 @@ pub(super) fn limits(
     for link in links {
         for end in [0, 1] {
             of_patch[tiling.tiles[link.ends[end]].patch].push(worst(tiling, link, end, bands).0);
+        }
+    }
+    for leaf in tiling.leaves() {
+        let error = worst_direct(tiling, leaf, bands);
+        if error > 0.0 {
+            of_patch[tiling.tiles[leaf].patch].push(error);
         }
     }
     of_patch.into_par_iter().map(|errors| limit(errors, share)).collect()

@@ -1,4 +1,5 @@
 //! All links of a run, found by all threads.
+use super::budget::BandLight;
 use super::cluster_links::{ClusterLink, ClusterLinks};
 use super::clusters::{Clusters, Pairs};
 use super::equilibrium::Equilibrium;
@@ -126,8 +127,8 @@ impl Links {
         self.all.iter().map(|link| link.ends).collect()
     }
 
-    /// Takes the links of whole tiles, and finds what they exchange in all and which of them are in closed rooms.
-    pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>, error: f64) {
+    /// Takes the links of whole tiles, and finds which of these are in closed rooms.
+    pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>) {
         if self.has_clusters() {
             let is_closed = samples_are_enclosed(tiling);
             let all = if is_closed { Enclosed::Wholly } else { Enclosed::Nowhere };
@@ -145,10 +146,17 @@ impl Links {
         self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.pairs = links.len();
-        self.totals = Totals::of(tiling, &links, error);
-        links.retain(|link| !self.totals.is_hidden(link.pair));
-        self.totals.share(&mut links);
         self.all = links;
+    }
+
+    /// Finds what whole tiles exchange in all, as well as it matters in such light; not where they are too many.
+    pub(super) fn total(&mut self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) {
+        if self.has_clusters() {
+            return;
+        }
+        self.totals = Totals::of(tiling, &self.all, lights, error);
+        self.all.retain(|link| !self.totals.is_hidden(link.pair));
+        self.totals.share(&mut self.all);
     }
 
     /// Takes other links in place of these.
@@ -239,8 +247,12 @@ impl Links {
         Equilibrium::new(tiling, &self.all, &self.clusters, &self.known(tiling), is_last)
     }
 
-    /// Refuses a closed room with a patch that reflects all light: what it emits could never leave.
-    pub(super) fn refuse_endless(&self, tiling: &Tiling<'_>) -> Result<(), Error> {
+    /// Refuses a closed room with a patch that reflects all light: what it emits, or what `direct` light falls on its tiles, could never leave.
+    pub(super) fn refuse_endless(
+        &self,
+        tiling: &Tiling<'_>,
+        direct: impl Fn(usize, usize) -> f64,
+    ) -> Result<(), Error> {
         let equilibrium = self.equilibrium(tiling, false);
         let patches = &tiling.scene.patches;
         let rooms = equilibrium.patches_of_rooms();
@@ -249,7 +261,13 @@ impl Links {
                 self.enclosed[tile] == Enclosed::Wholly || !room.contains(&tiling.tiles[tile].patch)
             };
             let closed = (0..tiling.tiles.len()).all(is_closed);
-            let live = |band: usize| room.iter().any(|&patch| patches[patch].emission[band] > 0.0);
+            let is_lit = |tile: usize, band: usize| {
+                room.contains(&tiling.tiles[tile].patch) && direct(tile, band) > 0.0
+            };
+            let live = |band: usize| {
+                room.iter().any(|&patch| patches[patch].emission[band] > 0.0)
+                    || (0..tiling.tiles.len()).any(|tile| is_lit(tile, band))
+            };
             let endless = |patch: &usize| {
                 (0..tiling.scene.bands).any(|band| live(band) && patches[*patch].reflectance[band] >= 1.0)
             };

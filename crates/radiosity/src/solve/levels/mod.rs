@@ -5,10 +5,12 @@
 //! stand         where a run stands, and how its light is shown
 //! output        the light of the leaves on a mesh
 //! pieces        leaves in pieces that are small enough to be shown
+//! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by
+//! direct        what lights without surfaces bring to the leaves
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
 //! equilibrium   what all leaves exchange, made to close
@@ -30,11 +32,13 @@
 //! Light is linear on every tile, and not continuous. A link is a matrix of 3 × 3 numbers that serves both directions, found by exact form
 //! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
 //! visibility).
+mod borders;
 mod boxes;
 mod budget;
 mod cluster_links;
 mod cluster_views;
 mod clusters;
+mod direct;
 mod equilibrium;
 mod estimate;
 mod flow;

@@ -1,10 +1,11 @@
 //! The light of the leaves on a mesh.
+use super::direct::Direct;
 use super::equilibrium::{Equilibrium, largest};
 use super::flow::Linear;
 use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
-use crate::mesh::cover::Cover;
+use crate::mesh::{cover::Cover, guests::Guests};
 use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
 use crate::solve::solution::{Gathered, Solution};
@@ -24,28 +25,48 @@ pub(super) struct LeafLight {
 
 impl LeafLight {
     /// The light when the tiles send so much.
-    pub(super) fn of(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, sent: &[Vec<Linear>]) -> LeafLight {
+    pub(super) fn of(
+        tiling: &Tiling<'_>,
+        equilibrium: &Equilibrium<'_>,
+        sent: &[Vec<Linear>],
+        direct: &Direct<'_>,
+    ) -> LeafLight {
         let none = || Vec::with_capacity(sent.len());
         let ledger =
             Ledger { emitted: none(), absorbed: none(), escaped: none(), unshot: none(), defect: none() };
         let mut light =
             LeafLight { received: Vec::new(), bound: none(), ledger, unshot: none(), brightness: none() };
         for (band, sent) in sent.iter().enumerate() {
-            light.add(tiling, equilibrium, &equilibrium.of_leaves(sent), band);
+            light.add(tiling, equilibrium, &equilibrium.of_leaves(sent), direct, band);
         }
         light
     }
 
-    /// Adds a band: with what the leaves send, b, and receive, H, what is unshot is e + ρH − b.
-    fn add(&mut self, tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, sent: &[Linear], band: usize) {
-        let received = equilibrium.receive(sent);
+    /// Adds a band: with what the leaves send, b, and receive, H, what is unshot is e + ρH − b. What lamps send and no leaf receives escapes.
+    fn add(
+        &mut self,
+        tiling: &Tiling<'_>,
+        equilibrium: &Equilibrium<'_>,
+        sent: &[Linear],
+        direct: &Direct<'_>,
+        band: usize,
+    ) {
+        let mut received = equilibrium.receive(sent);
         let reflectance = equilibrium.reflectance(band);
         let [mut emitted, mut absorbed, mut escaped, mut unshot, mut open, mut reflected, mut squares] =
             [0.0; 7];
+        let power = direct.power(tiling, band);
+        emitted += power;
+        escaped += power;
         let mut residual = Vec::with_capacity(sent.len());
         for (leaf, &tile) in equilibrium.leaves().iter().enumerate() {
             let (area, rho) = (tiling.tiles[tile].area, reflectance[leaf]);
+            let straight = direct.received(tile, band);
+            received[leaf].iter_mut().zip(straight).for_each(|(h, straight)| *h += straight);
             let (b, h, sums) = (sent[leaf], received[leaf], equilibrium.sums(leaf));
+            let beyond = direct.beyond(tile, band);
+            emitted += area * beyond;
+            escaped -= area * (straight[0] - beyond);
             let emittance = tiling.emittance(tile, band);
             let rest = [emittance + rho * h[0] - b[0], rho * h[1] - b[1], rho * h[2] - b[2]];
             emitted += area * emittance;
@@ -94,15 +115,26 @@ impl LeafLight {
     }
 }
 
-/// A mesh of pieces of the leaves, and the leaf that each element is a part of.
-pub(super) fn cover(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>, pieces: &[LeafPart]) -> Cover {
+/// A mesh of pieces of the leaves, and the leaf that each element is a part of. Light jumps where other patches touch, and at the edges of
+/// shadows of what is direct.
+pub(super) fn cover(
+    tiling: &Tiling<'_>,
+    equilibrium: &Equilibrium<'_>,
+    direct: &Direct<'_>,
+    pieces: &[LeafPart],
+) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
     for LeafPart { leaf, outline } in pieces {
         of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
-    let mut cover = Cover::default();
-    for (patch, tiles) in of_patch.iter().enumerate() {
-        cover.add(patch, tiles, tiling.contacts(patch));
+    let corners = of_patch.iter().flatten().flat_map(|(_, corners)| corners.iter().map(|corner| corner.1));
+    let (mut cover, all) = (Cover::default(), Guests::new(corners));
+    for (patch, (tiles, edges)) in of_patch.iter().zip(direct.edges(tiling)).enumerate() {
+        let loops = tiling.scene.patches[patch].polygon.loops();
+        let sides = loops.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let on_sides = sides.flat_map(|(start, end)| all.on([*start, *end]));
+        let guests: Vec<_> = on_sides.map(|place| (tiling.flatten(patch, place), place)).collect();
+        cover.add(patch, tiles, &[tiling.contacts(patch), &edges].concat(), &guests);
     }
     cover
 }

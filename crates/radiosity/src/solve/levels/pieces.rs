@@ -1,10 +1,14 @@
-//! Leaves in pieces that are small enough for their light to be shown as linear.
+//! Leaves in pieces that are small enough for their light to be shown as linear; where shadows have edges, along these.
+use super::borders::Borders;
+use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::tile::Outline;
 use super::tiling::Tiling;
 use super::vertices::{Ask, Sights};
 use crate::error::Error;
 use formfactor::DifferentialArea;
+use glam::DVec2;
+use std::collections::BTreeMap;
 
 /// Light is as bright as the eye makes it where it is more than this share of the mean.
 const DIM: f64 = 0.1;
@@ -12,6 +16,12 @@ const DIM: f64 = 0.1;
 const SMALL: f64 = 1e-4;
 /// Pieces of less than this share are not cut.
 const LEAST: f64 = 1e-6;
+/// Pieces become fans around their middles, where nothing is missing: they may bend by so many times what is allowed.
+const BENT: f64 = 1.5;
+/// At corners, which are farther out than the points on both sides, so many times as much may be missing.
+const CORNER: f64 = 3.0;
+/// Corners are looked from a little inside of the leaf: by this share of the way to its middle.
+const INWARD: f64 = 1e-4;
 
 /// A part of a leaf.
 #[derive(Clone, Debug)]
@@ -20,6 +30,15 @@ pub(super) struct LeafPart {
     pub(super) leaf: usize,
     pub(super) outline: Outline,
 }
+
+/// A part that is not known to be small enough, and the borders of shadows that may pass through it.
+struct OpenPart {
+    part: LeafPart,
+    borders: Vec<usize>,
+}
+
+/// A corner of parts of a tile.
+type CornerKey = (usize, [u64; 2]);
 
 /// How far from linear the light of a piece may be.
 struct Measure<'m> {
@@ -35,7 +54,7 @@ pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<L
     equilibrium.leaves().iter().enumerate().map(piece).collect()
 }
 
-/// The leaves in pieces of which the middle is as bright as the means of points on both sides, within a share; nothing when the caller
+/// The leaves in pieces over which light is linear within a share, as five points and the corners of each say; nothing when the caller
 /// wants to stop. `means` is the mean irradiance in each band.
 ///
 /// # Errors
@@ -47,29 +66,18 @@ pub(super) fn pieces(
     share: f64,
     ask: Ask<'_>,
 ) -> Result<Option<Vec<LeafPart>>, Error> {
-    let tiling = sights.tiling;
     let dim: Vec<f64> = means.iter().map(|mean| DIM * mean).collect();
-    let measure = Measure { share, dim: &dim };
-    let whole_area = equilibrium.leaves().iter().map(|&leaf| tiling.tiles[leaf].area).sum::<f64>();
-    let (mut fine, mut open) = (Vec::new(), whole(tiling, equilibrium));
+    let mut cutting = Cutting::new(sights, equilibrium.leaves(), Measure { share, dim: &dim });
+    let all = whole(sights.tiling, equilibrium).into_iter();
+    let mut open: Vec<OpenPart> = all.map(|part| cutting.open(part)).collect();
+    let mut fine = Vec::new();
     while !open.is_empty() {
-        let tile = |piece: &LeafPart| equilibrium.leaves()[piece.leaf];
-        let mut points: Vec<(usize, DifferentialArea)> = Vec::with_capacity(5 * open.len());
-        for piece in &open {
-            let on = tiling.points(tiling.tiles[tile(piece)].patch, &piece.outline)?;
-            points.extend(on.map(|point| (tile(piece), point)));
-        }
-        let Some(light) = sights.irradiance(&points, &mut *ask)? else { return Ok(None) };
+        let Some(light) = cutting.look(sights, &open, &mut *ask)? else { return Ok(None) };
         let mut parts = Vec::new();
         for (piece, light) in open.into_iter().zip(light.chunks(5 * means.len())) {
-            let patch = tiling.tiles[equilibrium.leaves()[piece.leaf]].patch;
-            let area = tiling.area(patch, &piece.outline) / whole_area;
-            let uneven = measure.uneven(light, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
-            // What stands on a leaf parts what it covers from what is lit.
-            let axis = uneven.or(tiling.is_crossed(patch, &piece.outline).then_some(0));
-            match axis.and_then(|axis| tiling.cut(patch, &piece.outline, axis)) {
-                Some(halves) => parts.extend(halves.map(|outline| LeafPart { leaf: piece.leaf, outline })),
-                None => fine.push(piece),
+            match cutting.halves(&piece, light) {
+                Some(halves) => parts.extend(halves),
+                None => fine.push(piece.part),
             }
         }
         open = parts;
@@ -77,19 +85,134 @@ pub(super) fn pieces(
     Ok(Some(fine))
 }
 
+/// Leaves on their way to pieces.
+struct Cutting<'c> {
+    tiling: &'c Tiling<'c>,
+    direct: &'c Direct<'c>,
+    leaves: &'c [usize],
+    measure: Measure<'c>,
+    area: f64,
+    borders: Borders<'c>,
+    /// What corners receive that were looked from, band by band.
+    corners: BTreeMap<CornerKey, Vec<f64>>,
+}
+
+impl<'c> Cutting<'c> {
+    fn new(sights: &Sights<'c>, leaves: &'c [usize], measure: Measure<'c>) -> Cutting<'c> {
+        let (tiling, direct) = (sights.tiling, sights.direct);
+        let area = leaves.iter().map(|&leaf| tiling.tiles[leaf].area).sum();
+        let (borders, corners) = (Borders::new(tiling), BTreeMap::new());
+        Cutting { tiling, direct, leaves, measure, area, borders, corners }
+    }
+
+    fn open(&mut self, part: LeafPart) -> OpenPart {
+        let borders = self.borders.of(self.tiling.tiles[self.leaves[part.leaf]].patch);
+        OpenPart { part, borders }
+    }
+
+    /// The light of the five points of every part; corners that were not looked from yet are.
+    fn look(
+        &mut self,
+        sights: &Sights<'_>,
+        parts: &[OpenPart],
+        ask: Ask<'_>,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let tiling = self.tiling;
+        let mut points: Vec<(usize, DifferentialArea)> = Vec::with_capacity(5 * parts.len());
+        for OpenPart { part, .. } in parts {
+            let tile = self.leaves[part.leaf];
+            let on = tiling.points(tiling.tiles[tile].patch, &part.outline)?;
+            points.extend(on.map(|point| (tile, point)));
+        }
+        let new = self.new_corners(parts);
+        for (&(tile, _), &corner) in &new {
+            let inside = corner.lerp(tiling.tiles[tile].outline.centroid, INWARD);
+            points.push((tile, tiling.point(tiling.tiles[tile].patch, inside)?));
+        }
+        let Some(mut light) = sights.irradiance(&points, ask)? else { return Ok(None) };
+        let bands = self.measure.dim.len();
+        let at_corners = light.split_off(5 * parts.len() * bands);
+        self.corners.extend(new.into_keys().zip(at_corners.chunks(bands).map(<[f64]>::to_vec)));
+        Ok(Some(light))
+    }
+
+    /// The corners that were not looked from yet. Where something stands on a leaf, or a shadow has an edge on it, it is not known on which
+    /// side of that a corner is: those are left out.
+    fn new_corners(&self, parts: &[OpenPart]) -> BTreeMap<CornerKey, DVec2> {
+        let of_part = |OpenPart { part, .. }: &OpenPart| {
+            let tile = self.leaves[part.leaf];
+            let is_even = !self.tiling.tiles[tile].is_crossed && !self.direct.has_edges(tile);
+            let corners = part.outline.corners.iter().filter(move |_| is_even);
+            corners.map(move |corner| (corner_key(tile, corner.0), corner.0)).collect::<Vec<_>>()
+        };
+        let all = parts.iter().flat_map(of_part);
+        all.filter(|(key, _)| !self.corners.contains_key(key)).collect()
+    }
+
+    /// The halves of a part whose light is not linear enough, or on which something stands: cut along the border of a shadow where one passes
+    /// through.
+    fn halves(&self, piece: &OpenPart, light: &[f64]) -> Option<[OpenPart; 2]> {
+        let OpenPart { part: LeafPart { leaf, outline }, borders } = piece;
+        let tile = self.leaves[*leaf];
+        let patch = self.tiling.tiles[tile].patch;
+        let area = self.tiling.area(patch, outline) / self.area;
+        let corners = outline.corners.iter().filter_map(|corner| {
+            Some((outline.linear(corner.0), self.corners.get(&corner_key(tile, corner.0))?.as_slice()))
+        });
+        let uneven =
+            self.measure.uneven(light, corners, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
+        // What stands on a leaf parts what it covers from what is lit.
+        let is_crossed = self.tiling.is_crossed(patch, outline);
+        let axis = uneven.or(is_crossed.then_some(0))?;
+        let inside = self.borders.within(patch, outline, borders);
+        let edge = self.direct.edge_in(tile, outline);
+        let is_parted = is_crossed || edge.is_some();
+        let along = if is_parted { None } else { self.borders.cut(patch, outline, &inside) };
+        let halves = along.or_else(|| self.tiling.cut_along(patch, outline, edge, axis))?;
+        let borders: Vec<usize> = inside.into_iter().map(|(_, border)| border).collect();
+        let open = |outline| OpenPart { part: LeafPart { leaf: *leaf, outline }, borders: borders.clone() };
+        Some(halves.map(open))
+    }
+}
+
+fn corner_key(tile: usize, corner: DVec2) -> CornerKey {
+    (tile, corner.to_array().map(f64::to_bits))
+}
+
 impl Measure<'_> {
-    /// The axis along which the light of five points bends most, if that is more than `times` what it may.
-    fn uneven(&self, light: &[f64], times: f64) -> Option<usize> {
+    /// The axis along which the light of five points bends most, if that, or what corners are off the plane through these points, is more
+    /// than `times` what it may be. Corners come with the linear functions there, and their light.
+    fn uneven<'c>(
+        &self,
+        light: &[f64],
+        corners: impl Iterator<Item = ([f64; 2], &'c [f64])>,
+        times: f64,
+    ) -> Option<usize> {
         let bands = self.dim.len();
-        let bend = |ends: [usize; 2]| {
-            let of_band = |band: usize| {
-                let [middle, one, other] = [0, ends[0], ends[1]].map(|point| light[point * bands + band]);
-                let unit = middle.max((one + other) / 2.0) + self.dim[band];
-                if unit > 0.0 { ((one + other) / 2.0 - middle).abs() / unit } else { 0.0 }
+        let at = |point: usize, band: usize| light[point * bands + band];
+        let worst = |off: &dyn Fn(usize) -> [f64; 2]| {
+            let share = |band: usize| {
+                let [off, bright] = off(band);
+                let unit = bright + self.dim[band];
+                if unit > 0.0 { off.abs() / unit } else { 0.0 }
             };
-            (0..bands).map(of_band).fold(0.0, f64::max)
+            (0..bands).map(share).fold(0.0, f64::max)
+        };
+        let bend = |ends: [usize; 2]| {
+            worst(&|band| {
+                let [middle, mean] = [at(0, band), f64::midpoint(at(ends[0], band), at(ends[1], band))];
+                [mean - middle, middle.max(mean)]
+            })
         };
         let [long, short] = [[1, 2], [3, 4]].map(bend);
-        (long.max(short) > times * self.share).then_some(usize::from(short > long))
+        let out = corners.map(|([a, b], corner)| {
+            worst(&|band| {
+                let slope = |one: usize, other: usize| (at(one, band) - at(other, band)) / 2.0;
+                let plane = at(0, band) + a * slope(1, 2) + b * slope(3, 4);
+                [corner[band] - plane, at(0, band).max(corner[band])]
+            })
+        });
+        let most = out.fold(0.0, f64::max) / CORNER;
+        (long.max(short).max(most) > BENT * times * self.share).then_some(usize::from(short > long))
     }
 }

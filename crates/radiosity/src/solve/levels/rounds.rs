@@ -1,7 +1,8 @@
 //! Rounds of linking, solving and refining.
-use super::budget::{BandLight, cut, is_beyond, limits};
+use super::budget::{BandLight, cut, is_beyond, limits, uneven};
 use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
+use super::direct::Direct;
 use super::equilibrium::largest;
 use super::estimate::estimate;
 use super::flow::Linear;
@@ -33,6 +34,7 @@ struct Levels<'l> {
     start: Instant,
     tiling: Tiling<'l>,
     links: Links,
+    direct: Direct<'l>,
     /// What each tile sends, band by band.
     sent: Vec<Vec<Linear>>,
     /// How often the light was bettered.
@@ -53,15 +55,26 @@ pub(crate) fn solve(
     watch: Follower<'_>,
 ) -> Result<Solution, Error> {
     let tiling = Tiling::new(scene)?;
-    let links = Links::new(&tiling, state)?;
+    let (links, direct) = (Links::new(&tiling, state)?, Direct::new(&tiling));
     let emitted =
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
     let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
-    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent);
-    let mut levels =
-        Levels { options, start, tiling, links, sent, rounds: 0, products: 0, light, watch, fault: None };
-    let converged = levels.run(state)?;
-    levels.finish(converged, state)
+    let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent, &direct);
+    let mut levels = Levels {
+        options,
+        start,
+        tiling,
+        links,
+        direct,
+        sent,
+        rounds: 0,
+        products: 0,
+        light,
+        watch,
+        fault: None,
+    };
+    let is_right = levels.run(state)?;
+    levels.finish(is_right, state)
 }
 
 impl Levels<'_> {
@@ -73,19 +86,34 @@ impl Levels<'_> {
         let candidates: Vec<Candidate> =
             near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
         let Some(links) = self.measure(&candidates, state)? else { return Ok(false) };
-        self.links.open(&self.tiling, links, self.options.error);
-        self.links.refuse_endless(&self.tiling)?;
+        self.links.open(&self.tiling, links);
+        if !self.shine(state)? {
+            return Ok(false);
+        }
+        self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
+        let lights = self.settle(FEW, false);
+        self.links.total(&self.tiling, &lights, self.options.error);
         for times in COARSE {
-            loop {
-                let mut lights = self.settle(FEW, false);
-                match self.refine(&mut lights, times * SUM * self.options.error, state)? {
-                    None => return Ok(false),
-                    Some(false) => break,
-                    Some(true) => {}
-                }
+            if !self.level(times * SUM * self.options.error, state)? {
+                return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    /// Refines until the errors of every patch's links add up to no more than a share of its light; false when the run is to end.
+    fn level(&mut self, share: f64, state: &mut State) -> Result<bool, Error> {
+        loop {
+            if !self.shine(state)? {
+                return Ok(false);
+            }
+            let mut lights = self.settle(FEW, false);
+            match self.refine(&mut lights, share, state)? {
+                None => return Ok(false),
+                Some(true) => {}
+                Some(false) => return Ok(true),
+            }
+        }
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
@@ -105,6 +133,24 @@ impl Levels<'_> {
             }
         }
         Ok(Some(links))
+    }
+
+    /// Finds what lights bring to the leaves; false when the watcher wants to stop or something is found to be broken.
+    fn shine(&mut self, state: &State) -> Result<bool, Error> {
+        self.links.enclose(&self.tiling);
+        let known = self.links.known(&self.tiling);
+        loop {
+            match self.direct.grow(&self.tiling, &known) {
+                Ok(true) => return Ok(true),
+                Ok(false) if self.report(state).is_continue() => {}
+                Ok(false) => return Ok(false),
+                Err(defect @ Error::Defect { .. }) => {
+                    self.fault = Some(defect);
+                    return Ok(false);
+                }
+                Err(error) => return Err(error),
+            }
+        }
     }
 
     /// The links of pairs of clusters; nothing as for [`measure`](Self::measure).
@@ -136,12 +182,13 @@ impl Levels<'_> {
     }
 
     fn stand(&mut self) -> (Stand<'_>, Follower<'_>) {
-        let Levels { options, start, tiling, links, sent, rounds, products, light, watch, .. } = self;
+        let Levels { options, start, tiling, links, direct, sent, rounds, products, light, watch, .. } = self;
         let stand = Stand {
             options,
             start: *start,
             tiling,
             links,
+            direct,
             sent,
             rounds: *rounds,
             products: *products,
@@ -152,7 +199,6 @@ impl Levels<'_> {
 
     /// Betters the light of all bands; gives that of every band in which there is any, with what is wrong with it.
     fn settle(&mut self, most: usize, is_last: bool) -> Vec<BandLight> {
-        self.links.enclose(&self.tiling);
         if is_last {
             (0..RESTORED).for_each(|_| self.links.restore(&self.tiling));
         }
@@ -161,7 +207,7 @@ impl Levels<'_> {
             let emitted: Vec<Linear> = equilibrium
                 .leaves()
                 .iter()
-                .map(|&leaf| [self.tiling.emittance(leaf, band), 0.0, 0.0])
+                .map(|&leaf| self.direct.given(&self.tiling, leaf, band))
                 .collect();
             let reflectance = equilibrium.reflectance(band);
             let mut light = equilibrium.of_leaves(sent);
@@ -173,12 +219,16 @@ impl Levels<'_> {
             products
         };
         self.products += self.sent.par_iter_mut().enumerate().map(better).sum::<usize>();
-        self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent);
+        self.light = LeafLight::of(&self.tiling, &equilibrium, &self.sent, &self.direct);
         self.rounds += 1;
-        let lit = (0..self.sent.len()).filter(|&band| largest(&self.sent[band]) > 0.0);
+        let is_lit = |band: &usize| {
+            [&self.sent[*band], &self.light.received[*band]].into_iter().any(|light| largest(light) > 0.0)
+        };
+        let lit = (0..self.sent.len()).filter(is_lit);
         let light = |band: usize| {
             let received = equilibrium.spread(&self.light.received[band]);
-            BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band)
+            let flaws = self.direct.flaws(&self.tiling, band);
+            BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band, flaws)
         };
         lit.collect::<Vec<usize>>().into_par_iter().map(light).collect()
     }
@@ -193,11 +243,16 @@ impl Levels<'_> {
         state: &mut State,
     ) -> Result<Option<bool>, Error> {
         let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, share);
+        let mut is_cut = false;
+        for leaf in uneven(&self.tiling, lights, &limits) {
+            is_cut |= self.cut_tile(leaf, self.direct.axis(leaf))?.is_some();
+        }
+        lights.iter_mut().for_each(|light| light.grow(&self.tiling));
         let kept = self.links.all.clone();
         let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
         let Some(near) = self.part_clusters(lights, &limits, state)? else { return Ok(None) };
         candidates.extend(near);
-        let is_cut = !candidates.is_empty();
+        is_cut |= !candidates.is_empty();
         while !candidates.is_empty() {
             let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
             let (fine, coarse) = self.part(links, lights, &limits)?;
@@ -264,22 +319,32 @@ impl Levels<'_> {
     fn halve(&mut self, link: &Link, first: usize) -> Result<Option<[Candidate; 2]>, Error> {
         for end in [first, 1 - first] {
             let (tile, bend) = (link.ends[end], link.transfer.bend[end]);
-            let before = self.tiling.tiles.len();
-            let Some(halves) = self.tiling.halve(tile, usize::from(bend[1] > bend[0]))? else { continue };
-            if self.tiling.tiles.len() > before {
-                for sent in &mut self.sent {
-                    let whole = sent[tile];
-                    sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
-                }
+            let halves = self.cut_tile(tile, usize::from(bend[1] > bend[0]))?;
+            if let Some(halves) = halves {
+                return Ok(Some(link.parts(end, halves)));
             }
-            return Ok(Some(link.parts(end, halves)));
         }
         Ok(None)
     }
 
-    /// The solution, with an estimate of its error.
-    fn finish(mut self, converged: bool, state: &State) -> Result<Solution, Error> {
-        let most = if converged { ALL } else { 0 };
+    /// The halves of a tile, which send what it does; nothing where it is too small.
+    fn cut_tile(&mut self, tile: usize, axis: usize) -> Result<Option<[usize; 2]>, Error> {
+        let before = self.tiling.tiles.len();
+        let halves = self.tiling.halve(tile, axis)?;
+        if let Some(halves) = halves.filter(|_| self.tiling.tiles.len() > before) {
+            for sent in &mut self.sent {
+                let whole = sent[tile];
+                sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
+            }
+            self.direct.inherit(&self.tiling);
+        }
+        Ok(halves)
+    }
+
+    /// The solution, with an estimate of its error; as it is shown, unless the run was ended.
+    fn finish(mut self, is_right: bool, state: &State) -> Result<Solution, Error> {
+        let is_right = is_right && self.shine(state)?;
+        let most = if is_right { ALL } else { 0 };
         let lights = self.settle(most, true);
         if self.options.record {
             // The run is over: there is nothing to stop.
@@ -290,7 +355,7 @@ impl Levels<'_> {
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
         let estimate = estimate(tiling, &links.all, &links.clusters, &lights, sent.len());
-        let shown = match converged.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
+        let shown = match is_right.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
                 None

@@ -1,4 +1,5 @@
 //! Where a run stands, and how its light is shown.
+use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::flow::Linear;
 use super::links::Links;
@@ -20,6 +21,7 @@ pub(super) struct Stand<'s> {
     pub(super) start: Instant,
     pub(super) tiling: &'s Tiling<'s>,
     pub(super) links: &'s Links,
+    pub(super) direct: &'s Direct<'s>,
     pub(super) sent: &'s [Vec<Linear>],
     pub(super) rounds: usize,
     pub(super) products: usize,
@@ -32,7 +34,7 @@ impl Stand<'_> {
         let seconds = self.start.elapsed().as_secs_f64();
         let so_far = || {
             let equilibrium = self.links.equilibrium(self.tiling, true);
-            let light = LeafLight::of(self.tiling, &equilibrium, self.sent);
+            let light = LeafLight::of(self.tiling, &equilibrium, self.sent, self.direct);
             Solution { seconds, ..self.solution(&equilibrium, &light) }
         };
         watch(&Progress {
@@ -54,7 +56,7 @@ impl Stand<'_> {
 
     /// The light on the leaves.
     pub(super) fn solution(&self, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
-        let cover = cover(self.tiling, equilibrium, &whole(self.tiling, equilibrium));
+        let cover = cover(self.tiling, equilibrium, self.direct, &whole(self.tiling, equilibrium));
         Solution { products: self.products, ..solution(self.tiling, equilibrium, light, cover) }
     }
 
@@ -68,14 +70,14 @@ impl Stand<'_> {
         watch: Follower<'_>,
         state: &State,
     ) -> Result<Option<Solution>, Error> {
-        let Stand { tiling, links, sent, light, .. } = self;
+        let Stand { tiling, links, direct, sent, light, .. } = self;
         let means = light.means(equilibrium);
         let fine: Vec<f64> = means.iter().map(|mean| self.options.error * mean).collect();
-        let sights = Sights::new(tiling, links, sent, &fine);
+        let sights = Sights::new(tiling, links, direct, sent, &fine);
         let mut ask = || self.show(watch, state);
         let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
         let Some(pieces) = pieces else { return Ok(None) };
-        let cover = cover(tiling, equilibrium, &pieces);
+        let cover = cover(tiling, equilibrium, direct, &pieces);
         let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
         let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
         let solution = solution(tiling, equilibrium, light, cover);

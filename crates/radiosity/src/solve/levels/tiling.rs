@@ -9,6 +9,7 @@ use crate::mesh::{
     frame::{Frame, power_of_two},
 };
 use crate::scene::Scene;
+use crate::solve::lights::magnitude;
 use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
@@ -167,14 +168,16 @@ impl<'s> Tiling<'s> {
 
     /// The points of an outline on a patch.
     pub(super) fn points(&self, patch: usize, outline: &Outline) -> Result<[DifferentialArea; 5], Error> {
-        let (source, frame) = (&self.scene.patches[patch], self.bases[patch].frame);
-        let point = |at: DVec2| {
-            DifferentialArea::new(frame.lift(at), source.polygon.normal())
-                .map(|point| point.owned_by(self.surface_of[patch]))
-                .map_err(|error| Error::Shape { patch: source.name.clone(), source: error })
-        };
-        let [a, b, c, d, e] = outline.points().map(point);
+        let [a, b, c, d, e] = outline.points().map(|at| self.point(patch, at));
         Ok([a?, b?, c?, d?, e?])
+    }
+
+    /// A point of a patch, given in its frame.
+    pub(super) fn point(&self, patch: usize, at: DVec2) -> Result<DifferentialArea, Error> {
+        let source = &self.scene.patches[patch];
+        DifferentialArea::new(self.lift(patch, at), source.polygon.normal())
+            .map(|point| point.owned_by(self.surface_of[patch]))
+            .map_err(|error| Error::Shape { patch: source.name.clone(), source: error })
     }
 
     /// The area of an outline on a patch, in the scene's units.
@@ -186,6 +189,11 @@ impl<'s> Tiling<'s> {
     /// A point of space in the frame of a patch.
     pub(super) fn flatten(&self, patch: usize, place: DVec3) -> DVec2 {
         self.bases[patch].frame.flatten(place)
+    }
+
+    /// A point of the frame of a patch in space.
+    pub(super) fn lift(&self, patch: usize, flat: DVec2) -> DVec3 {
+        self.bases[patch].frame.lift(flat)
     }
 
     /// The lines on which other patches touch a patch, in its frame.
@@ -215,10 +223,22 @@ impl<'s> Tiling<'s> {
 
     /// The halves of an outline on a patch: cut along a contact in it if there is one, else across one of its axes through the centroid.
     pub(super) fn cut(&self, patch: usize, outline: &Outline, axis: usize) -> Option<[Outline; 2]> {
+        self.cut_along(patch, outline, None, axis)
+    }
+
+    /// The same: where there is no contact, along an edge of light on it, if that is given.
+    pub(super) fn cut_along(
+        &self,
+        patch: usize,
+        outline: &Outline,
+        edge: Option<[DVec2; 2]>,
+        axis: usize,
+    ) -> Option<[Outline; 2]> {
         let frame = self.bases[patch].frame;
         let cut = |line| outline.cut(line, |flat| frame.lift(flat));
-        let contact = self.contact_in(patch, outline).and_then(|[start, end]| cut([start, end - start]));
-        contact.or_else(|| cut(outline.across(axis)))
+        let contact = self.contact_in(patch, outline).into_iter().chain(edge);
+        let along = contact.filter_map(|[start, end]| cut([start, end - start])).next();
+        along.or_else(|| cut(outline.across(axis)))
     }
 
     /// Whether something else stands on an outline.
@@ -285,9 +305,10 @@ impl<'s> Tiling<'s> {
     }
 }
 
-/// A power of two near the largest radiosity that is emitted.
+/// A power of two near the largest radiosity that is emitted, or what lights bring.
 fn unit(scene: &Scene, band: usize) -> f64 {
-    power_of_two(scene.patches.iter().map(|patch| PI * patch.emission[band]).fold(0.0, f64::max))
+    let emitted = scene.patches.iter().map(|patch| PI * patch.emission[band]);
+    power_of_two(emitted.fold(magnitude(scene, band), f64::max))
 }
 
 impl Tile {

@@ -1,11 +1,15 @@
 //! What whole tiles exchange is known: the links between their parts are made to add up to it.
+use super::budget::BandLight;
+use super::flow::square;
 use super::link::Link;
 use super::tiling::Tiling;
 use formfactor::{AreaFormFactor, Limits, Tolerance};
 use rayon::prelude::*;
 
-/// How exact totals are, as a share of the error asked for, and never better than so much of a form factor.
+/// How exact totals are, as a share of themselves and of the error asked for; or as a share of what patches receive and of the error asked for,
+/// all totals of a patch together and each alike, where that is more.
 const EXACT: f64 = 0.1;
+/// No form factor is found better than to this.
 const LEAST: f64 = 1e-8;
 /// Totals that are as good as this share of themselves are believed, whatever the links' errors are said to be.
 const GOOD: f64 = 0.05;
@@ -29,11 +33,13 @@ struct Total {
 
 impl Totals {
     /// Of the links of whole tiles, past all that stands between them, for light that is to be right within such an error.
-    pub(super) fn of(tiling: &Tiling<'_>, links: &[Link], error: f64) -> Totals {
+    pub(super) fn of(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight], error: f64) -> Totals {
         if links.len() > PAIRS {
             return Totals::default();
         }
-        Totals(links.par_iter().map(|link| total(tiling, link, EXACT * error)).collect())
+        let shares = shares(tiling, links, lights);
+        let total = |(link, share): (&Link, f64)| total(tiling, link, [EXACT * error * share, EXACT * error]);
+        Totals(links.par_iter().zip(shares).map(total).collect())
     }
 
     /// Whether it is known that all that a pair could exchange is hidden.
@@ -80,10 +86,29 @@ impl Totals {
     }
 }
 
-/// What the ends of a link exchange, if that can be found.
-fn total(tiling: &Tiling<'_>, link: &Link, relative: f64) -> Option<Total> {
+/// For each link how much it would exchange, were all that an end receives shared alike by its links; of both ends the less.
+fn shares(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight]) -> Vec<f64> {
+    let patch_of = |end: usize| tiling.tiles[end].patch;
+    let mut counts = vec![0.0; tiling.scene.patches.len()];
+    links.iter().flat_map(|link| link.ends).for_each(|end| counts[patch_of(end)] += 1.0);
+    let of = |light: &BandLight, [here, there]: [usize; 2]| {
+        // What seems dark so far counts as if it were as bright as others.
+        let bright = square(light.sent[there]).sqrt().max(light.mean);
+        light.unit[patch_of(here)] / counts[patch_of(here)] / bright
+    };
+    let share = |link: &Link| {
+        let [one, other] = link.ends;
+        let ends = lights.iter().flat_map(|light| [of(light, [one, other]), of(light, [other, one])]);
+        ends.fold(f64::INFINITY, f64::min)
+    };
+    links.iter().map(share).collect()
+}
+
+/// What the ends of a link exchange, if that can be found, within an absolute or a relative error.
+fn total(tiling: &Tiling<'_>, link: &Link, [absolute, relative]: [f64; 2]) -> Option<Total> {
     let [one, other] = link.ends.map(|end| &tiling.tiles[end]);
-    let tolerance = Tolerance { absolute: LEAST, relative, row: f64::INFINITY };
+    let absolute = (absolute / one.area.min(other.area)).clamp(LEAST, 1.0);
+    let tolerance = Tolerance { absolute, relative, row: f64::INFINITY };
     let limits = Limits { per_pair: MOST, ..Limits::default() };
     let parts = [one, other].map(|tile| (tile.surface, &tile.polygon));
     let AreaFormFactor { value, error_estimate, evaluations, .. } =

@@ -1,4 +1,5 @@
-//! What points receive: from every linked tile as bright as it was found, exactly past what stands in between.
+//! What points receive: from every linked tile as bright as it was found, and from lights, exactly past what stands in between.
+use super::direct::Direct;
 use super::flow::Linear;
 use super::link::Link;
 use super::links::Links;
@@ -29,6 +30,7 @@ const NEAR: f64 = 0.05;
 pub(super) struct Sights<'s> {
     pub(super) tiling: &'s Tiling<'s>,
     links: &'s [Link],
+    pub(super) direct: &'s Direct<'s>,
     of_tile: Vec<Sight>,
     /// What each tile sends, band by band, and 1 of each: what comes of that is ΣF.
     sent: Vec<Vec<Linear>>,
@@ -50,6 +52,7 @@ impl<'s> Sights<'s> {
     pub(super) fn new(
         tiling: &'s Tiling<'s>,
         links: &'s Links,
+        direct: &'s Direct<'s>,
         sent: &[Vec<Linear>],
         fine: &[f64],
     ) -> Sights<'s> {
@@ -91,7 +94,7 @@ impl<'s> Sights<'s> {
             clusters.gather(tiling, sent, &mut far);
             of_tile.iter_mut().zip(far).for_each(|(sight, light)| sight.rest[band][0] += light[0]);
         }
-        Sights { tiling, links, of_tile, sent, known }
+        Sights { tiling, links, direct, of_tile, sent, known }
     }
 
     /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `tile_of` is the tile of an element.
@@ -133,8 +136,18 @@ impl<'s> Sights<'s> {
         Ok(Some(all))
     }
 
-    /// What a point of a tile receives: of even light 1 where ΣF is 1, nothing where something stands on the tile.
+    /// What a point of a tile receives: from tiles, and straight from lights.
     fn at(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
+        let straight = self.direct.at(self.tiling, point);
+        self.of_tiles(tile, point)
+            .into_iter()
+            .zip(straight)
+            .map(|(light, straight)| light + straight)
+            .collect()
+    }
+
+    /// What a point of a tile receives from tiles: of even light 1 where ΣF is 1, nothing where something stands on the tile.
+    fn of_tiles(&self, tile: usize, point: &DifferentialArea) -> Vec<f64> {
         let mut light = vec![0.0f64; self.sent.len()];
         if self.known[tile] == Some(0.0) {
             light.pop();

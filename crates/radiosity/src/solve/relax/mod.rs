@@ -112,7 +112,7 @@ fn balance<'e>(run: &Run<'_>, exchange: &'e Exchange, band: usize) -> Balance<'e
         sums.iter().zip(&exchange.areas).map(|(sum, area)| sum / area).collect::<Vec<f64>>()
     };
     let absorptance: Vec<f64> = light.reflectance.iter().map(|rho| 1.0 - rho).collect();
-    Balance::new(exchange, mean(&light.emittance), mean(&absorptance))
+    Balance::new(exchange, mean(&light.given()), mean(&absorptance))
 }
 
 /// Solves one band from what x holds; again for the true residual while that helps.
@@ -170,7 +170,10 @@ fn settle(
         |values: &mut dyn Iterator<Item = f64>| values.zip(areas).map(|(v, area)| v * area).sum::<f64>();
     run.bound[band] = balance.bound(largest);
     let emitted = run.light.emitted[band];
-    let [absorbed, escaped] = balance.spend(x);
+    let [mut absorbed, mut escaped] = balance.spend(x);
+    let [kept, missed] = run.light.spent_directly();
+    absorbed += kept[band];
+    escaped += missed[band];
     let unshot = power(&mut residual.iter().copied());
     let ledger = &mut run.ledger;
     (ledger.absorbed[band], ledger.escaped[band], ledger.unshot[band]) = (absorbed, escaped, unshot);
