@@ -16,7 +16,6 @@ use crate::numeric::gauss::RULE_4;
 use crate::pipeline::past;
 use crate::quick;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
-use crate::stats::Stats;
 use crate::visible_part::visible_part;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -31,12 +30,9 @@ pub(crate) fn with_centroid(
 ) -> (FormFactor, DVec3) {
     let plane = PolarPlane::seen_from(from, to);
     let others = || occluders.iter().copied();
-    buffers.quick.record(true);
-    let quickly = quick::form_factor(from, to, |_| others(), &mut buffers.quick, &mut Stats::default());
-    buffers.quick.record(false);
-    let (factor, moment) = match quickly {
-        Some(factor) => (factor, buffers.quick.recorded().map(|edge| plane.moment(edge)).sum()),
-        None => (past(from, to, |_| others(), buffers), plane.moment_of_part(from, to, occluders)),
+    let (factor, moment) = match quick::boundary(from, to, |_| others(), &mut buffers.quick) {
+        Some((factor, edges)) => (factor, edges.into_iter().map(|edge| plane.moment(edge)).sum()),
+        None => (past(from, to, |_| others(), None, buffers), plane.moment_of_part(from, to, occluders)),
     };
     let centroid = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
     (factor, plane.place(from, centroid))

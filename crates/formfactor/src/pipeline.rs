@@ -23,7 +23,7 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
     if occluders.is_empty() {
         return unoccluded(from, to);
     }
-    past(from, to, |_| occluders, &mut Buffers::default())
+    past(from, to, |_| occluders, None, &mut Buffers::default())
 }
 
 /// The form factor from a differential area to the front of a polygon with nothing in between.
@@ -41,22 +41,24 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
 /// ```
 #[must_use]
 pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
-    quick::unoccluded(from, to).unwrap_or_else(|| past(from, to, |_| [], &mut Buffers::default()))
+    quick::unoccluded(from, to).unwrap_or_else(|| past(from, to, |_| [], None, &mut Buffers::default()))
 }
 
 /// The form factor past those of the occluders that `occluders` finds within reach of the target: the only way to one.
-/// What was done is counted in the buffers' stats.
+/// What was done is counted in the buffers' stats. With `within`, doubles do if they err by no more.
 pub(crate) fn past<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
     occluders: impl Fn(&Reach) -> I,
+    within: Option<f64>,
     Buffers { quick, scratch, stats }: &mut Buffers,
 ) -> FormFactor
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
     *stats = Stats::default();
-    let quickly = quick::form_factor(from, to, |target| occluders(&Reach::Quick(target)), quick, stats);
+    let near = |target: &Target| occluders(&Reach::Quick(target));
+    let quickly = quick::form_factor(from, to, near, within, quick, stats);
     quickly.unwrap_or_else(|| {
         *stats = Stats::default();
         let reach = |pyramid: &Pyramid| occluders(&Reach::Exact { pyramid, deviation: to.deviation() });

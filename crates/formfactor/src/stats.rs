@@ -26,6 +26,16 @@ pub struct Stats {
     pub csg_edges: u64,
 }
 
+impl Stats {
+    /// The same work, of the parts of one target.
+    pub(crate) fn as_one(self) -> Self {
+        let none = u64::from(self.total == 0 && self.partial == 0);
+        let total = u64::from(self.total > 0 && self.none == 0 && self.partial == 0);
+        let partial = 1 - none - total;
+        Self { none, total, partial, traced: partial, ..self }
+    }
+}
+
 impl AddAssign for Stats {
     fn add_assign(&mut self, other: Self) {
         self.none += other.none;

@@ -46,12 +46,21 @@ fn convex_occluders_need_no_csg() {
 }
 
 #[test]
-fn a_frame_needs_csg() {
+fn a_frame_needs_no_csg() {
     let corners =
         |half: f64| [[-half, half, 1.0], [half, half, 1.0], [half, -half, 1.0], [-half, -half, 1.0]];
     let frame = PlanarPolygon::new([corners(0.4), corners(0.2)]).unwrap();
     let stats = stats(vec![frame]);
-    assert_eq!((stats.partial, stats.traced, stats.csg_edges), (1, 0, 12));
+    assert_eq!((stats.partial, stats.traced, stats.csg_edges), (1, 1, 0));
+}
+
+#[test]
+fn loops_that_cross_need_csg() {
+    let turned = [[-0.3, 0.3, 1.0], [0.4, 0.3, 1.0], [0.4, -0.3, 1.0], [-0.3, -0.3, 1.0]];
+    let other = [[-0.4, 0.2, 1.0], [0.3, 0.2, 1.0], [0.3, -0.2, 1.0], [-0.4, -0.2, 1.0]];
+    let stats = stats(vec![PlanarPolygon::new([turned, other]).unwrap()]);
+    assert_eq!((stats.partial, stats.traced), (1, 0));
+    assert!(stats.csg_edges >= 12);
 }
 
 #[test]

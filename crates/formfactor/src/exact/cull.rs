@@ -34,7 +34,7 @@ pub(crate) fn cull(view: &View, occluder: &PlanarPolygon) -> Verdict {
     let open = deviation::of_facing(view.from.position(), occluder) + planarity::of_contact(view, occluder);
     if facing == Ordering::Equal
         || sides.iter().all(|s| *s != Ordering::Greater)
-        || planarity::is_coplanar(view, occluder)
+        || planarity::is_coplanar(view.to, occluder)
     {
         return Verdict::HidesNothing { open };
     }

@@ -23,47 +23,55 @@ pub(crate) fn of_touch(view: &View, a: DVec3, b: DVec3, occluder: &PlanarPolygon
 
 /// A bound for an occluder that touches the target's plane, or is coplanar with it but for its deviation.
 pub(crate) fn of_contact(view: &View, occluder: &PlanarPolygon) -> f64 {
-    let height = deviation_height(view, occluder);
-    if height == 0.0 || !occluder.points().iter().any(|p| is_within(view, *p, height)) {
-        return 0.0;
-    }
-    if is_coplanar(view, occluder) {
+    if is_coplanar(view.to, occluder) {
         return overlap(view, occluder);
     }
-    swept(view.from.position(), occluder, deviation_at_target(view, occluder))
+    match at_target(view.to, occluder) {
+        0.0 => 0.0,
+        moved => swept(view.from.position(), occluder, moved),
+    }
 }
 
 /// Adds to vertices on the target's plane how far the line may be where the occluder meets it.
 pub(crate) fn loosen(view: &View, occluder: &PlanarPolygon, loops: &mut [Vec<Vertex>]) {
-    let height = deviation_height(view, occluder);
+    let height = deviation_height(view.to, occluder);
     if height > 0.0 {
-        let deviation = deviation_at_target(view, occluder);
+        let deviation = deviation_at_target(view.to, occluder);
         let at_target =
-            |v: &&mut Vertex| v.given.is_none_or(|i| is_within(view, occluder.points()[i], height));
+            |v: &&mut Vertex| v.given.is_none_or(|i| is_within(view.to, occluder.points()[i], height));
         loops.iter_mut().flatten().filter(at_target).for_each(|v| v.deviation += deviation);
     }
 }
 
 /// Whether an occluder may be coplanar with the target: it then counts as if it were.
-pub(crate) fn is_coplanar(view: &View, occluder: &PlanarPolygon) -> bool {
-    let height = deviation_height(view, occluder);
-    height > 0.0 && occluder.points().iter().all(|p| is_within(view, *p, height))
+pub(crate) fn is_coplanar(to: &PlanarPolygon, occluder: &PlanarPolygon) -> bool {
+    let height = deviation_height(to, occluder);
+    height > 0.0 && occluder.points().iter().all(|p| is_within(to, *p, height))
+}
+
+/// How far the line may be where an occluder meets the target's plane; 0 where none of its vertices is at the plane.
+pub(crate) fn at_target(to: &PlanarPolygon, occluder: &PlanarPolygon) -> f64 {
+    let height = deviation_height(to, occluder);
+    if height == 0.0 || !occluder.points().iter().any(|p| is_within(to, *p, height)) {
+        return 0.0;
+    }
+    deviation_at_target(to, occluder)
 }
 
 /// Whether a point is no higher over the target's plane, on either side.
-fn is_within(view: &View, point: DVec3, height: f64) -> bool {
-    view.to.plane().side(point).value.hi.abs() <= height
+fn is_within(to: &PlanarPolygon, point: DVec3, height: f64) -> bool {
+    to.plane().side(point).value.hi.abs() <= height
 }
 
 /// How far off the two polygons' vertices may be, as a height over the target's plane.
-fn deviation_height(view: &View, occluder: &PlanarPolygon) -> f64 {
-    2.0 * (view.to.deviation() + occluder.deviation()) * view.to.plane().normal.round().length()
+fn deviation_height(to: &PlanarPolygon, occluder: &PlanarPolygon) -> f64 {
+    2.0 * (to.deviation() + occluder.deviation()) * to.plane().normal.round().length()
 }
 
 /// How far the line may be where the two planes meet: the vertices' deviation over the sine of the planes' angle.
-fn deviation_at_target(view: &View, occluder: &PlanarPolygon) -> f64 {
-    let sine = view.to.normal().cross(occluder.normal()).length();
-    4.0 * (view.to.deviation() + occluder.deviation()) / sine
+fn deviation_at_target(to: &PlanarPolygon, occluder: &PlanarPolygon) -> f64 {
+    let sine = to.normal().cross(occluder.normal()).length();
+    4.0 * (to.deviation() + occluder.deviation()) / sine
 }
 
 /// The form factor of the part of the target that a polygon in its plane overlaps.

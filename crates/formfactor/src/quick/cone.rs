@@ -60,6 +60,10 @@ pub(super) const ERROR: f64 = 9.0 * ROUNDING;
 /// More than underflow can take from a product of three, for coordinates up to 2^200.
 pub(super) const UNDERFLOW: f64 = 1e-240;
 
+/// A point counts as on a plane if it is no further off it than so many times its error, as the roundings of turned and moved files leave
+/// what was drawn on one line; a bound counts what that changes.
+pub(super) const NEAR: f64 = 64.0;
+
 /// On which side of a plane a point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {

@@ -1,9 +1,7 @@
 //! The corners of a cone in pairs, so that two are multiplied at once.
 use super::interval::lesser;
+pub(super) use crate::shapes::convex::MOST;
 use glam::DVec3;
-
-/// Cones of more corners are not laid out so.
-pub(super) const MOST: usize = 8;
 
 /// A number for each corner.
 pub(super) type Lanes = [[f64; 2]; MOST / 2];

@@ -8,9 +8,10 @@
 //! they tell which edges cross, and divisions are needed for those alone.
 //!
 //! Every sign comes with a bound on its error. Where one end of an edge may lie on either side of a plane, the parameter of the
-//! crossing errs by little, and the bound counts it. Where a whole edge may lie in a plane, the two edges must be one and the
-//! same; if not, the exact route takes over. It does so too where a polygon is not convex, and where the bound would be too
-//! large.
+//! crossing errs by little, and the bound counts it. Where all of an edge lies in the plane of another one but for roundings, the two
+//! count as one as far as they run along each other, and the bound counts what is between; where it may or may not, the exact
+//! route takes over. It does so too where the bound would be too large. Polygons that are not convex are
+//! convex pieces that meet in whole edges: an edge between two of them is hidden by both.
 mod boundary;
 mod classify;
 mod clip;
@@ -19,6 +20,7 @@ mod contour;
 mod corners;
 mod inside;
 mod interval;
+mod joints;
 mod lanes;
 mod neighbours;
 mod sides;
@@ -29,11 +31,13 @@ mod trace;
 pub(crate) use contour::unoccluded;
 
 use crate::form_factor::FormFactor;
+use crate::numeric::{predicates::place, rounding::ROUNDING};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use classify::{Class, classify};
 use cone::{Cones, Corner, Edge, Spread};
 use glam::DVec3;
+use std::cmp::Ordering;
 use target::{HalfSpace, Target};
 
 /// The quick route's buffers, to be used again.
@@ -47,23 +51,73 @@ pub(crate) struct QuickBuffers {
     trace: trace::TraceBuffers,
 }
 
-impl QuickBuffers {
-    /// Whether the visible boundary is to be kept from now on.
-    pub(crate) fn record(&mut self, is_kept: bool) {
-        self.trace.record.is_kept = is_kept;
-    }
+/// The error up to which a form factor is good enough beside a boundary.
+const ROUGH: f64 = 1e-9;
 
-    /// The visible boundary of the last form factor that was found, in parts of edges relative to dA.
-    pub(crate) fn recorded(&self) -> impl Iterator<Item = [DVec3; 2]> {
-        self.trace.record.parts.iter().copied()
-    }
+/// The visible boundary of a target, in parts of edges relative to dA, and its form factor; `None` where doubles do not decide it.
+pub(crate) fn boundary<'a, I>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl Fn(&Target) -> I,
+    buffers: &mut QuickBuffers,
+) -> Option<(FormFactor, Vec<[DVec3; 2]>)>
+where
+    I: IntoIterator<Item = &'a PlanarPolygon>,
+{
+    buffers.trace.record.is_kept = true;
+    let factor = form_factor(from, to, occluders, Some(ROUGH), buffers, &mut Stats::default());
+    buffers.trace.record.is_kept = false;
+    Some((factor?, std::mem::take(&mut buffers.trace.record.parts)))
 }
 
-/// The form factor past the occluders that `occluders` finds for the target; `None` where doubles do not decide it.
+/// Of a target in more convex pieces the exact route sees the whole at once.
+const MANY: usize = 16;
+
+/// The form factor past the occluders that `occluders` finds for each convex piece of the target; `None` where doubles do not decide it, or
+/// leave more open than is good enough: `within` or, where that is not given, little.
 pub(crate) fn form_factor<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
-    occluders: impl FnOnce(&Target) -> I,
+    occluders: impl Fn(&Target) -> I,
+    within: Option<f64>,
+    buffers: &mut QuickBuffers,
+    stats: &mut Stats,
+) -> Option<FormFactor>
+where
+    I: IntoIterator<Item = &'a PlanarPolygon>,
+{
+    buffers.trace.record.parts.clear();
+    if to.is_convex() {
+        return to_piece(from, (to, to.points()), occluders, within, buffers, stats);
+    }
+    let count = to.convex_pieces().count();
+    if !(1..=MANY).contains(&count) || to.plane().quick_side(from.position()) != Some(Ordering::Greater) {
+        return None;
+    }
+    let share = within.map(|within| within / count as f64);
+    let (mut value, mut error_bound) = (0.0_f64, 0.0);
+    for piece in to.convex_pieces() {
+        let part = to_piece(from, (to, piece), &occluders, share, buffers, stats)?;
+        value += part.value;
+        error_bound += part.error_bound;
+    }
+    *stats = stats.as_one();
+    error_bound += count as f64 * ROUNDING * value;
+    Some(FormFactor { value: value.min(1.0), error_bound })
+}
+
+/// Whether anything of a piece is above the horizon.
+fn rises(from: &DifferentialArea, piece: &[DVec3]) -> bool {
+    let height = |p: &DVec3| place(from.given_normal(), from.position(), *p);
+    piece.iter().any(|p| height(p) == Ordering::Greater)
+}
+
+/// The form factor of a convex piece of a polygon.
+fn to_piece<'a, I>(
+    from: &DifferentialArea,
+    to: (&PlanarPolygon, &[DVec3]),
+    occluders: impl Fn(&Target) -> I,
+    within: Option<f64>,
     buffers: &mut QuickBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor>
@@ -71,8 +125,11 @@ where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
     let QuickBuffers { corners, edges, sides, spread, cones, trace } = buffers;
-    trace.record.parts.clear();
-    let target = Target::new(from, to, corners, edges, sides, spread)?;
+    let Some(target) = Target::new(from, to, corners, edges, sides, spread) else {
+        let is_unseen = to.0.deviation() == 0.0 && !rises(from, to.1);
+        stats.none += u64::from(is_unseen);
+        return is_unseen.then(FormFactor::default);
+    };
     let mut open = 0.0;
     cones.clear();
     for occluder in occluders(&target) {
@@ -92,5 +149,5 @@ where
             }
         }
     }
-    trace::sum(&target, cones, open, trace, stats)
+    trace::sum(&target, cones, (open, within), trace, stats)
 }

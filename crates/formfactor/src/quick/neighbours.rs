@@ -1,6 +1,10 @@
 //! Which cones may meet: a sweep over the rectangles of slopes around them.
 use super::slopes::Slopes;
 
+/// From so many cones on it pays to look for those inside of one of the largest, of which so many are taken.
+const MANY: usize = 12;
+const LARGE: usize = 4;
+
 /// Cones, and the rectangles around them.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
@@ -14,6 +18,32 @@ impl Neighbours {
 
     pub(super) fn push(&mut self, around: Slopes, cone: usize) {
         self.found.push((around, cone));
+    }
+
+    /// The cones that may be inside of another one, whose rectangle is given, as theirs are inside of it.
+    pub(super) fn inside(&self, outer: Slopes) -> impl Iterator<Item = usize> + '_ {
+        self.found.iter().filter(move |(around, _)| outer.contains(around)).map(|(_, cone)| *cone)
+    }
+
+    pub(super) fn retain(&mut self, is_kept: impl Fn(usize) -> bool) {
+        self.found.retain(|(_, cone)| is_kept(*cone));
+    }
+
+    /// A few of the largest cones, as others may be inside of them; none where all pairs are few.
+    pub(super) fn largest(&self) -> impl Iterator<Item = (Slopes, usize)> + use<> {
+        let mut largest: [Option<(Slopes, usize)>; LARGE] = [None; LARGE];
+        if self.found.len() >= MANY {
+            for found in &self.found {
+                let mut next = Some(*found);
+                for place in &mut largest {
+                    let area = |one: &Option<(Slopes, usize)>| one.map_or(0.0, |(around, _)| around.area());
+                    if area(&next) > area(place) {
+                        std::mem::swap(place, &mut next);
+                    }
+                }
+            }
+        }
+        largest.into_iter().flatten()
     }
 
     /// Calls back with every two cones whose rectangles meet.

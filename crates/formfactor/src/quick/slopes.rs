@@ -24,6 +24,15 @@ pub(super) struct Slopes {
 impl Slopes {
     const ALL: Self = Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY };
 
+    pub(super) fn contains(&self, other: &Self) -> bool {
+        self.low.cmple(other.low).all() && self.high.cmpge(other.high).all()
+    }
+
+    /// Infinite for what has no rectangle.
+    pub(super) fn area(&self) -> f64 {
+        (self.high - self.low).element_product()
+    }
+
     /// Whether two rectangles meet that have some first slope in common.
     pub(super) fn meets_beside(&self, other: &Self) -> bool {
         self.low.y <= other.high.y && other.low.y <= self.high.y

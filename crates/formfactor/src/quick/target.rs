@@ -9,7 +9,7 @@ use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A convex target as dA sees it, cut off at the horizon.
+/// A convex target, or a convex piece of one, as dA sees it, cut off at the horizon.
 #[derive(Debug)]
 pub(crate) struct Target<'a> {
     pub(super) from: &'a DifferentialArea,
@@ -80,20 +80,20 @@ pub(super) enum Apart<'t> {
 const INVERSE: f64 = 3.0 / ERROR;
 
 impl<'a> Target<'a> {
-    /// `None` when it is not convex, or where doubles leave open whether it is seen.
+    /// A convex piece of `to`; `None` where doubles leave open whether it is seen.
     pub(super) fn new(
         from: &'a DifferentialArea,
-        to: &'a PlanarPolygon,
+        (to, piece): (&'a PlanarPolygon, &[DVec3]),
         [corners, spare]: &mut [Vec<Corner>; 2],
         edges: &'a mut Vec<Edge>,
         sides: &'a mut Vec<HalfSpace>,
         spread: &'a mut Spread,
     ) -> Option<Self> {
         let (origin, normal) = (from.position(), from.given_normal());
-        if !to.is_convex() || to.plane().quick_side(origin) != Some(Ordering::Greater) {
+        if to.plane().quick_side(origin) != Some(Ordering::Greater) {
             return None;
         }
-        copy(to, origin, false, corners);
+        copy(piece, to.deviation(), origin, false, corners);
         let height = |c: &Corner| c.given.map_or(Ordering::Equal, |p| place(normal, origin, p));
         if corners.iter().any(|c| height(c) == Ordering::Less) {
             let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();

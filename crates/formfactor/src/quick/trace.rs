@@ -45,15 +45,12 @@ impl Record {
 const FINE: f64 = 8192.0 * ROUNDING;
 const FINE_ALONE: f64 = FINE / 4.0;
 
-/// The error up to which the sum is good enough beside a centroid, which is known to fewer digits.
-const ROUGH: f64 = 1e-9;
-
 /// The form factor of the target behind the cones: Lambert's sum over the visible boundary, with an error of at most `open`
-/// from what was culled and cut. `None` where doubles leave more open.
+/// from what was culled and cut. `None` where doubles leave more open, than `within` if that is given.
 pub(super) fn sum(
     target: &Target,
     cones: &Cones,
-    open: f64,
+    (open, within): (f64, Option<f64>),
     buffers: &mut TraceBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
@@ -65,16 +62,23 @@ pub(super) fn sum(
             sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error()));
             buffers.record.add(edge, 1.0, [0.0, 1.0]);
         }
-        return match buffers.record.is_kept {
-            true => sum.form_factor(error).filter(|factor| factor.error_bound <= ROUGH),
-            false => sum.fine(error).or_else(|| unhidden(target.from, target.to, open)),
+        return match within {
+            Some(_) => enough(target, &sum, error, within),
+            None if !target.to.is_convex() => enough(target, &sum, error, within),
+            None => sum.fine(error).or_else(|| unhidden(target.from, target.to, open)),
         };
     }
     trace(target, cones, buffers, &mut sum)?;
+    let error = error + buffers.boundary.joints.between;
     stats.partial += 1;
     stats.traced += 1;
-    if buffers.record.is_kept {
-        return sum.form_factor(error).filter(|factor| factor.error_bound <= ROUGH);
+    enough(target, &sum, error, within)
+}
+
+/// The form factor where it is known well enough: within what is asked for, or for the angle that the target subtends.
+fn enough(target: &Target, sum: &Sum, error: f64, within: Option<f64>) -> Option<FormFactor> {
+    if let Some(within) = within {
+        return sum.form_factor(error).filter(|factor| factor.error_bound <= within);
     }
     let perimeter: f64 = target.cone.edges.iter().map(Edge::least_angle).sum();
     let scale = perimeter.min(1.0);
@@ -93,7 +97,16 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
             neighbours.push(frame.around(cones.cone(cone).edges), cone);
         }
     }
+    for (around, outer) in neighbours.largest() {
+        neighbours.inside(around).for_each(|inner| boundary.swallow(cones, [inner, outer]));
+    }
+    neighbours.retain(|cone| !boundary.is_swallowed(cone));
     neighbours.for_each_pair(|pair| boundary.hide(cones, pair));
+    let sides = target.cone.edges;
+    let edge = |number: usize| sides.get(number).unwrap_or_else(|| &cones.edges()[number - sides.len()]);
+    if !boundary.joints.agree(edge) {
+        return None;
+    }
     let (of_target, of_cones) = boundary.rests();
     for (edge, rest) in target.cone.edges.iter().zip(of_target) {
         let Some(whole) = boundary.left(rest, hidden)? else { continue };

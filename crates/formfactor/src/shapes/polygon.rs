@@ -1,5 +1,5 @@
 //! Planar polygons: loops with holes, and the plane that they share.
-use super::loops;
+use super::{convex, loops};
 use crate::error::Error;
 use crate::numeric::rounding::{ROUNDING, SMALLEST, in_range};
 use crate::numeric::{offset::Offset, predicates::Plane};
@@ -43,6 +43,8 @@ pub struct PlanarPolygon {
     /// How far a vertex as given may lie from where it stands on the plane: zero for triangles.
     deviation: f64,
     convex: bool,
+    /// Convex pieces that meet in whole edges; none where it is convex, or crosses itself.
+    pieces: Vec<Vec<DVec3>>,
     /// The points in the order of their kept coordinates.
     order: Vec<usize>,
 }
@@ -67,7 +69,9 @@ impl PlanarPolygon {
         let [u, v, w] = axes;
         let slopes = [u, v].map(|axis| plane.normal.0[axis] / plane.normal.0[w]);
         let order = (0..points.len()).collect();
-        let mut polygon = Self { points, ends, plane, normal, axes, slopes, deviation, convex: false, order };
+        let (convex, pieces) = (false, Vec::new());
+        let mut polygon =
+            Self { points, ends, plane, normal, axes, slopes, deviation, convex, pieces, order };
         polygon.convex = polygon.ends.len() == 1 && loops::is_convex(&polygon.flat_loops()[0]);
         // A spike of many decades may have an area that rounds to 0, or a Newell normal that lies in the dropped axis' plane.
         let area = polygon.area();
@@ -76,6 +80,7 @@ impl PlanarPolygon {
         }
         let Self { points, order, .. } = &mut polygon;
         order.sort_by(|a, b| by_kept_axes(axes, points[*a], points[*b]));
+        polygon.pieces = if polygon.convex { Vec::new() } else { polygon.cut() };
         Ok(polygon)
     }
 
@@ -133,6 +138,21 @@ impl PlanarPolygon {
     /// Whether it is one convex loop; decided exactly, in the two kept coordinates.
     pub(crate) fn is_convex(&self) -> bool {
         self.convex
+    }
+
+    /// Itself where it is convex, else convex pieces that meet in whole edges, counter-clockwise seen from the front; none where the
+    /// loops cross each other.
+    pub(crate) fn convex_pieces(&self) -> impl Iterator<Item = &[DVec3]> {
+        let whole = self.convex.then_some(self.points());
+        whole.into_iter().chain(self.pieces.iter().map(Vec::as_slice))
+    }
+
+    fn cut(&self) -> Vec<Vec<DVec3>> {
+        let vertex = |flat: &DVec2| self.find(*flat).map(|index| self.points[index]);
+        let raised = |piece: &Vec<DVec2>| piece.iter().map(vertex).collect();
+        let pieces: Option<Vec<Vec<DVec3>>> =
+            convex::convex_pieces(&self.flat_loops()).iter().map(raised).collect();
+        pieces.unwrap_or_default()
     }
 
     /// The two kept coordinates of a point of the plane, the third dropped: bit for bit what was given.

@@ -2,14 +2,19 @@
 use super::{
     direct::gather, follow::follow, hemicube::Hemicubes, ledger::gaps, options::Method, relax::relax,
 };
-use super::{run::Run, shoot::shoot, shooters::Shooters, solution::Solution};
+use super::{run::Run, shoot::Shooting, shoot::shoot, shooters::Shooters, solution::Solution};
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::{Scene, patch::Patch};
 
 /// From this reflectance of a closed room on, solving for all pieces at once is quicker than shooting.
 const STIFF: f64 = 0.9;
 /// So many columns are found for the closure in any case.
 const FEW: usize = 64;
+
+/// Whether all light comes from beyond the scene: then it leaves every room that it reaches, and none is closed.
+fn is_lit_from_beyond(scene: &Scene) -> bool {
+    scene.lamps.is_empty() && !scene.patches.iter().any(Patch::emits)
+}
 
 impl Run<'_> {
     /// Goes on until the tolerance is reached (true), or the watcher, a limit or a defect ends it (false).
@@ -19,12 +24,31 @@ impl Run<'_> {
     }
 
     fn solve(&mut self, scene: &Scene) -> Result<bool, Error> {
-        let choice = if self.sample(scene)? && self.shine()? { self.choose(scene)? } else { None };
-        match choice {
+        if !(self.sample(scene)? && self.shine()?) {
+            return Ok(false);
+        }
+        if self.may_be_stiff() && self.options.method == Method::Mesh {
+            // Whether a room is closed takes the columns of all its patches: as many shots may do.
+            match shoot(self, scene.patches.len())? {
+                Shooting::Spent => (),
+                ended => return Ok(ended == Shooting::Converged),
+            }
+        }
+        match self.choose(scene)? {
             None => Ok(false),
-            Some(Method::Shoot) => shoot(self),
+            Some(Method::Shoot) => Ok(shoot(self, usize::MAX)? == Shooting::Converged),
             Some(method) => relax(self, method),
         }
+    }
+
+    /// Whether a room that reflects so much that shooting takes long may be closed, and not reflect all.
+    fn may_be_stiff(&self) -> bool {
+        let largest = self.largest_reflectance();
+        (STIFF..1.0).contains(&largest)
+    }
+
+    fn largest_reflectance(&self) -> f64 {
+        (0..self.light.areas.len()).map(|element| self.light.largest_reflectance(element)).fold(0.0, f64::max)
     }
 
     /// Draws hemicubes where they are asked for; false when the watcher wants to stop.
@@ -41,26 +65,29 @@ impl Run<'_> {
     /// Nothing when the watcher wants to stop.
     fn choose(&mut self, scene: &Scene) -> Result<Option<Method>, Error> {
         let asked = self.options.method;
-        let largest = (0..self.light.areas.len()).map(|element| self.light.largest_reflectance(element));
-        let largest = largest.fold(0.0, f64::max);
+        let largest = self.largest_reflectance();
         let is_free = asked == Method::Mesh;
-        if largest < 1.0 && (asked == Method::Shoot || (is_free && largest < STIFF)) {
+        if largest < 1.0
+            && (asked == Method::Shoot || (is_free && (largest < STIFF || is_lit_from_beyond(scene))))
+        {
             return Ok(Some(Method::Shoot));
         }
         let Some(rooms) = follow(scene, self)? else { return Ok(None) };
         rooms.check(scene)?;
         self.gaps = gaps(&self.light, Some(&rooms.sums));
-        let stiff = rooms.closed_reflectance() >= STIFF;
-        if asked != Method::Shoot {
+        let method = match (is_free, rooms.closed_reflectance() >= STIFF) {
+            (true, true) => Method::Cg,
+            (true, false) => Method::Shoot,
+            (false, _) => asked,
+        };
+        if method != Method::Shoot {
+            // What was shot so far is found again, with the rest.
+            self.light.receive_all(vec![0.0; self.light.irradiance.len()]);
             let lit = rooms.lit().into_iter();
             self.shooters = Shooters::new(lit, self.factors.subdivision, &self.light);
         }
         self.rooms = Some(rooms);
-        Ok(Some(match (is_free, stiff) {
-            (true, true) => Method::Cg,
-            (true, false) => Method::Shoot,
-            (false, _) => asked,
-        }))
+        Ok(Some(method))
     }
 
     /// The solution; direct light is gathered for the last mesh only.

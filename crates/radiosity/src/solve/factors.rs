@@ -7,6 +7,9 @@ use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use std::{ops::Range, sync::Arc};
 
+/// What a form factor may be off by: far less than what tells a closed room from an open one.
+const ENOUGH: f64 = 1e-11;
+
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
 #[derive(Debug)]
 pub(super) struct Factors<'s> {
@@ -128,7 +131,7 @@ impl<'s> Factors<'s> {
         workers::from_all(points, &self.scene.patches[patch].name, |from| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(patch), "injected");
-            self.enclosure.form_factor_to_part(from, self.surface_of[patch], part).value
+            self.enclosure.form_factor_within(from, self.surface_of[patch], part, ENOUGH).value
         })
     }
 

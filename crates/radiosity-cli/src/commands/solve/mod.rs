@@ -24,6 +24,7 @@ use options::{Solve, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Solves a scene and writes every output asked for; nothing is solved when an output cannot be written.
 ///
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json && arguments.output.iter().any(|path| is_stream(path)) {
         return Err(Failure::usage("--json and -o - both write to stdout; leave out one of them"));
     }
-    let options = options(arguments)?;
+    let (start, mut options) = (Instant::now(), options(arguments)?);
     let outputs = Output::all(&arguments.output, &arguments.format)?;
     let lit = |scene: &mut Scene| light(scene, &arguments.lights);
     let input = input::read_repaired(&arguments.scene, arguments.reading, lit)?;
@@ -46,6 +47,8 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
+    // Reading and repair count.
+    options.max_seconds = options.max_seconds.map(|limit| (limit - start.elapsed().as_secs_f64()).max(0.0));
     let solution = radiosity::solve_from(scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;

@@ -149,12 +149,14 @@ impl Links {
         self.all = links;
     }
 
-    /// Finds what whole tiles exchange in all, as well as it matters in such light; not where they are too many.
-    pub(super) fn total(&mut self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) {
-        if self.has_clusters() {
-            return;
-        }
-        self.totals = Totals::of(tiling, &self.all, lights, error);
+    /// How exact it is to be known what whole tiles exchange in all, in such light; nothing where they are too many.
+    pub(super) fn wanted(&self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) -> Vec<[f64; 2]> {
+        if self.has_clusters() { Vec::new() } else { Totals::wanted(tiling, &self.all, lights, error) }
+    }
+
+    /// Takes what whole tiles exchange in all.
+    pub(super) fn total(&mut self, totals: Totals) {
+        self.totals = totals;
         self.all.retain(|link| !self.totals.is_hidden(link.pair));
         self.totals.share(&mut self.all);
     }

@@ -146,8 +146,9 @@ fn positive(tile: &Tile, [mean, first, second]: Linear) -> Linear {
         -(a * first + b * second)
     };
     let dip = tile.outline.corners.iter().map(dip).fold(0.0, f64::max);
-    let share = if dip > mean { mean.max(0.0) / dip } else { 1.0 };
-    [mean.max(0.0), share * first, share * second]
+    let mean = mean.max(0.0);
+    let share = if dip > mean { mean / dip } else { 1.0 };
+    [mean, share * first, share * second]
 }
 
 /// The solution on a mesh of the leaves, as far as it is known here.
@@ -209,7 +210,7 @@ pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut ver
         let (patch, band) = (solution.mesh.elements[at / bands].patch, at % bands);
         // Where no vertex sees what the patch receives it is even.
         let [is, was] = [after[patch][band], before[patch][band]];
-        let here = if is > 0.0 { shown * (was / is) } else { was };
+        let here = if is > 0.0 { was * (shown / is) } else { was };
         solution.radiosity[at] += solution.reflectance[at] * (here - solution.irradiance[at]);
         solution.irradiance[at] = here;
     }

@@ -12,6 +12,7 @@ use super::links::Links;
 use super::output::LeafLight;
 use super::stand::{Follower, Stand};
 use super::tiling::Tiling;
+use super::totals::Totals;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::solve::{options::Options, solution::Solution, state::State};
@@ -22,6 +23,8 @@ use std::{ops::ControlFlow, time::Instant};
 const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
 /// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
 const SUM: f64 = 2.0;
+/// So many totals are found before the watcher is asked whether to go on.
+const TOTALS: usize = 16;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -92,13 +95,32 @@ impl Levels<'_> {
         }
         self.links.refuse_endless(&self.tiling, |tile, band| self.direct.received(tile, band)[0])?;
         let lights = self.settle(FEW, false);
-        self.links.total(&self.tiling, &lights, self.options.error);
+        if !self.total(&lights, state) {
+            return Ok(false);
+        }
         for times in COARSE {
             if !self.level(times * SUM * self.options.error, state)? {
                 return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    /// Finds what whole tiles exchange in all, as well as it matters in such light; false when the watcher wants to stop.
+    fn total(&mut self, lights: &[BandLight], state: &State) -> bool {
+        let wanted = self.links.wanted(&self.tiling, lights, self.options.error);
+        let mut totals = Totals::default();
+        for first in (0..wanted.len()).step_by(TOTALS) {
+            if self.report(state).is_break() {
+                return false;
+            }
+            let batch = first..wanted.len().min(first + TOTALS);
+            totals.find(&self.tiling, &self.links.all[batch.clone()], &wanted[batch]);
+        }
+        if !wanted.is_empty() {
+            self.links.total(totals);
+        }
+        true
     }
 
     /// Refines until the errors of every patch's links add up to no more than a share of its light; false when the run is to end.

@@ -32,14 +32,22 @@ struct Total {
 }
 
 impl Totals {
-    /// Of the links of whole tiles, past all that stands between them, for light that is to be right within such an error.
-    pub(super) fn of(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight], error: f64) -> Totals {
-        if links.len() > PAIRS {
-            return Totals::default();
-        }
-        let shares = shares(tiling, links, lights);
-        let total = |(link, share): (&Link, f64)| total(tiling, link, [EXACT * error * share, EXACT * error]);
-        Totals(links.par_iter().zip(shares).map(total).collect())
+    /// How exact the total of each link of whole tiles is to be, absolutely and relatively, for light that is to be right within such an
+    /// error; none where there are too many.
+    pub(super) fn wanted(
+        tiling: &Tiling<'_>,
+        links: &[Link],
+        lights: &[BandLight],
+        error: f64,
+    ) -> Vec<[f64; 2]> {
+        let all = if links.len() > PAIRS { Vec::new() } else { shares(tiling, links, lights) };
+        all.into_iter().map(|share| [EXACT * error * share, EXACT * error]).collect()
+    }
+
+    /// Finds those of the next links, past all that stands between their tiles.
+    pub(super) fn find(&mut self, tiling: &Tiling<'_>, links: &[Link], wanted: &[[f64; 2]]) {
+        let total = |(link, wanted): (&Link, &[f64; 2])| total(tiling, link, *wanted);
+        self.0.par_extend(links.par_iter().zip(wanted).map(total));
     }
 
     /// Whether it is known that all that a pair could exchange is hidden.

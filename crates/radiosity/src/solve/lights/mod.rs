@@ -6,7 +6,7 @@
 //! cubature    integrals over what is lit
 //! ```
 //!
-//! What a point receives is exact: a beam meets it or does not, and of the sky it sees the visible part of one large polygon. What a polygon
+//! What a point receives is exact: a beam meets it or does not, and of the sky it sees the visible parts of a ceiling and four walls. What a polygon
 //! receives from a beam is the integral over its lit part, another polygon: its shadows have exact edges.
 mod beam;
 mod cubature;

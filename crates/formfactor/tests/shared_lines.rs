@@ -1,0 +1,130 @@
+//! Polygons that share lines as those of buildings do: frames, steps and boards on a grid, whose edges run along each other in part, seen
+//! from points in their planes. Doubles and polygon Booleans, which share no topology, have one value within their bounds.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+use formfactor::glam::DQuat;
+use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon, by_hierarchy};
+use proptest::prelude::*;
+
+/// A rectangle on a grid plane: the axis that it is perpendicular to, how far along, and its corners.
+type Board = (usize, i32, [i32; 2], [i32; 2]);
+
+/// A board, which of the shapes below it has, and how far it is off the grid.
+type Thing = (Board, u8, [f64; 3]);
+
+/// How a scene is turned and moved.
+type Pose = (f64, [f64; 3], [f64; 3]);
+
+fn board() -> impl Strategy<Value = Board> {
+    (0usize..3, -3..4, prop::array::uniform2(-4..4), prop::array::uniform2(1..6))
+}
+
+fn pose() -> impl Strategy<Value = Pose> {
+    let moved = prop::array::uniform3(-1e3..1e3);
+    prop_oneof![
+        Just((0.0, [0.0, 0.0, 1.0], [0.0; 3])),
+        (0.0..6.0, prop::array::uniform3(-1.0..1.0), moved),
+        (0.0..6.0, Just([0.0, 0.0, 1.0]), Just([0.0; 3])),
+    ]
+}
+
+/// Nothing, or about as much as roundings are, or a little more.
+fn nudge() -> impl Strategy<Value = [f64; 3]> {
+    let size =
+        prop_oneof![4 => Just(0.0), 1 => Just(1e-15), 1 => Just(3e-14), 1 => Just(1e-12), 1 => Just(1e-10)];
+    (size, prop::array::uniform3(-1.0..1.0)).prop_map(|(size, way)| way.map(|way| way * size))
+}
+
+/// A board; with a hole if it is large enough, or a corner cut out of it.
+fn loops(((_, _, low, size), shape, [_, across, up]): Thing) -> Vec<Vec<[f64; 2]>> {
+    let [x, y] = [f64::from(low[0]) + across, f64::from(low[1]) + up];
+    let [w, h] = size.map(f64::from);
+    let outer = vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]];
+    let hole =
+        vec![[x + 1.0, y + 1.0], [x + w - 1.0, y + 1.0], [x + w - 1.0, y + h - 1.0], [x + 1.0, y + h - 1.0]];
+    match shape {
+        0 if w > 2.0 && h > 2.0 => vec![outer, hole],
+        1 if w > 1.0 && h > 1.0 => {
+            vec![vec![[x, y], [x + w, y], [x + w, y + 1.0], [x + 1.0, y + 1.0], [x + 1.0, y + h], [x, y + h]]]
+        }
+        _ => vec![outer],
+    }
+}
+
+fn placed(thing: Thing, (angle, axis, moved): Pose) -> Option<PlanarPolygon> {
+    let (normal, height) = (thing.0.0, f64::from(thing.0.1) + thing.2[0]);
+    let turn = DQuat::from_axis_angle(DVec3::from(axis).try_normalize()?, angle);
+    let place = |[u, v]: [f64; 2]| {
+        let mut point = [0.0; 3];
+        (point[normal], point[(normal + 1) % 3], point[(normal + 2) % 3]) = (height, u, v);
+        turn * DVec3::from(point) + DVec3::from(moved)
+    };
+    let loops: Vec<Vec<DVec3>> =
+        loops(thing).iter().map(|ring| ring.iter().map(|p| place(*p)).collect()).collect();
+    PlanarPolygon::new(loops).ok()
+}
+
+fn scene() -> impl Strategy<Value = (Pose, Vec<Thing>, [i32; 3], usize, bool)> {
+    let things = prop::collection::vec((board(), 0u8..4, nudge()), 2..14);
+    (pose(), things, prop::array::uniform3(-6..7), 0usize..3, any::<bool>())
+}
+
+/// Compares both ways.
+fn compare(
+    (pose, things, at, axis, is_half): (Pose, Vec<Thing>, [i32; 3], usize, bool),
+) -> Result<(), TestCaseError> {
+    let polygons: Vec<PlanarPolygon> = things.iter().filter_map(|thing| placed(*thing, pose)).collect();
+    let (angle, way, moved) = pose;
+    let turn = DVec3::from(way).try_normalize().map(|way| DQuat::from_axis_angle(way, angle));
+    let (Some(turn), Some((target, others))) = (turn, polygons.split_first()) else {
+        return Ok(());
+    };
+    let at = DVec3::from(at.map(|c| f64::from(c) / if is_half { 2.0 } else { 1.0 }));
+    let normal = turn * DVec3::AXES[axis];
+    let from = DifferentialArea::new(turn * at + DVec3::from(moved), normal).unwrap();
+    let exact = by_hierarchy(&from, target, others);
+    let (found, stats) = Enclosure::new(polygons.clone()).form_factor_with_stats(&from, 0);
+    let off = (found.value - exact.value).abs();
+    prop_assert!(
+        off <= found.error_bound + exact.error_bound,
+        "{found:?} is not {exact:?} by {off}; {stats:?}"
+    );
+    Ok(())
+}
+
+/// On the grid.
+const ON: [f64; 3] = [0.0; 3];
+
+/// What clipping leaves of a frame at the target's plane has an edge of one rounding, whose plane leads anywhere.
+#[test]
+fn a_frame_that_ends_at_the_targets_plane() {
+    let pose = (2.088_747_791_939_261, [0.0, 0.0, 1.0], [0.0; 3]);
+    let things = vec![((0, -3, [0, 2], [5, 1]), 0, ON), ((1, 1, [-2, -3], [5, 3]), 0, ON)];
+    compare((pose, things, [5, -2, -3], 2, false)).unwrap();
+}
+
+/// Of the target a sliver of some roundings is above the horizon; to take its edge for the occluder's would turn it over.
+#[test]
+fn a_target_that_ends_at_the_horizon() {
+    let axis = [-0.087_581_645_451_194_19, -0.452_038_266_789_703_55, -0.445_737_502_565_118_3];
+    let pose = (3.399_987_406_062_801, axis, [0.0, 0.0, -88.699_585_741_950_33]);
+    let things = vec![((2, -2, [0, 1], [3, 3]), 2, ON), ((2, 0, [-3, 1], [5, 3]), 2, ON)];
+    compare((pose, things, [3, 4, 3], 1, false)).unwrap();
+}
+
+/// All edges of the occluder lie at the horizon but for roundings, as the target's lower one does; one of them is a little further off.
+#[test]
+fn a_point_within_roundings_of_a_board() {
+    let pose = (1.745_874_482_673_570_4, [0.0, 0.0, 1.0], [0.0; 3]);
+    let target = ((1, -1, [2, -1], [1, 1]), 0, [0.0, 6.310_468_052_618_088e-11, 6.125_714_538_050_427e-11]);
+    let board = ((0, 0, [-1, -2], [1, 4]), 0, [1.122_428_320_580_509_2e-14, 0.0, 0.0]);
+    compare((pose, vec![target, board], [0, -1, 0], 0, true)).unwrap();
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(5_000))]
+
+    #[test]
+    fn doubles_agree_with_booleans_where_edges_run_along_each_other(scene in scene()) {
+        compare(scene)?;
+    }
+}
