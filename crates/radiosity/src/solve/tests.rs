@@ -1,8 +1,10 @@
 //! Laws of the solver.
 use super::options::{Method, Options};
+use super::progress::Moment;
 use super::{solution::Solution, state::State};
 use super::{solve, solve_from};
 use crate::error::Error;
+use crate::scene::sky::{Sky, SkyKind};
 use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
@@ -43,6 +45,25 @@ fn a_furnace_is_uniform() {
             assert!((b - 1.0).abs() <= solution.bound[0] + 1e-12, "{b}");
         }
         assert!(solution.bound[0] < 1e-5, "{:?}", solution.bound);
+    }
+}
+
+/// To know whether a room is closed takes the columns of all its patches: white ones shoot first, and those that a sky lights only shoot.
+#[test]
+fn white_rooms_shoot_before_all_columns_are_found() {
+    let mut lit = room(0.95, 0.0);
+    lit.patches[2].emission[0] = 5.0;
+    let mut open = room(0.95, 0.0);
+    open.patches.remove(1);
+    open.asset.up = DVec3::Z;
+    open.sky = Some(Sky { radiance: vec![1.0], kind: SkyKind::Uniform });
+    for (scene, prepared) in [(lit, 0), (open, 1)] {
+        let mut before = 0;
+        let solution = solve(&scene, &options(200, 1e-6), |progress| {
+            before += usize::from(progress.shots == 0 && matches!(progress.moment, Moment::Preparation));
+            if progress.shots == 1 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert_eq!((solution.unwrap().shots, before), (1, prepared));
     }
 }
 

@@ -217,3 +217,18 @@ pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut ver
     solution.gathered = Some(Gathered { elements: solution.irradiance.clone(), vertices });
     solution
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::scene;
+
+    /// Products leave a patch in the dark a little less than nothing, and level.
+    #[test]
+    fn less_than_nothing_is_nothing() {
+        let scene = scene("cornell-box").unwrap();
+        let tiling = Tiling::new(&scene).unwrap();
+        assert_eq!(positive(&tiling.tiles[0], [-1e-30, 0.0, 0.0]), [0.0; 3]);
+        assert_eq!(positive(&tiling.tiles[0], [-1e-30, 1.0, -2.0]), [0.0; 3]);
+    }
+}
