@@ -81,14 +81,38 @@ fn compare(
     let at = DVec3::from(at.map(|c| f64::from(c) / if is_half { 2.0 } else { 1.0 }));
     let normal = turn * DVec3::AXES[axis];
     let from = DifferentialArea::new(turn * at + DVec3::from(moved), normal).unwrap();
-    let exact = by_hierarchy(&from, target, others);
-    let (found, stats) = Enclosure::new(polygons.clone()).form_factor_with_stats(&from, 0);
+    agree(&from, target, others)
+}
+
+fn agree(
+    from: &DifferentialArea,
+    target: &PlanarPolygon,
+    others: &[PlanarPolygon],
+) -> Result<(), TestCaseError> {
+    let exact = by_hierarchy(from, target, others);
+    let polygons = [std::slice::from_ref(target), others].concat();
+    let (found, stats) = Enclosure::new(polygons).form_factor_with_stats(from, 0);
     let off = (found.value - exact.value).abs();
     prop_assert!(
         off <= found.error_bound + exact.error_bound,
         "{found:?} is not {exact:?} by {off}; {stats:?}"
     );
     Ok(())
+}
+
+/// A point of a line through two of a few points: which two, and how far along in quarters.
+type OnLine = (usize, usize, i32);
+
+fn on_line() -> impl Strategy<Value = OnLine> {
+    (0usize..5, 0usize..5, -4..9)
+}
+
+/// Triangles with corners on a few slanted lines, which rounding puts beside them, and how far each corner is moved.
+fn slanted() -> impl Strategy<Value = ([[f64; 3]; 5], Vec<([OnLine; 3], f64)>, OnLine, [f64; 3])> {
+    let points = prop::array::uniform5(prop::array::uniform3(-3.0..3.0));
+    let size = prop_oneof![4 => Just(0.0), 1 => Just(1e-15), 1 => Just(3e-14), 1 => Just(1e-12)];
+    let triangles = prop::collection::vec((prop::array::uniform3(on_line()), size), 2..12);
+    (points, triangles, on_line(), prop::array::uniform3(-1.0..1.0))
 }
 
 /// On the grid.
@@ -126,5 +150,21 @@ proptest! {
     #[test]
     fn doubles_agree_with_booleans_where_edges_run_along_each_other(scene in scene()) {
         compare(scene)?;
+    }
+    #[test]
+    fn doubles_agree_with_booleans_on_slanted_lines((points, triangles, at, normal) in slanted()) {
+        let points = points.map(DVec3::from);
+        let place = |(one, other, quarters): OnLine| {
+            points[one] + (points[other] - points[one]) * (f64::from(quarters) / 4.0)
+        };
+        let triangle = |(corners, moved): &([OnLine; 3], f64)| {
+            let off = |corner: OnLine| place(corner) + DVec3::new(1.0, -0.6, 0.3) * (moved * f64::from(corner.2));
+            PlanarPolygon::new([corners.map(off)]).ok()
+        };
+        let polygons: Vec<PlanarPolygon> = triangles.iter().filter_map(triangle).collect();
+        let from = DifferentialArea::new(place(at), DVec3::from(normal));
+        if let (Ok(from), Some((target, others))) = (from, polygons.split_first()) {
+            agree(&from, target, others)?;
+        }
     }
 }
