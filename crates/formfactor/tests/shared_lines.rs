@@ -103,12 +103,15 @@ fn agree(
 /// A point of a line through two of a few points: which two, and how far along in quarters.
 type OnLine = (usize, usize, i32);
 
+/// The corners of a triangle, and how far each is moved.
+type Slanted = ([OnLine; 3], f64);
+
 fn on_line() -> impl Strategy<Value = OnLine> {
     (0usize..5, 0usize..5, -4..9)
 }
 
-/// Triangles with corners on a few slanted lines, which rounding puts beside them, and how far each corner is moved.
-fn slanted() -> impl Strategy<Value = ([[f64; 3]; 5], Vec<([OnLine; 3], f64)>, OnLine, [f64; 3])> {
+/// A few points, triangles with corners on lines through them, which rounding puts beside these, and where dA is.
+fn slanted() -> impl Strategy<Value = ([[f64; 3]; 5], Vec<Slanted>, OnLine, [f64; 3])> {
     let points = prop::array::uniform5(prop::array::uniform3(-3.0..3.0));
     let size = prop_oneof![4 => Just(0.0), 1 => Just(1e-15), 1 => Just(3e-14), 1 => Just(1e-12)];
     let triangles = prop::collection::vec((prop::array::uniform3(on_line()), size), 2..12);
@@ -157,7 +160,7 @@ proptest! {
         let place = |(one, other, quarters): OnLine| {
             points[one] + (points[other] - points[one]) * (f64::from(quarters) / 4.0)
         };
-        let triangle = |(corners, moved): &([OnLine; 3], f64)| {
+        let triangle = |(corners, moved): &Slanted| {
             let off = |corner: OnLine| place(corner) + DVec3::new(1.0, -0.6, 0.3) * (moved * f64::from(corner.2));
             PlanarPolygon::new([corners.map(off)]).ok()
         };
