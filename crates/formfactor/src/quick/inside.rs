@@ -31,6 +31,11 @@ pub(super) fn inside(edge: &Edge, own: OneCone<'_>, planes: &[Edge]) -> Inside {
     // Whether it may lie in a plane; whether it lies along edges that run the other way, and the same way.
     let (mut is_open, mut ways) = (false, [false; 2]);
     for plane in planes {
+        // Before anything else is decided of the two: both must take each other for one, or neither.
+        if is_along(edge, plane) {
+            ways[usize::from(is_same_way(edge, plane))] = true;
+            continue;
+        }
         let [start, end] = [edge.start, edge.end].map(|p| plane.inward.dot(p));
         // A coarse bound on the error decides for most planes.
         let coarse = plane.error * own.spread.reach + UNDERFLOW;
@@ -39,10 +44,6 @@ pub(super) fn inside(edge: &Edge, own: OneCone<'_>, planes: &[Edge]) -> Inside {
         }
         if start < -coarse && end < -coarse {
             return Inside::Nothing;
-        }
-        if is_along(edge, plane) {
-            ways[usize::from(is_same_way(edge, plane))] = true;
-            continue;
         }
         let error = larger_error(edge, plane);
         let [start_on, end_on] = [edge.start, edge.end].map(|p| is_end(p, plane));

@@ -1,7 +1,7 @@
 //! Edges that lie along edges of other cones but for roundings, and count as one with them.
 //!
-//! Which of two such edges is kept goes by their order, whichever of them is truly outside. So all that lie along one edge must lie
-//! along each other: else each of three in a ring might be left out in favour of the next.
+//! Which of two such edges is kept goes by their order, whichever of them is truly outside. So all that lie along one edge must count as
+//! one with each other: else each of three in a ring might be left out in favour of the next.
 use super::cone::{Edge, OneCone};
 use super::inside::{Inside, inside, is_along};
 use super::interval::Interval;
@@ -46,11 +46,11 @@ impl Joints {
         self.between += mismatch(ends(edge, part), &met);
     }
 
-    /// Whether edges that lie along a third one lie along each other.
-    pub(super) fn agree<'e>(&mut self, edge: impl Fn(usize) -> &'e Edge) -> bool {
+    /// Whether edges that lie along a third one were taken to lie along each other.
+    pub(super) fn agree(&mut self) -> bool {
         self.pairs.sort_unstable();
         self.pairs.dedup();
-        let agree = |[one, other]: [usize; 2]| is_along(edge(one), edge(other));
+        let agree = |pair: [usize; 2]| self.pairs.binary_search(&pair).is_ok();
         self.pairs.chunk_by(|a, b| a[0] == b[0]).all(|group| {
             let all = |(place, pair): (usize, &[usize; 2])| {
                 group[place + 1..].iter().all(|other| agree([pair[1], other[1]]))

@@ -31,9 +31,9 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Notes the part of an edge between two parameters, reversed where the sign is negative.
+    /// Notes the part of an edge between two parameters, reversed where the sign is negative; not of one through dA, which has no plane.
     fn add(&mut self, edge: &Edge, sign: f64, part: [f64; 2]) {
-        if self.is_kept {
+        if self.is_kept && edge.inward != DVec3::ZERO {
             let [start, end] = part.map(|at| edge.start + edge.along * at);
             self.parts.push(if sign < 0.0 { [end, start] } else { [start, end] });
         }
@@ -62,10 +62,11 @@ pub(super) fn sum(
             sum.add_whole(edge, &sum.line(edge.inward, edge.coarse_error()));
             buffers.record.add(edge, 1.0, [0.0, 1.0]);
         }
+        let whole = || unhidden(target.from, target.to, open);
         return match within {
-            Some(_) => enough(target, &sum, error, within),
-            None if !target.to.is_convex() => enough(target, &sum, error, within),
-            None => sum.fine(error).or_else(|| unhidden(target.from, target.to, open)),
+            _ if !target.to.is_convex() => enough(target, &sum, error, within),
+            Some(_) => enough(target, &sum, error, within).or_else(whole),
+            None => sum.fine(error).or_else(whole),
         };
     }
     trace(target, cones, buffers, &mut sum)?;
@@ -102,9 +103,7 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
     }
     neighbours.retain(|cone| !boundary.is_swallowed(cone));
     neighbours.for_each_pair(|pair| boundary.hide(cones, pair));
-    let sides = target.cone.edges;
-    let edge = |number: usize| sides.get(number).unwrap_or_else(|| &cones.edges()[number - sides.len()]);
-    if !boundary.joints.agree(edge) {
+    if !boundary.joints.agree() {
         return None;
     }
     let (of_target, of_cones) = boundary.rests();

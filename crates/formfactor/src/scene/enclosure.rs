@@ -120,6 +120,16 @@ impl Enclosure {
     /// [`Self::form_factor_to_part`] where an error of at most `tolerance` will do: plain doubles know that far more often than all that
     /// can be known, which may take a polygon Boolean. Where not even that is within the tolerance, the bound says so.
     ///
+    /// ```
+    /// use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
+    /// let lamp = PlanarPolygon::new([[[-1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, -1.0, 2.0], [-1.0, -1.0, 2.0]]])?;
+    /// let room = Enclosure::new(vec![lamp.clone()]);
+    /// let floor = DifferentialArea::new(DVec3::ZERO, DVec3::Z)?;
+    /// let rough = room.form_factor_within(&floor, 0, &lamp, 1e-9);
+    /// assert!(rough.error_bound <= 1e-9 && (rough.value - 0.239_456_470_460_773_54).abs() <= 1e-9);
+    /// # Ok::<(), formfactor::Error>(())
+    /// ```
+    ///
     /// # Panics
     /// When there is no polygon `id`.
     #[must_use]
