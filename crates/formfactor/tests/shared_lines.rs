@@ -214,6 +214,24 @@ fn three_slanted_edges_that_are_nearly_one() {
     compare_slanted(points, &triangles, (3, 0, 0), [0.0, 0.0, -1.0]).unwrap();
 }
 
+/// The target's edge meets one of two that count as one at so small an angle that it would meet the other one elsewhere.
+#[test]
+fn an_edge_that_meets_two_that_count_as_one() {
+    let points = [
+        [0.738_450_824_418_293_2, 1.001_122_278_478_265_8, -1.015_805_753_001_476_1],
+        [0.374_651_485_135_021_8, 2.753_216_406_556_782, 0.470_706_765_141_580_7],
+        [-1.037_799_467_064_887_1, -1.943_759_050_996_730_4, -2.715_848_728_720_225],
+        [1.026_914_589_566_196_9, 0.0, 0.772_704_115_338_334_2],
+        [1.016_321_608_417_13, 2.579_140_309_959_725_7, 0.121_411_905_511_605_18],
+    ];
+    let triangles = [
+        ([(4, 4, 0), (3, 1, -1), (2, 1, 6)], 0.0),
+        ([(4, 2, 3), (4, 0, -4), (0, 2, 0)], 3e-14),
+        ([(0, 2, 1), (2, 4, 4), (0, 4, 5)], 0.0),
+    ];
+    compare_slanted(points, &triangles, (3, 0, 1), [1.0, 0.0, 0.0]).unwrap();
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(5_000))]
 

@@ -46,6 +46,12 @@ impl Joints {
         self.between += mismatch(ends(edge, part), &met);
     }
 
+    /// Whether an edge lies along another one; asked after [`Self::agree`].
+    pub(super) fn have(&self, number: usize) -> bool {
+        let place = self.pairs.partition_point(|pair| pair[0] < number);
+        self.pairs.get(place).is_some_and(|pair| pair[0] == number)
+    }
+
     /// Whether edges that lie along a third one were taken to lie along each other.
     pub(super) fn agree(&mut self) -> bool {
         self.pairs.sort_unstable();

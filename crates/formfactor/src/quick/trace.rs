@@ -1,7 +1,7 @@
 //! The visible boundary, edge by edge: what the occluders leave of the target's edges, and what they and the target leave of
 //! the occluders' edges.
 use super::boundary::Boundary;
-use super::cone::{Cones, Edge};
+use super::cone::{Cones, Edge, NEAR};
 use super::contour::{Parts, Sum};
 use super::interval::{Interval, for_each_gap};
 use super::neighbours::Neighbours;
@@ -87,6 +87,9 @@ fn enough(target: &Target, sum: &Sum, error: f64, within: Option<f64>) -> Option
     sum.form_factor(error).filter(|factor| is_fine && factor.error_bound <= FINE * scale)
 }
 
+/// An edge that counts as another one is off it by no more than so many times what the error of a parameter allows for.
+const OFF: f64 = 1.0 + NEAR;
+
 /// Clips all edges, and adds what is left of them.
 fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
     let TraceBuffers { neighbours, boundary, hidden, record } = buffers;
@@ -107,14 +110,17 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
         return None;
     }
     let (of_target, of_cones) = boundary.rests();
-    for (edge, rest) in target.cone.edges.iter().zip(of_target) {
-        let Some(whole) = boundary.left(rest, hidden)? else { continue };
-        add(edge, 1.0, whole, hidden, sum, record);
-    }
-    for (edge, rest) in cones.edges().iter().zip(of_cones) {
-        let Some(whole) = boundary.left(rest, hidden)? else { continue };
-        // An occluder's edge has the visible part on its other side.
-        add(edge, -1.0, whole, hidden, sum, record);
+    let of_target = target.cone.edges.iter().zip(of_target).map(|(edge, rest)| (edge, rest, 1.0));
+    // An occluder's edge has the visible part on its other side.
+    let of_cones = cones.edges().iter().zip(of_cones).map(|(edge, rest)| (edge, rest, -1.0));
+    for (number, (edge, rest, sign)) in of_target.chain(of_cones).enumerate() {
+        let Some(mut whole) = boundary.left(rest, hidden)? else { continue };
+        if boundary.joints.have(number) {
+            // It stands for another one, which others meet as much further on as it is further off.
+            whole = whole.widened(OFF);
+            hidden.iter_mut().for_each(|part| *part = part.widened(OFF));
+        }
+        add(edge, sign, whole, hidden, sum, record);
     }
     Some(())
 }
