@@ -221,12 +221,15 @@ pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut ver
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::scene;
+    use crate::scene::{Scene, patch::Patch};
+    use formfactor::PlanarPolygon;
 
     /// Products leave a patch in the dark a little less than nothing, and level.
     #[test]
     fn less_than_nothing_is_nothing() {
-        let scene = scene("cornell-box").unwrap();
+        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let patch = Patch::new("floor", PlanarPolygon::new([square]).unwrap(), vec![0.5], vec![0.0]);
+        let scene = Scene { patches: vec![patch], bands: 1, ..Scene::default() };
         let tiling = Tiling::new(&scene).unwrap();
         assert_eq!(positive(&tiling.tiles[0], [-1e-30, 0.0, 0.0]), [0.0; 3]);
         assert_eq!(positive(&tiling.tiles[0], [-1e-30, 1.0, -2.0]), [0.0; 3]);
