@@ -100,7 +100,7 @@ fn holds(name: &str, function: &AggregateUDF, groups: usize, batches: &[ArrayRef
     let before = HEAP.current_usage();
     let (mut filled, reported) = self::filled(name, function, groups, batches)?;
     HEAP.reset_peak_usage();
-    let state = filled.state(EmitTo::All)?;
+    filled.state(EmitTo::All)?;
     let taken = HEAP.peak_usage() - before;
     assert!(taken <= reported, "{name}: {taken} bytes taken by the state, {reported} reported");
     Ok(())
