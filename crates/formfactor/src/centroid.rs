@@ -31,7 +31,7 @@ pub(crate) fn with_centroid(
     let plane = PolarPlane::seen_from(from, to);
     let others = || occluders.iter().copied();
     let (factor, moment) = match quick::boundary(from, to, |_| others(), &mut buffers.quick) {
-        Some((factor, edges)) => (factor, edges.into_iter().map(|edge| plane.moment(edge)).sum()),
+        Some(factor) => (factor, buffers.quick.recorded().iter().map(|edge| plane.moment(*edge)).sum()),
         None => (past(from, to, |_| others(), None, buffers), plane.moment_of_part(from, to, occluders)),
     };
     let centroid = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };

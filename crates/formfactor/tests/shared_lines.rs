@@ -232,6 +232,21 @@ fn an_edge_that_meets_two_that_count_as_one() {
     compare_slanted(points, &triangles, (3, 0, 1), [1.0, 0.0, 0.0]).unwrap();
 }
 
+/// The point is off the occluder, over which it lies, by 5e-18, and a vertex of that is a last bit off one of the target: both are rounded to
+/// one place as seen from the point, so that the occluder seemed to touch the target's side from outside. It hides all of it.
+#[test]
+fn a_vertex_a_last_bit_off_the_targets() {
+    let points = [
+        [0.0, 1.239_612_513_429_305_5, 0.0],
+        [-0.257_801_070_808_344_6, 0.770_554_917_219_021_6, -0.841_855_977_158_455_4],
+        [-1.990_719_486_697_143, 1.973_032_812_021_548, 0.0],
+        [0.193_025_923_356_414_36, 0.0, 1.714_343_871_646_337],
+        [-0.564_625_568_773_027_8, 1.533_370_457_845_986, 1.104_090_348_579_764],
+    ];
+    let triangles = [([(2, 0, 0), (4, 4, 0), (3, 0, 0)], 0.0), ([(1, 3, 4), (3, 4, 1), (3, 1, 7)], 0.0)];
+    compare_slanted(points, &triangles, (1, 1, 0), [0.0, 0.0, 1.0]).unwrap();
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(5_000))]
 

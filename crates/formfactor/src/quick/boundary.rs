@@ -2,20 +2,21 @@
 use super::cone::{Cones, OneCone};
 use super::inside::{Inside, inside};
 use super::interval::Interval;
-use super::joints::Joints;
 use super::lanes::MOST;
 use super::sides::{Sides, Standing};
+use glam::DVec3;
 
 /// What is left of every edge so far: those of the target, and then those of the cones.
 #[derive(Debug, Default)]
 pub(super) struct Boundary {
+    /// dA.
+    origin: DVec3,
     rests: Vec<Rest>,
     /// How many edges the target has.
     sides: usize,
     /// Hidden parts of edges, each with the one before it of the same edge.
     parts: Vec<(Interval, u32)>,
-    pub(super) joints: Joints,
-    /// Cones inside of others, which hide all that they hide.
+    /// Which cones are known to be inside of others, which hide all that they hide: of none where cones are few.
     swallowed: Vec<bool>,
     /// The sides of the corners of a cone, and of those of another one.
     within: [Sides; 2],
@@ -51,26 +52,20 @@ enum Relation {
 /// Two cones that cross, and on which sides of the planes of each the corners of the other one are.
 struct Meeting<'m> {
     cones: [OneCone<'m>; 2],
-    /// The numbers of their first edges.
-    firsts: [usize; 2],
+    origin: DVec3,
     sides: [&'m Sides; 2],
     relation: Relation,
 }
 
 impl Meeting<'_> {
     fn reversed(&self) -> Self {
-        let ([first, second], [there, back], [one, other]) = (self.cones, self.sides, self.firsts);
-        Self { cones: [second, first], sides: [back, there], firsts: [other, one], ..*self }
+        let ([first, second], [there, back]) = (self.cones, self.sides);
+        Self { cones: [second, first], sides: [back, there], ..*self }
     }
 
     /// Calls back with what of each edge of the first cone is inside the second, where anything is left of the edge.
     #[inline]
-    fn for_each_part(
-        &self,
-        rests: &mut [Rest],
-        joints: &mut Joints,
-        mut found: impl FnMut(&mut Rest, Inside),
-    ) {
+    fn for_each_part(&self, rests: &mut [Rest], mut found: impl FnMut(&mut Rest, Inside)) {
         let ([first, second], [there, back]) = (self.cones, self.sides);
         for (index, (edge, rest)) in first.edges.iter().zip(rests).enumerate() {
             if rest.is_lost {
@@ -78,12 +73,8 @@ impl Meeting<'_> {
             }
             let part = match self.relation {
                 Relation::Crossing => there.part(edge, index, second.edges, back),
-                _ => inside(edge, first, second.edges),
+                _ => inside(self.origin, (first, index), second),
             };
-            if let Inside::Along { part, error, .. } = part {
-                let [one, other] = self.firsts;
-                joints.add((one, first), (other, second), (index, part, error));
-            }
             found(rest, part);
         }
     }
@@ -106,7 +97,7 @@ impl Rest {
     fn hide(&mut self, inside: Inside, loses: impl Fn(bool) -> bool, parts: &mut Vec<(Interval, u32)>) {
         let part = match inside {
             Inside::Part(part) => part,
-            Inside::Along { part, is_same_way, .. } if loses(is_same_way) => part,
+            Inside::Along { part, is_same_way } if loses(is_same_way) => part,
             Inside::Along { .. } | Inside::Nothing => return,
             Inside::Open => {
                 self.is_open = true;
@@ -123,14 +114,13 @@ impl Rest {
 }
 
 impl Boundary {
-    pub(super) fn begin(&mut self, target: OneCone, cones: &Cones) {
+    pub(super) fn begin(&mut self, origin: DVec3, target: OneCone, cones: &Cones) {
+        self.origin = origin;
         self.sides = target.edges.len();
         self.rests.clear();
         self.rests.resize(self.sides + cones.edges().len(), Rest::WHOLE);
         self.parts.clear();
-        self.joints.clear();
         self.swallowed.clear();
-        self.swallowed.resize(cones.len(), false);
     }
 
     /// Clips a cone's edges to the target, and hides the target's behind it. Returns whether they meet.
@@ -140,14 +130,14 @@ impl Boundary {
         match relation {
             Relation::Apart => self.lose(first, cone),
             Relation::Crossing | Relation::Open => {
-                let Self { rests, parts, joints, within: [there, back], .. } = self;
+                let Self { origin, rests, parts, within: [there, back], .. } = self;
                 let (of_target, of_cones) = rests.split_at_mut(first);
-                let (cones, firsts) = ([cone, target], [first, 0]);
-                let crossing = Meeting { cones, firsts, sides: [there, back], relation };
-                crossing.for_each_part(of_cones, joints, Rest::clip);
+                let crossing =
+                    Meeting { cones: [cone, target], origin: *origin, sides: [there, back], relation };
+                crossing.for_each_part(of_cones, Rest::clip);
                 // The same way, both are on one side of the edge, and it is hidden.
                 let hide = |rest: &mut Rest, part| rest.hide(part, |is_same_way| is_same_way, parts);
-                crossing.reversed().for_each_part(of_target, joints, hide);
+                crossing.reversed().for_each_part(of_target, hide);
             }
             Relation::FirstInside => (),
             Relation::SecondInside => {
@@ -158,27 +148,31 @@ impl Boundary {
         relation != Relation::Apart
     }
 
+    /// Notes from now on which of so many cones are inside of others.
+    pub(super) fn watch(&mut self, cones: usize) {
+        self.swallowed.resize(cones, false);
+    }
+
     /// Whether a cone is known to be inside of another one.
     pub(super) fn is_swallowed(&self, cone: usize) -> bool {
-        self.swallowed[cone]
+        self.swallowed.get(cone).is_some_and(|is_swallowed| *is_swallowed)
     }
 
     /// Loses a cone that is inside of another one for certain: nothing of it is visible, and it hides nothing more.
     pub(super) fn swallow(&mut self, cones: &Cones, [inner, outer]: [usize; 2]) {
         let [small, large] = [inner, outer].map(|index| cones.cone(index));
-        let is_known = inner == outer || self.swallowed[inner] || self.swallowed[outer];
+        let is_known = inner == outer || self.is_swallowed(inner) || self.is_swallowed(outer);
         if is_known || small.edges.len().max(large.edges.len()) > MOST {
             return;
         }
         if self.within[0].find(large.edges, small.spread) == Standing::Contained {
-            self.lose(self.sides + cones.first(inner), small);
-            self.swallowed[inner] = true;
+            self.lose_all(cones, inner);
         }
     }
 
     /// Hides the edges of two cones behind each other.
     pub(super) fn hide(&mut self, cones: &Cones, [a, b]: [usize; 2]) {
-        if self.swallowed[a] || self.swallowed[b] {
+        if self.is_swallowed(a) || self.is_swallowed(b) {
             return;
         }
         let [first, second] = [a, b].map(|index| cones.cone(index));
@@ -186,27 +180,29 @@ impl Boundary {
         let relation = self.compare(first, second);
         match relation {
             Relation::Apart => (),
-            Relation::FirstInside => {
-                self.lose(at_first, first);
-                self.swallowed[a] = true;
-            }
-            Relation::SecondInside => {
-                self.lose(at_second, second);
-                self.swallowed[b] = true;
-            }
+            Relation::FirstInside => self.lose_all(cones, a),
+            Relation::SecondInside => self.lose_all(cones, b),
             Relation::Crossing | Relation::Open => {
-                let Self { rests, parts, joints, within: [there, back], .. } = self;
-                let (cones, firsts) = ([first, second], [at_first, at_second]);
-                let meeting = Meeting { cones, firsts, sides: [there, back], relation };
+                let Self { origin, rests, parts, within: [there, back], .. } = self;
+                let meeting =
+                    Meeting { cones: [first, second], origin: *origin, sides: [there, back], relation };
                 // Edges that both have the same way are on the boundary of their union: the first of the two keeps it. The other
                 // way, the cones are on either side: the edge is inside the union, and both lose it.
-                meeting.for_each_part(&mut rests[at_first..], joints, |rest, part| {
+                meeting.for_each_part(&mut rests[at_first..], |rest, part| {
                     rest.hide(part, |is_same_way| !is_same_way || b < a, parts);
                 });
-                meeting.reversed().for_each_part(&mut rests[at_second..], joints, |rest, part| {
+                meeting.reversed().for_each_part(&mut rests[at_second..], |rest, part| {
                     rest.hide(part, |is_same_way| !is_same_way || a < b, parts);
                 });
             }
+        }
+    }
+
+    /// Nothing is left of a cone that is inside of another one.
+    fn lose_all(&mut self, cones: &Cones, index: usize) {
+        self.lose(self.sides + cones.first(index), cones.cone(index));
+        if let Some(is_swallowed) = self.swallowed.get_mut(index) {
+            *is_swallowed = true;
         }
     }
 

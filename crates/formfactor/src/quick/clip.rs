@@ -1,5 +1,5 @@
 //! Clipping of convex polygons by a plane.
-use super::cone::{Corner, size};
+use super::cone::{Corner, CornerId, size};
 use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -16,17 +16,17 @@ pub(super) fn clip(
     height: impl Fn(DVec3) -> f64,
 ) {
     spare.clear();
-    let given = corners.iter().filter_map(|corner| Some((corner, corner.given?)));
+    let given = corners.iter().filter_map(|corner| Some((corner, corner.id.given()?)));
     let Some((mut before, last)) = given.clone().next_back() else { return };
     let (mut left, mut there) = (last, place(last));
     for (corner, reached) in given {
         let here = place(reached);
         match (there, here) {
             (Ordering::Less, Ordering::Greater) => {
-                spare.push(cut(corner, left - reached, height(reached), height(left)));
+                spare.push(cut(corner, [reached, left], [reached, left].map(&height)));
             }
             (Ordering::Greater, Ordering::Less) => {
-                spare.push(cut(before, reached - left, height(left), height(reached)));
+                spare.push(cut(before, [left, reached], [left, reached].map(&height)));
             }
             _ => (),
         }
@@ -43,8 +43,9 @@ pub(super) fn clip(
 /// The point of an edge from `inner` where its height is zero.
 ///
 /// The factor errs by 8 roundings of itself, the sum by those of its parts.
-fn cut(inner: &Corner, along: DVec3, above: f64, below: f64) -> Corner {
+fn cut(inner: &Corner, ends: [DVec3; 2], [above, below]: [f64; 2]) -> Corner {
+    let along = ends[1] - ends[0];
     let at = inner.at + along * (above / (above - below));
     let rounding = 2.0 * ROUNDING * (size(inner.at) + 8.0 * size(along));
-    Corner { at, given: None, deviation: inner.deviation + rounding }
+    Corner { at, id: CornerId::cut(ends), deviation: inner.deviation + rounding }
 }

@@ -14,24 +14,42 @@ use super::lanes::Corners;
 use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
 
+/// What a corner is: two that are rounded to one place need not be one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CornerId {
+    /// The vertices as given between which a plane cut the edge; twice the same where none did.
+    between: [DVec3; 2],
+}
+
+impl CornerId {
+    pub(super) fn cut(between: [DVec3; 2]) -> Self {
+        Self { between }
+    }
+
+    /// The vertex as given; none where the polygon was cut.
+    pub(super) fn given(self) -> Option<DVec3> {
+        let [a, b] = self.between;
+        (a == b).then_some(a)
+    }
+}
+
 /// A vertex of a convex polygon, and how far it may lie from where it stands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// Relative to dA, rounded once.
     pub(super) at: DVec3,
-    /// The vertex as given; `None` where the polygon was cut.
-    pub(super) given: Option<DVec3>,
+    pub(super) id: CornerId,
     pub(super) deviation: f64,
 }
 
 impl Corner {
     pub(super) fn given(given: DVec3, origin: DVec3, deviation: f64) -> Self {
-        Self { at: given - origin, given: Some(given), deviation }
+        Self { at: given - origin, id: CornerId::cut([given; 2]), deviation }
     }
 
     /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
     fn along(&self, other: &Self) -> DVec3 {
-        match (self.given, other.given) {
+        match (self.id.given(), other.id.given()) {
             (Some(from), Some(to)) => to - from,
             _ => other.at - self.at,
         }
@@ -59,10 +77,6 @@ pub(super) const ERROR: f64 = 9.0 * ROUNDING;
 
 /// More than underflow can take from a product of three, for coordinates up to 2^200.
 pub(super) const UNDERFLOW: f64 = 1e-240;
-
-/// A point counts as on a plane if it is no further off it than so many times its error, as the roundings of turned and moved files leave
-/// what was drawn on one line; a bound counts what that changes.
-pub(super) const NEAR: f64 = 64.0;
 
 /// On which side of a plane a point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,15 +133,20 @@ pub(super) fn size(v: DVec3) -> f64 {
 }
 
 /// Adds the edges of a convex polygon whose corners are counter-clockwise as dA sees them. Each starts where the one before it
-/// ends.
-pub(super) fn faces(corners: impl DoubleEndedIterator<Item = Corner> + Clone, edges: &mut Vec<Edge>) {
+/// ends, and comes with what its start is. Of corners that coincide the first is taken.
+pub(super) fn faces(
+    corners: impl DoubleEndedIterator<Item = Corner> + Clone,
+    edges: &mut Vec<Edge>,
+    ids: &mut Vec<CornerId>,
+) {
     let Some(mut before) = corners.clone().next_back() else { return };
     for corner in corners {
         let along = before.along(&corner);
         if along != DVec3::ZERO {
             edges.push(Edge::new(before.at, corner.at, along));
+            ids.push(before.id);
+            before = corner;
         }
-        before = corner;
     }
 }
 
@@ -136,7 +155,20 @@ pub(super) fn faces(corners: impl DoubleEndedIterator<Item = Corner> + Clone, ed
 pub(super) struct OneCone<'c> {
     /// Each starts where the one before it ends.
     pub(super) edges: &'c [Edge],
+    ids: &'c [CornerId],
     pub(super) spread: &'c Spread,
+}
+
+impl<'c> OneCone<'c> {
+    pub(super) fn new(edges: &'c [Edge], ids: &'c [CornerId], spread: &'c Spread) -> Self {
+        Self { edges, ids, spread }
+    }
+
+    /// What the ends of an edge are.
+    pub(super) fn ends(&self, edge: usize) -> [CornerId; 2] {
+        let next = if edge + 1 == self.ids.len() { 0 } else { edge + 1 };
+        [self.ids[edge], self.ids[next]]
+    }
 }
 
 /// Where the corners of a cone are.
@@ -162,19 +194,21 @@ impl Spread {
 #[derive(Debug, Default)]
 pub(super) struct Cones {
     edges: Vec<Edge>,
+    ids: Vec<CornerId>,
     spreads: Vec<Spread>,
 }
 
 impl Cones {
     pub(super) fn clear(&mut self) {
         self.edges.clear();
+        self.ids.clear();
         self.spreads.clear();
     }
 
     /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
     pub(super) fn push(&mut self, corners: impl DoubleEndedIterator<Item = Corner> + Clone) -> &[Edge] {
         let first = self.edges.len();
-        faces(corners, &mut self.edges);
+        faces(corners, &mut self.edges, &mut self.ids);
         self.spreads.push(Spread::of(&self.edges, first));
         &self.edges[first..]
     }
@@ -197,6 +231,7 @@ impl Cones {
     #[inline]
     pub(super) fn cone(&self, cone: usize) -> OneCone<'_> {
         let spread = &self.spreads[cone];
-        OneCone { edges: &self.edges[spread.first..][..spread.corners.count], spread }
+        let own = spread.first..spread.first + spread.corners.count;
+        OneCone { edges: &self.edges[own.clone()], ids: &self.ids[own], spread }
     }
 }

@@ -54,12 +54,6 @@ pub(super) struct Interval {
 impl Interval {
     pub(super) const WHOLE: Self = Self { low: Parameter::START, high: Parameter::END };
 
-    /// With errors so many times as large.
-    pub(super) fn widened(self, times: f64) -> Self {
-        let [low, high] = [self.low, self.high].map(|end| Parameter { error: end.error * times, ..end });
-        Self { low, high }
-    }
-
     /// Whether it is empty for certain.
     pub(super) fn is_empty(&self) -> bool {
         self.low.least() >= self.high.most()

@@ -7,11 +7,11 @@
 //! is built [vertex tracing: Stark and Riesenfeld 2000]. The signs of all corners against all planes of two cones are found first;
 //! they tell which edges cross, and divisions are needed for those alone.
 //!
-//! Every sign comes with a bound on its error. Where one end of an edge may lie on either side of a plane, the parameter of the
-//! crossing errs by little, and the bound counts it. Where all of an edge lies in the plane of another one but for roundings, the two
-//! count as one as far as they run along each other, and the bound counts what is between; where it may or may not, the exact
-//! route takes over. It does so too where the bound would be too large. Polygons that are not convex are
-//! convex pieces that meet in whole edges: an edge between two of them is hidden by both.
+//! Every sign comes with a bound on its error, and is found exactly where that leaves it open and the vertices are known as given. Where one
+//! end of an edge may lie on either side of a plane, the parameter of the crossing errs by little, and the bound counts it. Where
+//! all of an edge lies exactly in the plane of another one, as edges of buildings do, one of the two counts as far as they run along each
+//! other; where it may or may not, the exact route takes over. It does so too where the bound would be too large. Polygons that
+//! are not convex are convex pieces that meet in whole edges: an edge between two of them is hidden by both.
 mod boundary;
 mod classify;
 mod clip;
@@ -20,7 +20,6 @@ mod contour;
 mod corners;
 mod inside;
 mod interval;
-mod joints;
 mod lanes;
 mod neighbours;
 mod sides;
@@ -35,7 +34,7 @@ use crate::numeric::{predicates::place, rounding::ROUNDING};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use classify::{Class, classify};
-use cone::{Cones, Corner, Edge, Spread};
+use cone::{Cones, Corner, CornerId, Edge, Spread};
 use glam::DVec3;
 use std::cmp::Ordering;
 use target::{HalfSpace, Target};
@@ -45,29 +44,37 @@ use target::{HalfSpace, Target};
 pub(crate) struct QuickBuffers {
     corners: [Vec<Corner>; 2],
     edges: Vec<Edge>,
+    ids: Vec<CornerId>,
     sides: Vec<HalfSpace>,
     spread: Spread,
     cones: Cones,
     trace: trace::TraceBuffers,
 }
 
+impl QuickBuffers {
+    /// The visible boundary of the last target, if [`boundary`] found it: parts of edges relative to dA.
+    pub(crate) fn recorded(&self) -> &[[DVec3; 2]] {
+        &self.trace.record.parts
+    }
+}
+
 /// The error up to which a form factor is good enough beside a boundary.
 const ROUGH: f64 = 1e-9;
 
-/// The visible boundary of a target, in parts of edges relative to dA, and its form factor; `None` where doubles do not decide it.
+/// The form factor of a target whose visible boundary is kept, to be read off the buffers; `None` where doubles do not decide it.
 pub(crate) fn boundary<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
     occluders: impl Fn(&Target) -> I,
     buffers: &mut QuickBuffers,
-) -> Option<(FormFactor, Vec<[DVec3; 2]>)>
+) -> Option<FormFactor>
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
     buffers.trace.record.is_kept = true;
     let factor = form_factor(from, to, occluders, Some(ROUGH), buffers, &mut Stats::default());
     buffers.trace.record.is_kept = false;
-    Some((factor?, std::mem::take(&mut buffers.trace.record.parts)))
+    factor
 }
 
 /// Of a target in more convex pieces the exact route sees the whole at once.
@@ -87,11 +94,13 @@ where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
     buffers.trace.record.parts.clear();
-    if to.is_convex() {
-        return to_piece(from, (to, to.points()), occluders, within, buffers, stats);
+    let mut pieces = to.convex_pieces();
+    let whole = pieces.next()?;
+    let count = 1 + pieces.count();
+    if count == 1 {
+        return to_piece(from, (to, whole), &occluders, within, buffers, stats);
     }
-    let count = to.convex_pieces().count();
-    if !(1..=MANY).contains(&count) || to.plane().quick_side(from.position()) != Some(Ordering::Greater) {
+    if count > MANY || to.plane().quick_side(from.position()) != Some(Ordering::Greater) {
         return None;
     }
     let share = within.map(|within| within / count as f64);
@@ -124,8 +133,8 @@ fn to_piece<'a, I>(
 where
     I: IntoIterator<Item = &'a PlanarPolygon>,
 {
-    let QuickBuffers { corners, edges, sides, spread, cones, trace } = buffers;
-    let Some(target) = Target::new(from, to, corners, edges, sides, spread) else {
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace } = buffers;
+    let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread) else {
         let is_unseen = to.0.deviation() == 0.0 && !rises(from, to.1);
         stats.none += u64::from(is_unseen);
         return is_unseen.then(FormFactor::default);

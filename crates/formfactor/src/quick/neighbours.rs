@@ -1,8 +1,9 @@
 //! Which cones may meet: a sweep over the rectangles of slopes around them.
 use super::slopes::Slopes;
 
-/// From so many cones on it pays to look for those inside of one of the largest, of which so many are taken.
+/// From so many cones on it pays to look for those inside of others.
 const MANY: usize = 12;
+/// So many of the largest are looked into.
 const LARGE: usize = 4;
 
 /// Cones, and the rectangles around them.
@@ -29,17 +30,20 @@ impl Neighbours {
         self.found.retain(|(_, cone)| is_kept(*cone));
     }
 
-    /// A few of the largest cones, as others may be inside of them; none where all pairs are few.
+    /// Whether there are so many that it pays to look for those inside of others.
+    pub(super) fn are_many(&self) -> bool {
+        self.found.len() >= MANY
+    }
+
+    /// A few of the largest cones, as others may be inside of them.
     pub(super) fn largest(&self) -> impl Iterator<Item = (Slopes, usize)> + use<> {
         let mut largest: [Option<(Slopes, usize)>; LARGE] = [None; LARGE];
-        if self.found.len() >= MANY {
-            for found in &self.found {
-                let mut next = Some(*found);
-                for place in &mut largest {
-                    let area = |one: &Option<(Slopes, usize)>| one.map_or(0.0, |(around, _)| around.area());
-                    if area(&next) > area(place) {
-                        std::mem::swap(place, &mut next);
-                    }
+        let area = |one: &Option<(Slopes, usize)>| one.map_or(0.0, |(around, _)| around.area());
+        for found in &self.found {
+            let mut next = Some(*found);
+            for place in &mut largest {
+                if area(&next) > area(place) {
+                    std::mem::swap(place, &mut next);
                 }
             }
         }

@@ -147,7 +147,7 @@ mod tests {
             let [mut there, mut back] = [Sides::default(); 2];
             let standings = [there.find(b.edges, a.spread), back.find(a.edges, b.spread)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(edge, a, b.edges);
+                let clipped = inside(DVec3::ZERO, (a, index), b);
                 let found = match standings {
                     [Standing::Apart, _] | [_, Standing::Apart] => Inside::Nothing,
                     [Standing::Contained, _] => Inside::Part(Interval::WHOLE),

@@ -1,6 +1,6 @@
 //! A convex target as dA sees it, and the half-spaces in which something must be to hide any of it.
 use super::clip::clip;
-use super::cone::{Corner, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, size};
+use super::cone::{Corner, CornerId, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, size};
 use super::corners::{copy, deviation_error};
 use super::interval::greater;
 use crate::exact::deviation;
@@ -14,6 +14,8 @@ use std::cmp::Ordering;
 pub(crate) struct Target<'a> {
     pub(super) from: &'a DifferentialArea,
     pub(super) to: &'a PlanarPolygon,
+    /// Whether it is all of `to`.
+    pub(super) is_whole: bool,
     pub(super) cone: OneCone<'a>,
     /// The half-spaces in which a part of an occluder must be to hide any of the target.
     sides: &'a [HalfSpace],
@@ -85,7 +87,7 @@ impl<'a> Target<'a> {
         from: &'a DifferentialArea,
         (to, piece): (&'a PlanarPolygon, &[DVec3]),
         [corners, spare]: &mut [Vec<Corner>; 2],
-        edges: &'a mut Vec<Edge>,
+        (edges, ids): (&'a mut Vec<Edge>, &'a mut Vec<CornerId>),
         sides: &'a mut Vec<HalfSpace>,
         spread: &'a mut Spread,
     ) -> Option<Self> {
@@ -94,7 +96,7 @@ impl<'a> Target<'a> {
             return None;
         }
         copy(piece, to.deviation(), origin, false, corners);
-        let height = |c: &Corner| c.given.map_or(Ordering::Equal, |p| place(normal, origin, p));
+        let height = |c: &Corner| c.id.given().map_or(Ordering::Equal, |p| place(normal, origin, p));
         if corners.iter().any(|c| height(c) == Ordering::Less) {
             let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
             clip(corners, spare, |p| place(normal, origin, p), exact);
@@ -103,7 +105,8 @@ impl<'a> Target<'a> {
             return None;
         }
         edges.clear();
-        faces(corners.iter().copied(), edges);
+        ids.clear();
+        faces(corners.iter().copied(), edges, ids);
         if edges.len() < 3 {
             // So little is above the horizon that its corners coincide: anything would seem to cover it.
             return None;
@@ -113,7 +116,8 @@ impl<'a> Target<'a> {
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
-        Some(Self { from, to, cone: OneCone { edges, spread }, sides, error })
+        let is_whole = to.is_convex() && piece.len() == to.points().len();
+        Some(Self { from, to, is_whole, cone: OneCone::new(edges, ids, spread), sides, error })
     }
 
     /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons
@@ -149,32 +153,24 @@ impl<'a> Target<'a> {
                 return Some(Apart::Outside);
             }
             if highest <= margin {
-                let edge = index.checked_sub(BEFORE_EDGES).map(|index| &self.cone.edges[index]);
-                touched = touched.or(edge.filter(|edge| self.is_touched(edge, occluder)));
+                let edge = index.checked_sub(BEFORE_EDGES).filter(|index| self.is_touched(*index, occluder));
+                touched = touched.or(edge.map(|index| &self.cone.edges[index]));
             }
         }
         touched.map(Apart::Touching)
     }
 
-    /// Whether a polygon is outside of the side through an edge, touching allowed.
-    fn is_touched(&self, edge: &Edge, occluder: &PlanarPolygon) -> bool {
+    /// Whether a polygon is outside of the side through an edge, touching allowed: exactly, where it is near.
+    fn is_touched(&self, index: usize, occluder: &PlanarPolygon) -> bool {
+        let (edge, ends) = (&self.cone.edges[index], self.cone.ends(index).map(CornerId::given));
         let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
+        let is_outside = |point: DVec3| match ends {
+            [Some(a), Some(b)] if more == 0.0 => turn(origin, a, b, point) != Ordering::Less,
+            _ => ends.contains(&Some(point)),
+        };
         occluder.points().iter().all(|point| {
-            let p = *point - origin;
-            let (depth, error) = edge.depth(p);
-            depth < -error - edge.error * more
-                || p == edge.start
-                || p == edge.end
-                || (depth <= error && more == 0.0 && self.is_outside(edge, *point))
+            let (depth, error) = edge.depth(*point - origin);
+            depth < -error - edge.error * more || (depth <= error && is_outside(*point))
         })
-    }
-
-    /// Whether a point is outside of the side through an edge between two given vertices, or on it: exactly.
-    fn is_outside(&self, edge: &Edge, point: DVec3) -> bool {
-        let given = |p: DVec3| self.to.points().iter().find(|q| **q - self.from.position() == p);
-        match (given(edge.start), given(edge.end)) {
-            (Some(a), Some(b)) => turn(self.from.position(), *a, *b, point) != Ordering::Less,
-            _ => false,
-        }
     }
 }

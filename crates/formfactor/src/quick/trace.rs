@@ -1,7 +1,7 @@
 //! The visible boundary, edge by edge: what the occluders leave of the target's edges, and what they and the target leave of
 //! the occluders' edges.
 use super::boundary::Boundary;
-use super::cone::{Cones, Edge, NEAR};
+use super::cone::{Cones, Edge};
 use super::contour::{Parts, Sum};
 use super::interval::{Interval, for_each_gap};
 use super::neighbours::Neighbours;
@@ -64,13 +64,12 @@ pub(super) fn sum(
         }
         let whole = || unhidden(target.from, target.to, open);
         return match within {
-            _ if !target.to.is_convex() => enough(target, &sum, error, within),
+            _ if !target.is_whole => enough(target, &sum, error, within),
             Some(_) => enough(target, &sum, error, within).or_else(whole),
             None => sum.fine(error).or_else(whole),
         };
     }
     trace(target, cones, buffers, &mut sum)?;
-    let error = error + buffers.boundary.joints.between;
     stats.partial += 1;
     stats.traced += 1;
     enough(target, &sum, error, within)
@@ -87,39 +86,31 @@ fn enough(target: &Target, sum: &Sum, error: f64, within: Option<f64>) -> Option
     sum.form_factor(error).filter(|factor| is_fine && factor.error_bound <= FINE * scale)
 }
 
-/// An edge that counts as another one is off it by no more than so many times what the error of a parameter allows for.
-const OFF: f64 = 1.0 + NEAR;
-
 /// Clips all edges, and adds what is left of them.
 fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
     let TraceBuffers { neighbours, boundary, hidden, record } = buffers;
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
-    boundary.begin(target.cone, cones);
+    boundary.begin(target.from.position(), target.cone, cones);
     neighbours.clear();
     for cone in 0..cones.len() {
         if boundary.clip(target.cone, cones, cone) {
             neighbours.push(frame.around(cones.cone(cone).edges), cone);
         }
     }
-    for (around, outer) in neighbours.largest() {
-        neighbours.inside(around).for_each(|inner| boundary.swallow(cones, [inner, outer]));
+    if neighbours.are_many() {
+        boundary.watch(cones.len());
+        for (around, outer) in neighbours.largest() {
+            neighbours.inside(around).for_each(|inner| boundary.swallow(cones, [inner, outer]));
+        }
+        neighbours.retain(|cone| !boundary.is_swallowed(cone));
     }
-    neighbours.retain(|cone| !boundary.is_swallowed(cone));
     neighbours.for_each_pair(|pair| boundary.hide(cones, pair));
-    if !boundary.joints.agree() {
-        return None;
-    }
     let (of_target, of_cones) = boundary.rests();
     let of_target = target.cone.edges.iter().zip(of_target).map(|(edge, rest)| (edge, rest, 1.0));
     // An occluder's edge has the visible part on its other side.
     let of_cones = cones.edges().iter().zip(of_cones).map(|(edge, rest)| (edge, rest, -1.0));
-    for (number, (edge, rest, sign)) in of_target.chain(of_cones).enumerate() {
-        let Some(mut whole) = boundary.left(rest, hidden)? else { continue };
-        if boundary.joints.have(number) {
-            // It stands for another one, which others meet as much further on as it is further off.
-            whole = whole.widened(OFF);
-            hidden.iter_mut().for_each(|part| *part = part.widened(OFF));
-        }
+    for (edge, rest, sign) in of_target.chain(of_cones) {
+        let Some(whole) = boundary.left(rest, hidden)? else { continue };
         add(edge, sign, whole, hidden, sum, record);
     }
     Some(())

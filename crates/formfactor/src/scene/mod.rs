@@ -6,12 +6,12 @@ pub(crate) mod coplanar;
 pub(crate) mod enclosure;
 pub(crate) mod inside;
 pub(crate) mod line;
-
 pub(crate) mod occluder;
 pub(crate) mod plates;
 pub(crate) mod pool;
 pub(crate) mod shaft;
 pub(crate) mod shell;
+mod sight;
 pub(crate) mod slab;
 pub(crate) mod surfaces;
 pub(crate) mod tree;

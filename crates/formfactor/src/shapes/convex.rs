@@ -8,9 +8,7 @@
 //!     o--o         o--o
 //! ```
 use super::loops::leaf;
-use crate::numeric::predicates::turn_in_plane;
 use glam::DVec2;
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// A piece has no more corners.
@@ -19,7 +17,11 @@ pub(crate) const MOST: usize = 8;
 /// An edge by the bits of its ends.
 type Link = [[u64; 2]; 2];
 
-/// Convex pieces of what is inside an odd number of loops, counter-clockwise, every corner of them a proper one.
+/// A corner is clear if it turns by more than this sine: far more than vertices that stand for others nearby may change. It chooses among
+/// pieces, and decides nothing of what they are.
+const CLEAR: f64 = 1e-6;
+
+/// Convex pieces of what is inside an odd number of loops, counter-clockwise; all corners are clear but for those of triangles.
 ///
 /// Takes O(n log n) for n vertices.
 pub(crate) fn convex_pieces(loops: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
@@ -62,11 +64,18 @@ fn join(one: &[DVec2], other: &[DVec2], [a, b]: Link) -> Option<Vec<DVec2>> {
     let first = one.iter().cycle().skip(of_one).take(one.len());
     let second = other.iter().cycle().skip(of_other + 1).take(other.len() - 2);
     let joined: Vec<DVec2> = first.chain(second).copied().collect();
-    let is_proper = |at: usize| {
-        let [before, here, after] = [at + count - 1, at, at + 1].map(|i| joined[i % count]);
-        turn_in_plane(before, here, after) == Ordering::Greater
-    };
-    (is_proper(0) && is_proper(one.len() - 1)).then_some(joined)
+    (is_clear(&joined, 0) && is_clear(&joined, one.len() - 1)).then_some(joined)
+}
+
+/// Whether all corners of a counter-clockwise ring turn clearly to the left.
+pub(crate) fn is_clearly_convex(ring: &[DVec2]) -> bool {
+    (0..ring.len()).all(|corner| is_clear(ring, corner))
+}
+
+fn is_clear(ring: &[DVec2], corner: usize) -> bool {
+    let [before, here, after] = [ring.len() - 1, 0, 1].map(|step| ring[(corner + step) % ring.len()]);
+    let [u, v] = [here - before, after - here];
+    u.perp_dot(v) > CLEAR * u.length() * v.length()
 }
 
 #[cfg(test)]

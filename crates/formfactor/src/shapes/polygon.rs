@@ -43,7 +43,7 @@ pub struct PlanarPolygon {
     /// How far a vertex as given may lie from where it stands on the plane: zero for triangles.
     deviation: f64,
     convex: bool,
-    /// Convex pieces that meet in whole edges; none where it is convex, or crosses itself.
+    /// Convex pieces that meet in whole edges; none where it is one itself, or crosses itself.
     pieces: Vec<Vec<DVec3>>,
     /// The points in the order of their kept coordinates.
     order: Vec<usize>,
@@ -80,7 +80,9 @@ impl PlanarPolygon {
         }
         let Self { points, order, .. } = &mut polygon;
         order.sort_by(|a, b| by_kept_axes(axes, points[*a], points[*b]));
-        polygon.pieces = if polygon.convex { Vec::new() } else { polygon.cut() };
+        let is_piece =
+            polygon.convex && (deviation == 0.0 || convex::is_clearly_convex(&polygon.flat_loops()[0]));
+        polygon.pieces = if is_piece { Vec::new() } else { polygon.cut() };
         Ok(polygon)
     }
 
@@ -141,9 +143,10 @@ impl PlanarPolygon {
     }
 
     /// Itself where it is convex, else convex pieces that meet in whole edges, counter-clockwise seen from the front; none where the
-    /// loops cross each other.
+    /// loops cross each other. A convex polygon is in pieces, too, if its vertices stand for others nearby and some of them lie nearly straight
+    /// between their neighbours.
     pub(crate) fn convex_pieces(&self) -> impl Iterator<Item = &[DVec3]> {
-        let whole = self.convex.then_some(self.points());
+        let whole = (self.convex && self.pieces.is_empty()).then_some(self.points());
         whole.into_iter().chain(self.pieces.iter().map(Vec::as_slice))
     }
 
