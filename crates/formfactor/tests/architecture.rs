@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 128] = [
+const ORDER: [&str; 129] = [
     "approx", "approx/paraboloid", "approx/monte_carlo", "approx/single_plane", "approx/baum", "approx/hemicube",
     "approx/visibility_index", "approx/pietrek", "approx/wallace", "approx/exact", "approx/gather", "approx/disk",
     "approx/screen", "approx/ray", "approx/frame", "approx/parts", "approx/contour", "approx/delta", "approx/random",
@@ -26,7 +26,7 @@ const ORDER: [&str; 128] = [
     "exact", "exact/whole", "exact/cubature", "exact/visible", "exact/shadows", "exact/project", "exact/cull",
     "exact/planarity", "exact/view", "exact/pyramid", "exact/projected_vertex", "exact/deviation", "exact/halves", "exact/horizon",
     "exact/lambert",
-    "shapes", "shapes/pieces", "shapes/cell", "shapes/differential_area", "shapes/holes", "shapes/polygon", "shapes/convex", "shapes/loops", "shapes/extent",
+    "shapes", "shapes/pieces", "shapes/cell", "shapes/differential_area", "shapes/holes", "shapes/polygon", "shapes/plane", "shapes/convex", "shapes/loops", "shapes/extent",
     "numeric", "numeric/taylor", "numeric/predicates", "numeric/offset", "numeric/angle", "numeric/rounding", "numeric/gauss",
     "form_factor", "stats", "error",
 ];

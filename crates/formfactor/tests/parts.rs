@@ -1,6 +1,6 @@
 //! Parts of polygons: their factors add up to the whole's.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-use formfactor::{DVec3, Enclosure, Error, Limits, Part, PlanarPolygon};
+use formfactor::{DVec3, DifferentialArea, Enclosure, Error, Limits, Part, PlanarPolygon};
 
 fn polygon(corners: &[DVec3]) -> PlanarPolygon {
     PlanarPolygon::new([corners]).unwrap()
@@ -118,4 +118,47 @@ fn a_part_off_its_polygons_plane_is_refused() {
     let error = room.area_form_factor(0, (1, &polygon(&lifted)), 1e-3, &Limits::default()).unwrap_err();
     assert!(matches!(error, Error::OffSurface { loop_index: 0, .. }), "{error}");
     assert!(error.to_string().starts_with("loop 0, vertex 0 of the part: 9.99999"), "{error}");
+}
+
+/// Walls as exporters of single precision leave them, a little off upright: what is next to a part of one hides nothing of it.
+#[test]
+fn parts_are_on_the_plane_of_the_whole() {
+    let [low, high] = [DVec3::new(-2.5, -3.0, 0.0), DVec3::new(2.5, 3.0, 2.7)];
+    let lean = DVec3::new(1.0, 1.0 - 1.967_016_7e-8, 1.0);
+    let walls = sides([low, high]).into_iter().map(|side| {
+        let leaning = |p: &DVec3| if p.z > 0.0 { *p * lean } else { *p };
+        let mut ring: Vec<DVec3> = side.loops().flatten().map(leaning).collect();
+        ring.reverse();
+        polygon(&ring)
+    });
+    let room = Enclosure::new(walls.collect());
+    let share = |k: i32, n: i32| f64::from(k) / f64::from(n);
+    for (id, wall) in room.polygons().iter().enumerate() {
+        let [a, b, c, d] = wall.loops().next().unwrap().try_into().unwrap();
+        let at = |i: i32, j: i32| a.lerp(b, share(i, 7)).lerp(d.lerp(c, share(i, 7)), share(j, 3));
+        let part =
+            |i: i32, j: i32| wall.part([[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]]).unwrap();
+        let parts: Vec<PlanarPolygon> = (0..21).map(|k| part(k % 7, k / 7)).collect();
+        assert!(parts.iter().all(|part| part.normal() == wall.normal()));
+        let backward = wall.part([[at(0, 1), at(1, 1), at(1, 0), at(0, 0)]]).unwrap();
+        assert_eq!(backward.area(), parts[0].area());
+        for (k, normal) in (0..40).flat_map(|k| [DVec3::X, -DVec3::Y, DVec3::Z].map(|normal| (k, normal))) {
+            let position = low.lerp(high, 0.5)
+                + DVec3::new(share(k % 5 - 2, 2), share(k % 7 - 3, 2), share(k % 9 - 4, 4));
+            let from = DifferentialArea::new(position, normal).unwrap();
+            let whole = room.form_factor(&from, id);
+            let sum: f64 = parts.iter().map(|part| room.form_factor_to_part(&from, id, part).value).sum();
+            let near: f64 =
+                parts.iter().map(|part| room.form_factor_within(&from, id, part, 1e-11).value).sum();
+            assert!((sum - whole.value).abs() < 1e-12, "{sum} is not {whole:?}");
+            assert!((near - whole.value).abs() < 21e-11, "{near} is not {whole:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_off_the_plane_is_no_part() {
+    let wall = polygon(&[DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]);
+    let off = wall.part([[[0.0, 0.0, 1e-9], [0.5, 0.0, 0.0], [0.5, 0.25, 0.0]]]);
+    assert!(matches!(off, Err(Error::NotPlanar { .. })), "{off:?}");
 }

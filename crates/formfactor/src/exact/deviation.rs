@@ -23,8 +23,8 @@ pub(crate) fn of_facing(position: DVec3, polygon: &PlanarPolygon) -> f64 {
     if deviation == 0.0 {
         return 0.0;
     }
-    let height = polygon.plane().side(position).value.hi.abs();
-    if height > deviation * polygon.plane().normal.round().length() {
+    let (plane, least) = (polygon.plane(), deviation * polygon.plane().normal.round().length());
+    if plane.is_farther(position, least) || plane.side(position).value.hi.abs() > least {
         return 0.0;
     }
     let low = polygon.points().iter().fold(polygon.points()[0], |low, p| low.min(*p)) - deviation;

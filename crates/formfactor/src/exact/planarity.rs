@@ -60,7 +60,7 @@ pub(crate) fn at_target(to: &PlanarPolygon, occluder: &PlanarPolygon) -> f64 {
 
 /// Whether a point is no higher over the target's plane, on either side.
 fn is_within(to: &PlanarPolygon, point: DVec3, height: f64) -> bool {
-    to.plane().side(point).value.hi.abs() <= height
+    !to.plane().is_farther(point, height) && to.plane().side(point).value.hi.abs() <= height
 }
 
 /// How far off the two polygons' vertices may be, as a height over the target's plane.

@@ -86,11 +86,21 @@ impl Plane {
         self.side(DVec3::new(x, y, z)).sign
     }
 
+    /// Whether a point is higher over the plane, on either side, as far as doubles decide it.
+    pub(crate) fn is_farther(&self, point: DVec3, height: f64) -> bool {
+        let (value, error) = self.quick_height(point);
+        value.abs() > height + error
+    }
+
+    /// The height of a point over the plane in doubles, and a bound on its error.
+    fn quick_height(&self, point: DVec3) -> (f64, f64) {
+        let offset = point - self.corners[0];
+        (self.rounded.dot(offset), self.rounded_error.dot(offset.abs()) + QUICK_UNDERFLOW)
+    }
+
     /// The side of a point where doubles decide it; never `Equal`.
     pub(crate) fn quick_side(&self, point: DVec3) -> Option<Ordering> {
-        let offset = point - self.corners[0];
-        let value = self.rounded.dot(offset);
-        let error = self.rounded_error.dot(offset.abs()) + QUICK_UNDERFLOW;
+        let (value, error) = self.quick_height(point);
         if value > error {
             Some(Ordering::Greater)
         } else if value < -error {
@@ -146,8 +156,8 @@ pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
     if value.abs() > QUICK * terms + QUICK_UNDERFLOW {
         return value.total_cmp(&0.0);
     }
-    // Points on a line along an axis, such as the corners of a grid, need no arithmetic.
-    if (0..3).filter(|&axis| a[axis] == b[axis] && b[axis] == d[axis]).count() > 1 {
+    // Neighbours share corners, and points on a line along an axis, such as the corners of a grid, need no arithmetic either.
+    if [a, b].contains(&d) || (0..3).filter(|&axis| a[axis] == b[axis] && b[axis] == d[axis]).count() > 1 {
         return Ordering::Equal;
     }
     let (normal, terms) = Offset::between(origin, a).cross(Offset::between(origin, b));

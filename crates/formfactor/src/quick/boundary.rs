@@ -42,6 +42,8 @@ pub(super) struct Rest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Relation {
     Apart,
+    /// They touch along an edge that both have: its numbers.
+    Beside([usize; 2]),
     FirstInside,
     SecondInside,
     /// All signs are certain.
@@ -126,9 +128,10 @@ impl Boundary {
     /// Clips a cone's edges to the target, and hides the target's behind it. Returns whether they meet.
     pub(super) fn clip(&mut self, target: OneCone, cones: &Cones, index: usize) -> bool {
         let (cone, first) = (cones.cone(index), self.sides + cones.first(index));
-        let relation = self.compare(cone, target);
+        let relation = self.compare([cone, target], false);
+        let is_apart = matches!(relation, Relation::Apart | Relation::Beside(_));
         match relation {
-            Relation::Apart => self.lose(first, cone),
+            Relation::Apart | Relation::Beside(_) => self.lose(first, cone),
             Relation::Crossing | Relation::Open => {
                 let Self { origin, rests, parts, within: [there, back], .. } = self;
                 let (of_target, of_cones) = rests.split_at_mut(first);
@@ -145,7 +148,7 @@ impl Boundary {
                 self.lose(first, cone);
             }
         }
-        relation != Relation::Apart
+        !is_apart
     }
 
     /// Notes from now on which of so many cones are inside of others.
@@ -165,7 +168,7 @@ impl Boundary {
         if is_known || small.edges.len().max(large.edges.len()) > MOST {
             return;
         }
-        if self.within[0].find(large.edges, small.spread) == Standing::Contained {
+        if self.within[0].find(large, small, inner > outer) == Standing::Contained {
             self.lose_all(cones, inner);
         }
     }
@@ -177,9 +180,13 @@ impl Boundary {
         }
         let [first, second] = [a, b].map(|index| cones.cone(index));
         let [at_first, at_second] = [a, b].map(|index| self.sides + cones.first(index));
-        let relation = self.compare(first, second);
+        let relation = self.compare([first, second], a > b);
         match relation {
             Relation::Apart => (),
+            Relation::Beside([one, other]) => {
+                self.rests[at_first + one].is_lost = true;
+                self.rests[at_second + other].is_lost = true;
+            }
             Relation::FirstInside => self.lose_all(cones, a),
             Relation::SecondInside => self.lose_all(cones, b),
             Relation::Crossing | Relation::Open => {
@@ -211,21 +218,24 @@ impl Boundary {
         self.rests[first..][..cone.edges.len()].iter_mut().for_each(|rest| rest.is_lost = true);
     }
 
-    /// How two cones lie. Where they cross, on which sides of their planes the corners of the other one are.
+    /// How two cones lie. Where they cross, on which sides of their planes the corners of the other one are. Where they share corners, the
+    /// first counts as the smaller one if it is said to be, else the second.
     #[inline]
-    fn compare(&mut self, first: OneCone, second: OneCone) -> Relation {
+    fn compare(&mut self, [first, second]: [OneCone; 2], is_first_smaller: bool) -> Relation {
         let [there, back] = &mut self.within;
         if first.edges.len().max(second.edges.len()) > MOST {
             return Relation::Open;
         }
-        let standing = there.find(second.edges, first.spread);
+        let standing = there.find(second, first, is_first_smaller);
         match standing {
             Standing::Apart => return Relation::Apart,
+            Standing::Beside(edges) => return Relation::Beside(edges),
             Standing::Contained => return Relation::FirstInside,
             Standing::Certain | Standing::Open => (),
         }
-        match (standing, back.find(first.edges, second.spread)) {
+        match (standing, back.find(first, second, !is_first_smaller)) {
             (_, Standing::Apart) => Relation::Apart,
+            (_, Standing::Beside([other, one])) => Relation::Beside([one, other]),
             (_, Standing::Contained) => Relation::SecondInside,
             (Standing::Certain, Standing::Certain) => Relation::Crossing,
             _ => Relation::Open,

@@ -47,5 +47,5 @@ fn cut(inner: &Corner, ends: [DVec3; 2], [above, below]: [f64; 2]) -> Corner {
     let along = ends[1] - ends[0];
     let at = inner.at + along * (above / (above - below));
     let rounding = 2.0 * ROUNDING * (size(inner.at) + 8.0 * size(along));
-    Corner { at, id: CornerId::cut(ends), deviation: inner.deviation + rounding }
+    Corner { at, id: CornerId::cut(ends), deviation: inner.deviation + rounding, rounding }
 }

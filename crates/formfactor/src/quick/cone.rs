@@ -31,6 +31,30 @@ impl CornerId {
         let [a, b] = self.between;
         (a == b).then_some(a)
     }
+
+    /// The vertices as given on either side.
+    pub(super) fn between(self) -> [DVec3; 2] {
+        self.between
+    }
+
+    /// Two vertices as given on the line of the edge from here to another corner, in its order; none where a plane made the edge.
+    fn line(self, end: Self) -> Option<[DVec3; 2]> {
+        match [self.given(), end.given()] {
+            [Some(a), Some(b)] => Some([a, b]),
+            [Some(a), None] => Some([a, end.beyond(a)?]),
+            [None, Some(b)] => Some([self.beyond(b)?, b]),
+            [None, None] => None,
+        }
+    }
+
+    /// Of the edge that was cut here, the end beyond the cut.
+    fn beyond(self, end: DVec3) -> Option<DVec3> {
+        match self.between {
+            [a, b] if a == end => Some(b),
+            [a, b] if b == end => Some(a),
+            _ => None,
+        }
+    }
 }
 
 /// A vertex of a convex polygon, and how far it may lie from where it stands.
@@ -40,19 +64,24 @@ pub(super) struct Corner {
     pub(super) at: DVec3,
     pub(super) id: CornerId,
     pub(super) deviation: f64,
+    /// The part of it that is the rounding of a cut.
+    pub(super) rounding: f64,
 }
 
 impl Corner {
     pub(super) fn given(given: DVec3, origin: DVec3, deviation: f64) -> Self {
-        Self { at: given - origin, id: CornerId::cut([given; 2]), deviation }
+        Self { at: given - origin, id: CornerId::cut([given; 2]), deviation, rounding: 0.0 }
     }
 
-    /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
-    fn along(&self, other: &Self) -> DVec3 {
-        match (self.id.given(), other.id.given()) {
-            (Some(from), Some(to)) => to - from,
-            _ => other.at - self.at,
-        }
+    /// The edge to another corner; none where they coincide. Its direction is rounded once between vertices as given, which may be far closer
+    /// together than dA is. An edge on a line that is known exactly counts how far off that a cut of it may be.
+    fn edge(&self, end: &Self) -> Option<Edge> {
+        let (along, off) = match [self.id.given(), end.id.given()] {
+            [Some(a), Some(b)] => (b - a, 0.0),
+            _ if self.id.line(end.id).is_some() => (end.at - self.at, self.rounding + end.rounding),
+            _ => (end.at - self.at, 0.0),
+        };
+        (along != DVec3::ZERO).then(|| Edge::new(self.at, end.at, along, off))
     }
 }
 
@@ -87,10 +116,11 @@ pub(super) enum Place {
 }
 
 impl Edge {
-    fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
+    /// One end of it may be off its line by `off`.
+    fn new(start: DVec3, end: DVec3, along: DVec3, off: f64) -> Self {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
-        let errors = ERROR * terms;
+        let errors = ERROR * terms + off * (size(a) + size(b));
         Self { start, end, along, inward: along.cross(start), errors, error: errors.element_sum() }
     }
 
@@ -141,9 +171,8 @@ pub(super) fn faces(
 ) {
     let Some(mut before) = corners.clone().next_back() else { return };
     for corner in corners {
-        let along = before.along(&corner);
-        if along != DVec3::ZERO {
-            edges.push(Edge::new(before.at, corner.at, along));
+        if let Some(edge) = before.edge(&corner) {
+            edges.push(edge);
             ids.push(before.id);
             before = corner;
         }
@@ -155,13 +184,19 @@ pub(super) fn faces(
 pub(super) struct OneCone<'c> {
     /// Each starts where the one before it ends.
     pub(super) edges: &'c [Edge],
-    ids: &'c [CornerId],
+    pub(super) ids: &'c [CornerId],
     pub(super) spread: &'c Spread,
 }
 
 impl<'c> OneCone<'c> {
     pub(super) fn new(edges: &'c [Edge], ids: &'c [CornerId], spread: &'c Spread) -> Self {
         Self { edges, ids, spread }
+    }
+
+    /// Two vertices as given on the line of an edge, in its order; none where a plane made the edge.
+    pub(super) fn line(&self, edge: usize) -> Option<[DVec3; 2]> {
+        let [start, end] = self.ends(edge);
+        start.line(end)
     }
 
     /// What the ends of an edge are.
@@ -177,16 +212,29 @@ pub(super) struct Spread {
     pub(super) corners: Corners,
     /// The largest size of a corner.
     pub(super) reach: f64,
+    /// How far off the place of a cut corner may be.
+    rounding: f64,
     /// Which of all edges are its own: from `first` on.
     first: usize,
 }
 
 impl Spread {
     /// Of the cone of those edges that come last, from `first` on.
-    pub(super) fn of(edges: &[Edge], first: usize) -> Self {
+    pub(super) fn of(edges: &[Edge], first: usize, corners: impl Iterator<Item = Corner>) -> Self {
         let edges = &edges[first..];
         let reach = edges.iter().fold(0.0, |reach, edge| greater(reach, size(edge.start)));
-        Self { corners: Corners::of(edges.iter().map(|edge| edge.start)), reach, first }
+        let rounding = corners.fold(0.0, |rounding, corner| greater(rounding, corner.rounding));
+        Self { corners: Corners::of(edges.iter().map(|edge| edge.start)), reach, rounding, first }
+    }
+
+    /// A bound on the error of how far inside a plane a corner is: coarse, but it costs little.
+    pub(super) fn error(&self, plane: &Edge) -> f64 {
+        plane.error * self.reach + self.displaced(plane)
+    }
+
+    /// What the roundings of cuts add to that error.
+    pub(super) fn displaced(&self, plane: &Edge) -> f64 {
+        UNDERFLOW + if self.rounding > 0.0 { size(plane.inward) * self.rounding } else { 0.0 }
     }
 }
 
@@ -208,8 +256,8 @@ impl Cones {
     /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
     pub(super) fn push(&mut self, corners: impl DoubleEndedIterator<Item = Corner> + Clone) -> &[Edge] {
         let first = self.edges.len();
-        faces(corners, &mut self.edges, &mut self.ids);
-        self.spreads.push(Spread::of(&self.edges, first));
+        faces(corners.clone(), &mut self.edges, &mut self.ids);
+        self.spreads.push(Spread::of(&self.edges, first, corners));
         &self.edges[first..]
     }
 

@@ -32,18 +32,18 @@ pub(super) fn inside(origin: DVec3, (own, index): (OneCone<'_>, usize), other: O
     for (number, plane) in other.edges.iter().enumerate() {
         let [start, end] = [edge.start, edge.end].map(|p| plane.inward.dot(p));
         // A coarse bound on the error decides for most planes.
-        let coarse = plane.error * own.spread.reach + UNDERFLOW;
+        let coarse = own.spread.error(plane);
         if start > coarse && end > coarse {
             continue;
         }
         if start < -coarse && end < -coarse {
             return Inside::Nothing;
         }
-        let error = larger_error(edge, plane);
+        let error = larger_error(edge, plane) + own.spread.displaced(plane);
         let side = |end: usize, depth: f64| match depth {
             depth if depth > error => Some(Ordering::Greater),
             depth if depth < -error => Some(Ordering::Less),
-            _ => exact_side(origin, own.ends(index)[end], other.ends(number)),
+            _ => exact_side(origin, own.ends(index)[end], (other, number)),
         };
         match [side(0, start), side(1, end)] {
             [Some(Ordering::Equal), Some(Ordering::Equal)] if leads(edge) && leads(plane) => {
@@ -68,14 +68,17 @@ pub(super) fn inside(origin: DVec3, (own, index): (OneCone<'_>, usize), other: O
     }
 }
 
-/// On which side of the plane of an edge a corner of another one is: found for vertices as given, and for the edge's own ends.
+/// On which side of the plane of an edge a corner of another cone is, as far as vertices as given decide it. A cut is strictly between two.
 #[cold]
-fn exact_side(origin: DVec3, corner: CornerId, ends: [CornerId; 2]) -> Option<Ordering> {
-    if ends.contains(&corner) {
+fn exact_side(origin: DVec3, corner: CornerId, (other, edge): (OneCone<'_>, usize)) -> Option<Ordering> {
+    if other.ends(edge).contains(&corner) {
         return Some(Ordering::Equal);
     }
-    let [a, b] = ends.map(CornerId::given);
-    Some(turn(origin, b?, a?, corner.given()?))
+    let [a, b] = other.line(edge)?;
+    match corner.between().map(|p| turn(origin, b, a, p)) {
+        [one, other] if one == other || other.is_eq() => Some(one),
+        [one, other] => one.is_eq().then_some(other),
+    }
 }
 
 /// Whether it is certain where the plane of an edge leads: not of one that leads to dA.

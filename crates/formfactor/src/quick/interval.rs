@@ -8,8 +8,8 @@ pub(super) struct Parameter {
 }
 
 impl Parameter {
-    const START: Self = Self { at: 0.0, error: 0.0 };
-    const END: Self = Self { at: 1.0, error: 0.0 };
+    pub(super) const START: Self = Self { at: 0.0, error: 0.0 };
+    pub(super) const END: Self = Self { at: 1.0, error: 0.0 };
 
     fn least(&self) -> f64 {
         self.at - self.error

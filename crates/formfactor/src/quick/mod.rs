@@ -115,10 +115,14 @@ where
     Some(FormFactor { value: value.min(1.0), error_bound })
 }
 
-/// Whether anything of a piece is above the horizon.
-fn rises(from: &DifferentialArea, piece: &[DVec3]) -> bool {
-    let height = |p: &DVec3| place(from.given_normal(), from.position(), *p);
-    piece.iter().any(|p| height(p) == Ordering::Greater)
+/// Whether anything of a piece may be above the horizon.
+fn rises(from: &DifferentialArea, (to, piece): (&PlanarPolygon, &[DVec3])) -> bool {
+    let (up, origin) = (from.given_normal(), from.position());
+    if to.deviation() == 0.0 {
+        return piece.iter().any(|p| place(up, origin, *p) == Ordering::Greater);
+    }
+    let reach = |p: DVec3| to.deviation() + 16.0 * ROUNDING * cone::size(p);
+    piece.iter().map(|p| *p - origin).any(|p| up.dot(p) >= -cone::size(up) * reach(p))
 }
 
 /// The form factor of a convex piece of a polygon.
@@ -135,7 +139,7 @@ where
 {
     let QuickBuffers { corners, edges, ids, sides, spread, cones, trace } = buffers;
     let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread) else {
-        let is_unseen = to.0.deviation() == 0.0 && !rises(from, to.1);
+        let is_unseen = !rises(from, to);
         stats.none += u64::from(is_unseen);
         return is_unseen.then(FormFactor::default);
     };

@@ -8,9 +8,12 @@
 //!      a0 __ |\_______|
 //!          b0  a1     b1
 //! ```
-use super::cone::{Edge, Spread, UNDERFLOW};
+//!
+//! Polygons of a mesh share corners, and those lie in planes of both. Their signs are those of cones that are a little smaller, one
+//! much less than the other: that moves no boundary, and two that only touch are apart.
+use super::cone::{CornerId, Edge, OneCone};
 use super::inside::{CLEAR, Inside, crossing};
-use super::interval::Interval;
+use super::interval::{Interval, Parameter};
 use super::lanes::{Lanes, MOST};
 
 /// On which sides of the planes of one cone the corners of another are.
@@ -21,8 +24,12 @@ pub(super) struct Sides {
     /// The corners inside each plane, and the edges that cross it, one bit each.
     inside: [u8; MOST],
     straddling: [u8; MOST],
+    /// The corners in each plane: they are ends of its edge.
+    shared: [u8; MOST],
     /// The corners inside all planes.
     inside_all: u8,
+    /// The edges that the other cone has, too, the same way.
+    along: u8,
     corners: usize,
 }
 
@@ -31,6 +38,8 @@ pub(super) struct Sides {
 pub(super) enum Standing {
     /// A plane separates them.
     Apart,
+    /// A plane separates them, and both have its edge: the number of that among the corners' edges, and among the planes.
+    Beside([usize; 2]),
     /// All corners are inside all planes.
     Contained,
     /// Every sign is certain.
@@ -39,26 +48,40 @@ pub(super) enum Standing {
 }
 
 impl Sides {
-    /// Finds the sides of the corners of a cone: neither it nor that of the planes has more than `MOST`.
+    /// Finds on which sides of the planes of one cone the corners of another are: neither has more than `MOST`. Where they share corners,
+    /// that with the planes is smaller by much less if `is_smaller`, by much more if not.
     #[inline]
-    pub(super) fn find(&mut self, planes: &[Edge], spread: &Spread) -> Standing {
-        let count = spread.corners.count;
+    pub(super) fn find(&mut self, planes: OneCone, cone: OneCone, is_smaller: bool) -> Standing {
+        let (count, spread) = (cone.spread.corners.count, cone.spread);
         let all = u8::MAX >> (MOST - count);
-        (self.inside_all, self.corners) = (all, count);
+        (self.inside_all, self.along, self.corners) = (all, 0, count);
         let mut is_open = false;
-        let rows = self.depths.iter_mut().zip(&mut self.inside).zip(&mut self.straddling);
-        for (plane, ((depths, inside), straddling)) in planes.iter().zip(rows) {
+        for (number, plane) in planes.edges.iter().enumerate() {
+            let depths = &mut self.depths[number];
             let (least, outside) = spread.corners.dots(plane.inward, depths);
-            let (outside, is_clear) =
-                (outside & all, least > CLEAR * (plane.error * spread.reach + UNDERFLOW));
-            if is_clear && outside == all {
+            let mut outside = outside & all;
+            let clear = CLEAR * spread.error(plane);
+            self.shared[number] = 0;
+            if least <= clear {
+                match shared(depths, clear, cone.ids, planes.ends(number)) {
+                    Some((shared, is_inside)) => {
+                        self.shared[number] = shared;
+                        outside = if is_smaller && is_inside { outside & !shared } else { outside | shared };
+                        let edges = shared & after(shared, count);
+                        if edges != 0 && !is_inside {
+                            return Standing::Beside([edges.trailing_zeros() as usize, number]);
+                        }
+                        self.along |= edges;
+                    }
+                    None => is_open = true,
+                }
+            }
+            if outside == all && (least > clear || self.shared[number] != 0) {
                 return Standing::Apart;
             }
-            is_open |= !is_clear;
-            *inside = all ^ outside;
-            // Bit i compares corners i and i + 1, the last one and the first.
-            *straddling = (outside ^ (outside >> 1 | outside << (count - 1))) & all;
-            self.inside_all &= *inside;
+            self.inside[number] = all ^ outside;
+            self.straddling[number] = (outside ^ after(outside, count)) & all;
+            self.inside_all &= self.inside[number];
         }
         if is_open {
             Standing::Open
@@ -79,6 +102,9 @@ impl Sides {
     /// `back`, that say where the corners of the other one are.
     #[inline]
     pub(super) fn part(&self, edge: &Edge, index: usize, planes: &[Edge], back: &Self) -> Inside {
+        if self.along >> index & 1 == 1 {
+            return Inside::Along { part: Interval::WHOLE, is_same_way: true };
+        }
         if self.is_beside(index, back) {
             return Inside::Nothing;
         }
@@ -95,17 +121,50 @@ impl Sides {
                 continue;
             }
             is_crossed = true;
-            let depths = self.depths[other].as_flattened();
-            let next = if index + 1 == self.corners { 0 } else { index + 1 };
-            let found = crossing(edge, &planes[other], [depths[index], depths[next]]);
+            let found = self.crossing(edge, index, &planes[other], other);
             if is_leaving {
                 part.high = found;
             } else {
                 part.low = found;
             }
         }
-        if is_crossed || self.inside_all >> index & 1 == 1 { Inside::Part(part) } else { Inside::Nothing }
+        let is_left = part.low != Parameter::END && part.high != Parameter::START;
+        let is_inside = is_crossed || self.inside_all >> index & 1 == 1;
+        if is_inside && is_left { Inside::Part(part) } else { Inside::Nothing }
     }
+
+    /// Where edge `index` crosses plane `other`.
+    #[inline]
+    fn crossing(&self, edge: &Edge, index: usize, plane: &Edge, other: usize) -> Parameter {
+        let depths = self.depths[other].as_flattened();
+        let next = if index + 1 == self.corners { 0 } else { index + 1 };
+        match self.shared[other] {
+            shared if shared >> index & 1 == 1 => Parameter::START,
+            shared if shared >> next & 1 == 1 => Parameter::END,
+            _ => crossing(edge, plane, [depths[index], depths[next]]),
+        }
+    }
+}
+
+/// Bit i is that of corner i + 1, of so many; bits beyond that may be set.
+fn after(corners: u8, count: usize) -> u8 {
+    corners >> 1 | corners << (count - 1)
+}
+
+/// The corners that are ends of a plane's edge, if all that are not clear of the plane are, and whether the others are inside of it as a whole.
+#[inline(never)]
+fn shared(depths: &Lanes, clear: f64, corners: &[CornerId], ends: [CornerId; 2]) -> Option<(u8, bool)> {
+    let (mut shared, mut others) = (0, 0.0);
+    for (index, (corner, depth)) in corners.iter().zip(depths.as_flattened()).enumerate() {
+        if depth.abs() > clear {
+            others += depth;
+        } else if ends.contains(corner) {
+            shared |= 1 << index;
+        } else {
+            return None;
+        }
+    }
+    (others.abs() > clear).then_some((shared, others > 0.0))
 }
 
 #[cfg(test)]
@@ -134,8 +193,67 @@ mod tests {
         )
     }
 
+    /// A convex polygon of some of a few places, counter-clockwise seen from the origin.
+    fn of_places() -> impl Strategy<Value = Vec<Corner>> {
+        const PLACES: [[i8; 2]; 7] = [[0, 0], [4, 1], [1, 5], [-3, 2], [-2, -4], [3, -3], [6, 4]];
+        let place = |[x, y]: [i8; 2]| DVec3::new(f64::from(x), f64::from(y), 3.0 + 0.1 * f64::from(x * y));
+        prop::sample::subsequence(PLACES.map(place).to_vec(), 3..=4).prop_filter_map(
+            "not convex",
+            |mut places| {
+                let middle = places.iter().sum::<DVec3>() / places.len() as f64;
+                let angle =
+                    |p: &DVec3| f64::atan2(p.x / p.z - middle.x / middle.z, p.y / p.z - middle.y / middle.z);
+                places.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+                let next = |i: usize| places[i % places.len()];
+                let is_convex =
+                    (0..places.len()).all(|i| next(i).dot(next(i + 1).cross(next(i + 2))) < -1e-9);
+                is_convex.then(|| places.iter().map(|p| Corner::given(*p, DVec3::ZERO, 0.0)).collect())
+            },
+        )
+    }
+
+    /// What of an edge is inside, as far as that is more than a point, and which way it runs along an edge of the other cone.
+    fn measured(part: Inside) -> Option<([f64; 2], Option<bool>)> {
+        match part {
+            Inside::Part(part) if part.high.at - part.low.at > 1e-9 => {
+                Some(([part.low.at, part.high.at], None))
+            }
+            Inside::Along { is_same_way, .. } => Some(([0.0, 1.0], Some(is_same_way))),
+            _ => None,
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn shared_corners_move_no_boundary(polygons in prop::array::uniform2(of_places()), is_smaller in any::<bool>()) {
+            let mut cones = Cones::default();
+            for polygon in &polygons {
+                cones.push(polygon.iter().copied());
+            }
+            let [a, b] = [cones.cone(0), cones.cone(1)];
+            let [mut there, mut back] = [Sides::default(); 2];
+            let standings = [there.find(b, a, is_smaller), back.find(a, b, !is_smaller)];
+            for (index, edge) in a.edges.iter().enumerate() {
+                let clipped = inside(DVec3::ZERO, (a, index), b);
+                let found = match standings {
+                    [Standing::Beside([own, _]), _] | [_, Standing::Beside([_, own])] if own == index => {
+                        Inside::Along { part: Interval::WHOLE, is_same_way: false }
+                    }
+                    [Standing::Apart | Standing::Beside(_), _] | [_, Standing::Apart | Standing::Beside(_)] => Inside::Nothing,
+                    [Standing::Open, _] | [_, Standing::Open] => continue,
+                    _ => there.part(edge, index, b.edges, &back),
+                };
+                match (measured(found), measured(clipped)) {
+                    (Some((found, found_way)), Some((clipped, clipped_way))) => {
+                        prop_assert_eq!(found_way, clipped_way);
+                        prop_assert!((found[0] - clipped[0]).abs() < 1e-9 && (found[1] - clipped[1]).abs() < 1e-9);
+                    }
+                    (found, clipped) => prop_assert_eq!(found, clipped),
+                }
+            }
+        }
 
         #[test]
         fn signs_find_the_parts_that_clipping_finds(polygons in prop::array::uniform2(polygon())) {
@@ -145,7 +263,7 @@ mod tests {
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
-            let standings = [there.find(b.edges, a.spread), back.find(a.edges, b.spread)];
+            let standings = [there.find(b, a, false), back.find(a, b, true)];
             for (index, edge) in a.edges.iter().enumerate() {
                 let clipped = inside(DVec3::ZERO, (a, index), b);
                 let found = match standings {

@@ -5,6 +5,7 @@ use super::corners::{copy, deviation_error};
 use super::interval::greater;
 use crate::exact::deviation;
 use crate::numeric::predicates::{over_horizon, place, turn};
+use crate::numeric::rounding::ROUNDING;
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -65,6 +66,24 @@ impl HalfSpace {
     }
 }
 
+/// How far above the horizon a target is cut off, as a share of its distance: far more than roundings.
+const LIFT: f64 = 9.094_947_017_729_282e-13;
+/// What is left out is far less than what roundings leave open.
+const LEFT_OUT: f64 = 1e-18;
+
+/// How high a target that passes the horizon is cut off, along the given normal, and a bound on the form factor of what is left out. None where
+/// that would be too much.
+///
+/// Edges that lie in the horizon, as those of neighbours in a wall do, are clear of the cut then. What rises above the horizon by a sine of s at
+/// most has a form factor of at most s^2.
+fn band_above(from: &DifferentialArea, to: &PlanarPolygon, corners: &[Corner]) -> Option<(f64, f64)> {
+    let reach = corners.iter().fold(0.0, |reach, corner| greater(reach, size(corner.at)));
+    let nearest = to.normal().dot(corners[0].at).abs() - 16.0 * ROUNDING * reach - to.deviation();
+    let sine = 2.0 * LIFT * reach / nearest;
+    let error = sine * sine;
+    (nearest > 0.0 && error <= LEFT_OUT).then_some((LIFT * reach * from.given_normal().length(), error))
+}
+
 /// The sides that come before those of the edges: the target's plane and the horizon.
 const BEFORE_EDGES: usize = 2;
 
@@ -96,10 +115,20 @@ impl<'a> Target<'a> {
             return None;
         }
         copy(piece, to.deviation(), origin, false, corners);
+        let mut band = None;
         let height = |c: &Corner| c.id.given().map_or(Ordering::Equal, |p| place(normal, origin, p));
         if corners.iter().any(|c| height(c) == Ordering::Less) {
-            let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
-            clip(corners, spare, |p| place(normal, origin, p), exact);
+            band = band_above(from, to, corners);
+            match band {
+                Some((height, _)) => {
+                    let height = |p: DVec3| normal.dot(p - origin) - height;
+                    clip(corners, spare, |p| height(p).total_cmp(&0.0), height);
+                }
+                None => {
+                    let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
+                    clip(corners, spare, |p| place(normal, origin, p), exact);
+                }
+            }
         }
         if corners.iter().all(|c| height(c) != Ordering::Greater) {
             return None;
@@ -111,12 +140,13 @@ impl<'a> Target<'a> {
             // So little is above the horizon that its corners coincide: anything would seem to cover it.
             return None;
         }
-        let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to);
-        *spread = Spread::of(edges, 0);
+        let left_out = band.map_or(0.0, |(_, error)| error);
+        let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to) + left_out;
+        *spread = Spread::of(edges, 0, corners.iter().copied());
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
-        let is_whole = to.is_convex() && piece.len() == to.points().len();
+        let is_whole = to.is_convex() && to.convex_pieces().nth(1).is_none();
         Some(Self { from, to, is_whole, cone: OneCone::new(edges, ids, spread), sides, error })
     }
 
@@ -162,11 +192,12 @@ impl<'a> Target<'a> {
 
     /// Whether a polygon is outside of the side through an edge, touching allowed: exactly, where it is near.
     fn is_touched(&self, index: usize, occluder: &PlanarPolygon) -> bool {
-        let (edge, ends) = (&self.cone.edges[index], self.cone.ends(index).map(CornerId::given));
+        let (edge, line) = (&self.cone.edges[index], self.cone.line(index));
         let (origin, more) = (self.from.position(), occluder.deviation() * INVERSE);
-        let is_outside = |point: DVec3| match ends {
-            [Some(a), Some(b)] if more == 0.0 => turn(origin, a, b, point) != Ordering::Less,
-            _ => ends.contains(&Some(point)),
+        let is_outside = |point: DVec3| match line {
+            Some([a, b]) if more == 0.0 => turn(origin, a, b, point) != Ordering::Less,
+            Some(ends) => ends.contains(&point),
+            None => false,
         };
         occluder.points().iter().all(|point| {
             let (depth, error) = edge.depth(*point - origin);

@@ -8,7 +8,9 @@
 //!     o--o         o--o
 //! ```
 use super::loops::leaf;
+use crate::numeric::predicates::turn_in_plane;
 use glam::DVec2;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// A piece has no more corners.
@@ -70,6 +72,15 @@ fn join(one: &[DVec2], other: &[DVec2], [a, b]: Link) -> Option<Vec<DVec2>> {
 /// Whether all corners of a counter-clockwise ring turn clearly to the left.
 pub(crate) fn is_clearly_convex(ring: &[DVec2]) -> bool {
     (0..ring.len()).all(|corner| is_clear(ring, corner))
+}
+
+/// The corners of a convex ring that do not lie straight between their neighbours.
+pub(crate) fn bends(ring: &[DVec2]) -> impl Iterator<Item = usize> + '_ {
+    let next = |corner: usize| ring[corner % ring.len()];
+    let is_bend = move |corner: &usize| {
+        turn_in_plane(next(corner + ring.len() - 1), next(*corner), next(corner + 1)) != Ordering::Equal
+    };
+    (0..ring.len()).filter(is_bend)
 }
 
 fn is_clear(ring: &[DVec2], corner: usize) -> bool {

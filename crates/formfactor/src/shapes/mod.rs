@@ -6,4 +6,5 @@ pub(crate) mod extent;
 pub(crate) mod holes;
 pub(crate) mod loops;
 pub(crate) mod pieces;
+mod plane;
 pub(crate) mod polygon;

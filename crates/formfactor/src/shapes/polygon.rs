@@ -1,14 +1,12 @@
 //! Planar polygons: loops with holes, and the plane that they share.
+use super::plane::{deviation, kept_axes, newell, plane_of};
 use super::{convex, loops};
 use crate::error::Error;
-use crate::numeric::rounding::{ROUNDING, SMALLEST, in_range};
+use crate::numeric::rounding::in_range;
 use crate::numeric::{offset::Offset, predicates::Plane};
 use exactfloat::DoubleDouble;
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
-
-/// How many roundings of its largest coordinate a polygon's vertex may lie off the polygon's plane.
-const PLANARITY: f64 = 64.0;
 
 /// A planar polygon with holes and islands: the points inside an odd number of its loops.
 ///
@@ -43,7 +41,7 @@ pub struct PlanarPolygon {
     /// How far a vertex as given may lie from where it stands on the plane: zero for triangles.
     deviation: f64,
     convex: bool,
-    /// Convex pieces that meet in whole edges; none where it is one itself, or crosses itself.
+    /// Convex pieces that meet in whole edges, no vertex straight between its neighbours; none where it is one itself, or crosses itself.
     pieces: Vec<Vec<DVec3>>,
     /// The points in the order of their kept coordinates.
     order: Vec<usize>,
@@ -64,6 +62,39 @@ impl PlanarPolygon {
         let outer = &points[..*ends.first().ok_or(Error::NoLoops)?];
         let normal = newell(outer)?;
         let plane = plane_of(outer, normal)?;
+        Self::on_plane(points, ends, plane, normal)
+    }
+
+    /// A part of this polygon, on the same plane and facing the same way, whichever way its loops run: its vertices, which rounding may have put off that plane, stand for
+    /// those on it. What is decided by the side of the plane is the same for the part and the whole.
+    ///
+    /// ```
+    /// use formfactor::PlanarPolygon;
+    /// let wall = PlanarPolygon::new([[[0.0, 0.0, 0.0], [3.0, 0.0, 0.1], [3.0, 2.0, 0.4], [0.0, 2.0, 0.3]]])?;
+    /// let third = wall.part([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.1 / 3.0], [1.0, 2.0, 1.0 / 3.0], [0.0, 2.0, 0.3]]])?;
+    /// assert_eq!(third.normal(), wall.normal());
+    /// assert!((3.0 * third.area() / wall.area() - 1.0).abs() < 1e-15);
+    /// # Ok::<(), formfactor::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// See [`Error`]: no loops, too few vertices, coordinates out of range, no area, vertices off the plane.
+    pub fn part<L, P>(&self, loops: L) -> Result<Self, Error>
+    where
+        L: IntoIterator,
+        L::Item: AsRef<[P]>,
+        P: Copy + Into<DVec3>,
+    {
+        let (mut points, ends) = collect(loops)?;
+        let outer = &points[..*ends.first().ok_or(Error::NoLoops)?];
+        if newell(outer)?.dot(self.normal) < 0.0 {
+            let starts = std::iter::once(0).chain(ends.iter().copied());
+            starts.zip(&ends).for_each(|(start, end)| points[start..*end].reverse());
+        }
+        Self::on_plane(points, ends, self.plane.clone(), self.normal)
+    }
+
+    fn on_plane(points: Vec<DVec3>, ends: Vec<usize>, plane: Plane, normal: DVec3) -> Result<Self, Error> {
         let axes = kept_axes(plane.normal.round());
         let deviation = deviation(&points, &ends, &plane, normal)?;
         let [u, v, w] = axes;
@@ -80,9 +111,7 @@ impl PlanarPolygon {
         }
         let Self { points, order, .. } = &mut polygon;
         order.sort_by(|a, b| by_kept_axes(axes, points[*a], points[*b]));
-        let is_piece =
-            polygon.convex && (deviation == 0.0 || convex::is_clearly_convex(&polygon.flat_loops()[0]));
-        polygon.pieces = if is_piece { Vec::new() } else { polygon.cut() };
+        polygon.pieces = if polygon.convex { polygon.straightened() } else { polygon.cut() };
         Ok(polygon)
     }
 
@@ -120,6 +149,10 @@ impl PlanarPolygon {
 
     /// Whether the points that span this polygon's plane lie in that of another one, or are vertices of it.
     pub(crate) fn lies_in_plane_of(&self, other: &Self) -> bool {
+        // Most are turned against each other, and need no look at points. Vertices that stand for others nearby may turn a plane.
+        if self.deviation + other.deviation == 0.0 && self.normal.dot(other.normal).abs() < 0.5 {
+            return false;
+        }
         let on =
             |corner: DVec3| other.plane.side_of(corner) == Ordering::Equal || other.points.contains(&corner);
         self.plane.corners.iter().all(|&corner| on(corner))
@@ -142,12 +175,22 @@ impl PlanarPolygon {
         self.convex
     }
 
-    /// Itself where it is convex, else convex pieces that meet in whole edges, counter-clockwise seen from the front; none where the
-    /// loops cross each other. A convex polygon is in pieces, too, if its vertices stand for others nearby and some of them lie nearly straight
-    /// between their neighbours.
+    /// Itself where it is convex, without vertices that lie straight between their neighbours, else convex pieces that meet in whole edges; none
+    /// where the loops cross each other. Counter-clockwise seen from the front. A convex polygon is in pieces, too, if its vertices stand for
+    /// others nearby and some of them lie nearly straight between their neighbours.
     pub(crate) fn convex_pieces(&self) -> impl Iterator<Item = &[DVec3]> {
         let whole = (self.convex && self.pieces.is_empty()).then_some(self.points());
         whole.into_iter().chain(self.pieces.iter().map(Vec::as_slice))
+    }
+
+    /// The pieces of a convex polygon; none where it is one itself.
+    fn straightened(&self) -> Vec<Vec<DVec3>> {
+        let ring = &self.flat_loops()[0];
+        if self.deviation > 0.0 {
+            return if convex::is_clearly_convex(ring) { Vec::new() } else { self.cut() };
+        }
+        let kept: Vec<DVec3> = convex::bends(ring).map(|corner| self.points[corner]).collect();
+        if kept.len() == ring.len() { Vec::new() } else { vec![kept] }
     }
 
     fn cut(&self) -> Vec<Vec<DVec3>> {
@@ -238,42 +281,6 @@ where
     Ok((points, ends))
 }
 
-/// The unit normal of a loop by Newell's sum, in double-double arithmetic.
-fn newell(outer: &[DVec3]) -> Result<DVec3, Error> {
-    let spokes = outer[1..].windows(2);
-    let sum = spokes.fold(Offset([DoubleDouble::ZERO; 3]), |sum, pair| {
-        let (part, _) = Offset::between(outer[0], pair[0]).cross(Offset::between(outer[0], pair[1]));
-        Offset([0, 1, 2].map(|i| sum.0[i] + part.0[i]))
-    });
-    let sum = sum.round();
-    let largest = sum.abs().max_element();
-    if largest < SMALLEST * SMALLEST {
-        // Products of extents below 2^-200 may underflow: only integers tell whether there is an area.
-        let is_near = outer.iter().all(|p| (*p - outer[0]).abs().max_element() < SMALLEST);
-        let spans = |pair: &[DVec3]| Plane::through([outer[0], pair[0], pair[1]]).is_some();
-        let has_area = largest > 0.0 || is_near && outer[1..].windows(2).any(spans);
-        return Err(if has_area { Error::TooSmall } else { Error::ZeroArea });
-    }
-    Ok((sum / largest).normalize())
-}
-
-/// The plane through three vertices that lie far apart, its normal on the side of `normal`.
-fn plane_of(outer: &[DVec3], normal: DVec3) -> Result<Plane, Error> {
-    let a = outer[0];
-    let b = farthest(outer, |p| (p - a).length_squared());
-    let c = farthest(outer, |p| (b - a).cross(p - a).length_squared());
-    let corners = if outer.len() == 3 { [a, outer[1], outer[2]] } else { [a, b, c] };
-    let plane = Plane::through(corners).ok_or(Error::ZeroArea)?;
-    if plane.normal.round().dot(normal) > 0.0 {
-        return Ok(plane);
-    }
-    Plane::through([corners[0], corners[2], corners[1]]).ok_or(Error::ZeroArea)
-}
-
-fn farthest(points: &[DVec3], distance: impl Fn(DVec3) -> f64) -> DVec3 {
-    points.iter().copied().fold(points[0], |best, p| if distance(p) > distance(best) { p } else { best })
-}
-
 /// Each point of a loop with the next.
 fn pairs(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> {
     points.iter().copied().zip(points.iter().copied().cycle().skip(1))
@@ -282,41 +289,4 @@ fn pairs(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> {
 fn by_kept_axes([u, v, _]: [usize; 3], a: DVec3, b: DVec3) -> Ordering {
     // No point has a -0.0: a total order by value.
     a[u].total_cmp(&b[u]).then(a[v].total_cmp(&b[v]))
-}
-
-/// Drops the axis along which the normal is longest.
-fn kept_axes(normal: DVec3) -> [usize; 3] {
-    let size = normal.abs();
-    let dropped = if size.z >= size.x && size.z >= size.y {
-        2
-    } else if size.y >= size.x {
-        1
-    } else {
-        0
-    };
-    let (u, v) = ((dropped + 1) % 3, (dropped + 2) % 3);
-    if normal[dropped] > 0.0 { [u, v, dropped] } else { [v, u, dropped] }
-}
-
-/// A bound on the way from a vertex moved along the Newell normal to the same vertex moved along the dropped axis onto
-/// the plane of the three corners; zero when all vertices lie on that plane exactly.
-fn deviation(points: &[DVec3], ends: &[usize], plane: &Plane, normal: DVec3) -> Result<f64, Error> {
-    if points.len() == 3 || points.iter().all(|p| plane.side(*p).sign == Ordering::Equal) {
-        return Ok(0.0);
-    }
-    let allowed = PLANARITY * ROUNDING * points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    let length = plane.normal.round().length();
-    let mut worst = 0.0_f64;
-    for (index, point) in points.iter().enumerate() {
-        let off = [plane.side(*point).value.hi.abs() / length, (*point - points[0]).dot(normal).abs()];
-        let distance = off[0].max(off[1]);
-        if distance > allowed {
-            let loop_index = ends.partition_point(|end| *end <= index);
-            let start = if loop_index == 0 { 0 } else { ends[loop_index - 1] };
-            return Err(Error::NotPlanar { loop_index, vertex: index - start, distance, allowed });
-        }
-        worst = worst.max(off[0] + off[1]);
-    }
-    // The dropped axis meets the plane at no more than acos(1/sqrt 3): moving along it is at most sqrt 3 times as far.
-    Ok(3.0 * worst)
 }

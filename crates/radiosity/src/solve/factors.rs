@@ -128,10 +128,13 @@ impl<'s> Factors<'s> {
         patch: usize,
         part: &PlanarPolygon,
     ) -> Result<Vec<f64>, Error> {
-        workers::from_all(points, &self.scene.patches[patch].name, |from| {
+        let (name, surface) = (&self.scene.patches[patch].name, self.surface_of[patch]);
+        // A patch may be farther off the plane of a wall that it is joined with than roundings are.
+        let part = &self.enclosure.polygons()[surface].part(part.loops()).unwrap_or_else(|_| part.clone());
+        workers::from_all(points, name, |from| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(patch), "injected");
-            self.enclosure.form_factor_within(from, self.surface_of[patch], part, ENOUGH).value
+            self.enclosure.form_factor_within(from, surface, part, ENOUGH).value
         })
     }
 
