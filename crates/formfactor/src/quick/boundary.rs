@@ -53,7 +53,7 @@ enum Relation {
 
 /// Two cones that cross, and on which sides of the planes of each the corners of the other one are.
 struct Meeting<'m> {
-    cones: [OneCone<'m>; 2],
+    cones: [&'m OneCone<'m>; 2],
     origin: DVec3,
     sides: [&'m Sides; 2],
     relation: Relation,
@@ -128,7 +128,7 @@ impl Boundary {
     /// Clips a cone's edges to the target, and hides the target's behind it. Returns whether they meet.
     pub(super) fn clip(&mut self, target: OneCone, cones: &Cones, index: usize) -> bool {
         let (cone, first) = (cones.cone(index), self.sides + cones.first(index));
-        let relation = self.compare([cone, target], false);
+        let relation = self.compare(&cone, &target, false);
         let is_apart = matches!(relation, Relation::Apart | Relation::Beside(_));
         match relation {
             Relation::Apart | Relation::Beside(_) => self.lose(first, cone),
@@ -136,7 +136,7 @@ impl Boundary {
                 let Self { origin, rests, parts, within: [there, back], .. } = self;
                 let (of_target, of_cones) = rests.split_at_mut(first);
                 let crossing =
-                    Meeting { cones: [cone, target], origin: *origin, sides: [there, back], relation };
+                    Meeting { cones: [&cone, &target], origin: *origin, sides: [there, back], relation };
                 crossing.for_each_part(of_cones, Rest::clip);
                 // The same way, both are on one side of the edge, and it is hidden.
                 let hide = |rest: &mut Rest, part| rest.hide(part, |is_same_way| is_same_way, parts);
@@ -168,7 +168,7 @@ impl Boundary {
         if is_known || small.edges.len().max(large.edges.len()) > MOST {
             return;
         }
-        if self.within[0].find(large, small, inner > outer) == Standing::Contained {
+        if self.within[0].find(&large, &small, inner > outer) == Standing::Contained {
             self.lose_all(cones, inner);
         }
     }
@@ -180,7 +180,7 @@ impl Boundary {
         }
         let [first, second] = [a, b].map(|index| cones.cone(index));
         let [at_first, at_second] = [a, b].map(|index| self.sides + cones.first(index));
-        let relation = self.compare([first, second], a > b);
+        let relation = self.compare(&first, &second, a > b);
         match relation {
             Relation::Apart => (),
             Relation::Beside([one, other]) => {
@@ -192,7 +192,7 @@ impl Boundary {
             Relation::Crossing | Relation::Open => {
                 let Self { origin, rests, parts, within: [there, back], .. } = self;
                 let meeting =
-                    Meeting { cones: [first, second], origin: *origin, sides: [there, back], relation };
+                    Meeting { cones: [&first, &second], origin: *origin, sides: [there, back], relation };
                 // Edges that both have the same way are on the boundary of their union: the first of the two keeps it. The other
                 // way, the cones are on either side: the edge is inside the union, and both lose it.
                 meeting.for_each_part(&mut rests[at_first..], |rest, part| {
@@ -221,7 +221,7 @@ impl Boundary {
     /// How two cones lie. Where they cross, on which sides of their planes the corners of the other one are. Where they share corners, the
     /// first counts as the smaller one if it is said to be, else the second.
     #[inline]
-    fn compare(&mut self, [first, second]: [OneCone; 2], is_first_smaller: bool) -> Relation {
+    fn compare(&mut self, first: &OneCone, second: &OneCone, is_first_smaller: bool) -> Relation {
         let [there, back] = &mut self.within;
         if first.edges.len().max(second.edges.len()) > MOST {
             return Relation::Open;

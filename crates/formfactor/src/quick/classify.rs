@@ -133,11 +133,11 @@ fn push<'c>(
         if is_clipped {
             clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
         }
-        cones.push(corners.iter().copied())
+        cones.push(corners)
     } else {
         corners.clear();
-        let given = piece.iter().map(|p| Corner::given(*p, origin, 0.0));
-        if is_reversed { cones.push(given.rev()) } else { cones.push(given) }
+        let given = piece.iter().copied();
+        if is_reversed { cones.push_given(given.rev(), origin) } else { cones.push_given(given, origin) }
     };
     (edges.len() >= 3).then_some(edges)
 }

@@ -73,15 +73,13 @@ impl Corner {
         Self { at: given - origin, id: CornerId::cut([given; 2]), deviation, rounding: 0.0 }
     }
 
-    /// The edge to another corner; none where they coincide. Its direction is rounded once between vertices as given, which may be far closer
-    /// together than dA is. An edge on a line that is known exactly counts how far off that a cut of it may be.
-    fn edge(&self, end: &Self) -> Option<Edge> {
-        let (along, off) = match [self.id.given(), end.id.given()] {
-            [Some(a), Some(b)] => (b - a, 0.0),
-            _ if self.id.line(end.id).is_some() => (end.at - self.at, self.rounding + end.rounding),
-            _ => (end.at - self.at, 0.0),
-        };
-        (along != DVec3::ZERO).then(|| Edge::new(self.at, end.at, along, off))
+    /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
+    fn along(&self, end: &Self) -> DVec3 {
+        if self.rounding + end.rounding > 0.0 {
+            end.at - self.at
+        } else {
+            end.id.between[0] - self.id.between[0]
+        }
     }
 }
 
@@ -116,12 +114,19 @@ pub(super) enum Place {
 }
 
 impl Edge {
-    /// One end of it may be off its line by `off`.
-    fn new(start: DVec3, end: DVec3, along: DVec3, off: f64) -> Self {
+    fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
-        let errors = ERROR * terms + off * (size(a) + size(b));
+        let errors = ERROR * terms;
         Self { start, end, along, inward: along.cross(start), errors, error: errors.element_sum() }
+    }
+
+    /// Counts how far off the line through two vertices as given the cuts at its ends may be.
+    fn count_cuts(&mut self, [start, end]: [&Corner; 2]) {
+        if start.rounding + end.rounding > 0.0 && start.id.line(end.id).is_some() {
+            self.errors += (start.rounding + end.rounding) * (size(self.along) + size(self.start));
+            self.error = self.errors.element_sum();
+        }
     }
 
     /// A coarser bound on the error of `inward`, which costs less.
@@ -164,19 +169,23 @@ pub(super) fn size(v: DVec3) -> f64 {
 
 /// Adds the edges of a convex polygon whose corners are counter-clockwise as dA sees them. Each starts where the one before it
 /// ends, and comes with what its start is. Of corners that coincide the first is taken.
-pub(super) fn faces(
-    corners: impl DoubleEndedIterator<Item = Corner> + Clone,
-    edges: &mut Vec<Edge>,
-    ids: &mut Vec<CornerId>,
-) {
-    let Some(mut before) = corners.clone().next_back() else { return };
+pub(super) fn faces(corners: &[Corner], edges: &mut Vec<Edge>, ids: &mut Vec<CornerId>) {
+    let Some(mut before) = corners.last() else { return };
     for corner in corners {
-        if let Some(edge) = before.edge(&corner) {
+        let along = before.along(corner);
+        if along != DVec3::ZERO {
+            let mut edge = Edge::new(before.at, corner.at, along);
+            edge.count_cuts([before, corner]);
             edges.push(edge);
             ids.push(before.id);
             before = corner;
         }
     }
+}
+
+/// How far off the places of cut corners may be.
+pub(super) fn rounding(corners: &[Corner]) -> f64 {
+    corners.iter().fold(0.0, |largest, corner| greater(largest, corner.rounding))
 }
 
 /// The cone of a convex polygon.
@@ -210,31 +219,31 @@ impl<'c> OneCone<'c> {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spread {
     pub(super) corners: Corners,
-    /// The largest size of a corner.
-    pub(super) reach: f64,
-    /// How far off the place of a cut corner may be.
-    rounding: f64,
+    /// The largest size of a corner, and what roundings of cuts add to it.
+    reach: f64,
+    /// How far off the place of a cut corner may be, by [`ERROR`]: a plane's error is at least that many sizes of its normal.
+    cuts: f64,
     /// Which of all edges are its own: from `first` on.
     first: usize,
 }
 
 impl Spread {
-    /// Of the cone of those edges that come last, from `first` on.
-    pub(super) fn of(edges: &[Edge], first: usize, corners: impl Iterator<Item = Corner>) -> Self {
+    /// Of the cone of those edges that come last, from `first` on, whose cut corners may be so far off.
+    pub(super) fn of(edges: &[Edge], first: usize, rounding: f64) -> Self {
         let edges = &edges[first..];
         let reach = edges.iter().fold(0.0, |reach, edge| greater(reach, size(edge.start)));
-        let rounding = corners.fold(0.0, |rounding, corner| greater(rounding, corner.rounding));
-        Self { corners: Corners::of(edges.iter().map(|edge| edge.start)), reach, rounding, first }
+        let cuts = rounding / ERROR;
+        Self { corners: Corners::of(edges.iter().map(|edge| edge.start)), reach: reach + cuts, cuts, first }
     }
 
     /// A bound on the error of how far inside a plane a corner is: coarse, but it costs little.
     pub(super) fn error(&self, plane: &Edge) -> f64 {
-        plane.error * self.reach + self.displaced(plane)
+        plane.error * self.reach + UNDERFLOW
     }
 
     /// What the roundings of cuts add to that error.
     pub(super) fn displaced(&self, plane: &Edge) -> f64 {
-        UNDERFLOW + if self.rounding > 0.0 { size(plane.inward) * self.rounding } else { 0.0 }
+        plane.error * self.cuts
     }
 }
 
@@ -254,10 +263,26 @@ impl Cones {
     }
 
     /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
-    pub(super) fn push(&mut self, corners: impl DoubleEndedIterator<Item = Corner> + Clone) -> &[Edge] {
+    pub(super) fn push(&mut self, corners: &[Corner]) -> &[Edge] {
         let first = self.edges.len();
-        faces(corners.clone(), &mut self.edges, &mut self.ids);
-        self.spreads.push(Spread::of(&self.edges, first, corners));
+        faces(corners, &mut self.edges, &mut self.ids);
+        self.spreads.push(Spread::of(&self.edges, first, rounding(corners)));
+        &self.edges[first..]
+    }
+
+    /// The same of vertices as given.
+    pub(super) fn push_given(
+        &mut self,
+        vertices: impl DoubleEndedIterator<Item = DVec3> + Clone,
+        origin: DVec3,
+    ) -> &[Edge] {
+        let first = self.edges.len();
+        let before = vertices.clone().next_back().into_iter().chain(vertices.clone());
+        for (before, vertex) in before.zip(vertices).filter(|(before, vertex)| before != vertex) {
+            self.edges.push(Edge::new(before - origin, vertex - origin, vertex - before));
+            self.ids.push(CornerId::cut([before; 2]));
+        }
+        self.spreads.push(Spread::of(&self.edges, first, 0.0));
         &self.edges[first..]
     }
 

@@ -24,7 +24,7 @@ pub(super) const CLEAR: f64 = 16.0;
 const SHARE: f64 = 1.07;
 
 /// What of edge `index` of a cone is inside another one, by clipping it against one plane after the other. `origin` is dA.
-pub(super) fn inside(origin: DVec3, (own, index): (OneCone<'_>, usize), other: OneCone<'_>) -> Inside {
+pub(super) fn inside(origin: DVec3, (own, index): (&OneCone<'_>, usize), other: &OneCone<'_>) -> Inside {
     let edge = &own.edges[index];
     let mut left = Interval::WHOLE;
     // Whether it may lie in a plane; whether it lies in planes of edges that run the other way, and the same way.
@@ -70,7 +70,7 @@ pub(super) fn inside(origin: DVec3, (own, index): (OneCone<'_>, usize), other: O
 
 /// On which side of the plane of an edge a corner of another cone is, as far as vertices as given decide it. A cut is strictly between two.
 #[cold]
-fn exact_side(origin: DVec3, corner: CornerId, (other, edge): (OneCone<'_>, usize)) -> Option<Ordering> {
+fn exact_side(origin: DVec3, corner: CornerId, (other, edge): (&OneCone<'_>, usize)) -> Option<Ordering> {
     if other.ends(edge).contains(&corner) {
         return Some(Ordering::Equal);
     }

@@ -15,6 +15,7 @@ use super::cone::{CornerId, Edge, OneCone};
 use super::inside::{CLEAR, Inside, crossing};
 use super::interval::{Interval, Parameter};
 use super::lanes::{Lanes, MOST};
+use std::cmp::Ordering;
 
 /// On which sides of the planes of one cone the corners of another are.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,8 +25,9 @@ pub(super) struct Sides {
     /// The corners inside each plane, and the edges that cross it, one bit each.
     inside: [u8; MOST],
     straddling: [u8; MOST],
-    /// The corners in each plane: they are ends of its edge.
+    /// The corners in each plane: they are ends of its edge; and whether there are any.
     shared: [u8; MOST],
+    shares: bool,
     /// The corners inside all planes.
     inside_all: u8,
     /// The edges that the other cone has, too, the same way.
@@ -51,37 +53,36 @@ impl Sides {
     /// Finds on which sides of the planes of one cone the corners of another are: neither has more than `MOST`. Where they share corners,
     /// that with the planes is smaller by much less if `is_smaller`, by much more if not.
     #[inline]
-    pub(super) fn find(&mut self, planes: OneCone, cone: OneCone, is_smaller: bool) -> Standing {
+    pub(super) fn find(&mut self, planes: &OneCone, cone: &OneCone, is_smaller: bool) -> Standing {
         let (count, spread) = (cone.spread.corners.count, cone.spread);
         let all = u8::MAX >> (MOST - count);
         (self.inside_all, self.along, self.corners) = (all, 0, count);
+        (self.shared, self.shares) = ([0; MOST], false);
         let mut is_open = false;
-        for (number, plane) in planes.edges.iter().enumerate() {
-            let depths = &mut self.depths[number];
+        let rows = self.depths.iter_mut().zip(&mut self.inside).zip(&mut self.straddling);
+        for (number, (plane, ((depths, inside), straddling))) in planes.edges.iter().zip(rows).enumerate() {
             let (least, outside) = spread.corners.dots(plane.inward, depths);
-            let mut outside = outside & all;
-            let clear = CLEAR * spread.error(plane);
-            self.shared[number] = 0;
-            if least <= clear {
-                match shared(depths, clear, cone.ids, planes.ends(number)) {
-                    Some((shared, is_inside)) => {
-                        self.shared[number] = shared;
-                        outside = if is_smaller && is_inside { outside & !shared } else { outside | shared };
-                        let edges = shared & after(shared, count);
-                        if edges != 0 && !is_inside {
-                            return Standing::Beside([edges.trailing_zeros() as usize, number]);
-                        }
-                        self.along |= edges;
-                    }
-                    None => is_open = true,
+            let (mut outside, clear) = (outside & all, CLEAR * spread.error(plane));
+            let mut is_clear = least > clear;
+            if !is_clear && let Some((shared, others)) = shared(depths, clear, cone.ids, planes.ends(number))
+            {
+                (is_clear, self.shared[number], self.shares) = (true, shared, true);
+                let is_inside = others == Ordering::Greater;
+                outside = if is_smaller && is_inside { outside & !shared } else { outside | shared };
+                let edges = shared & after(shared, count);
+                if edges != 0 && !is_inside {
+                    return Standing::Beside([edges.trailing_zeros() as usize, number]);
                 }
+                self.along |= edges;
             }
-            if outside == all && (least > clear || self.shared[number] != 0) {
+            if is_clear && outside == all {
                 return Standing::Apart;
             }
-            self.inside[number] = all ^ outside;
-            self.straddling[number] = (outside ^ after(outside, count)) & all;
-            self.inside_all &= self.inside[number];
+            is_open |= !is_clear;
+            *inside = all ^ outside;
+            // Bit i compares corners i and i + 1, the last one and the first.
+            *straddling = (outside ^ after(outside, count)) & all;
+            self.inside_all &= *inside;
         }
         if is_open {
             Standing::Open
@@ -121,28 +122,24 @@ impl Sides {
                 continue;
             }
             is_crossed = true;
-            let found = self.crossing(edge, index, &planes[other], other);
+            let depths = self.depths[other].as_flattened();
+            let next = if index + 1 == self.corners { 0 } else { index + 1 };
+            let found = if self.shares && self.shared[other] >> index & 1 == 1 {
+                Parameter::START
+            } else if self.shares && self.shared[other] >> next & 1 == 1 {
+                Parameter::END
+            } else {
+                crossing(edge, &planes[other], [depths[index], depths[next]])
+            };
             if is_leaving {
                 part.high = found;
             } else {
                 part.low = found;
             }
         }
-        let is_left = part.low != Parameter::END && part.high != Parameter::START;
         let is_inside = is_crossed || self.inside_all >> index & 1 == 1;
-        if is_inside && is_left { Inside::Part(part) } else { Inside::Nothing }
-    }
-
-    /// Where edge `index` crosses plane `other`.
-    #[inline]
-    fn crossing(&self, edge: &Edge, index: usize, plane: &Edge, other: usize) -> Parameter {
-        let depths = self.depths[other].as_flattened();
-        let next = if index + 1 == self.corners { 0 } else { index + 1 };
-        match self.shared[other] {
-            shared if shared >> index & 1 == 1 => Parameter::START,
-            shared if shared >> next & 1 == 1 => Parameter::END,
-            _ => crossing(edge, plane, [depths[index], depths[next]]),
-        }
+        let is_empty = self.shares && (part.low == Parameter::END || part.high == Parameter::START);
+        if is_inside && !is_empty { Inside::Part(part) } else { Inside::Nothing }
     }
 }
 
@@ -151,9 +148,9 @@ fn after(corners: u8, count: usize) -> u8 {
     corners >> 1 | corners << (count - 1)
 }
 
-/// The corners that are ends of a plane's edge, if all that are not clear of the plane are, and whether the others are inside of it as a whole.
+/// The corners that are ends of a plane's edge, if all that are not clear of the plane are, and on which side of it the others are as a whole.
 #[inline(never)]
-fn shared(depths: &Lanes, clear: f64, corners: &[CornerId], ends: [CornerId; 2]) -> Option<(u8, bool)> {
+fn shared(depths: &Lanes, clear: f64, corners: &[CornerId], ends: [CornerId; 2]) -> Option<(u8, Ordering)> {
     let (mut shared, mut others) = (0, 0.0);
     for (index, (corner, depth)) in corners.iter().zip(depths.as_flattened()).enumerate() {
         if depth.abs() > clear {
@@ -164,7 +161,7 @@ fn shared(depths: &Lanes, clear: f64, corners: &[CornerId], ends: [CornerId; 2])
             return None;
         }
     }
-    (others.abs() > clear).then_some((shared, others > 0.0))
+    (f64::abs(others) > clear).then_some((shared, others.total_cmp(&0.0)))
 }
 
 #[cfg(test)]
@@ -230,13 +227,13 @@ mod tests {
         fn shared_corners_move_no_boundary(polygons in prop::array::uniform2(of_places()), is_smaller in any::<bool>()) {
             let mut cones = Cones::default();
             for polygon in &polygons {
-                cones.push(polygon.iter().copied());
+                cones.push(polygon);
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
-            let standings = [there.find(b, a, is_smaller), back.find(a, b, !is_smaller)];
+            let standings = [there.find(&b, &a, is_smaller), back.find(&a, &b, !is_smaller)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(DVec3::ZERO, (a, index), b);
+                let clipped = inside(DVec3::ZERO, (&a, index), &b);
                 let found = match standings {
                     [Standing::Beside([own, _]), _] | [_, Standing::Beside([_, own])] if own == index => {
                         Inside::Along { part: Interval::WHOLE, is_same_way: false }
@@ -259,13 +256,13 @@ mod tests {
         fn signs_find_the_parts_that_clipping_finds(polygons in prop::array::uniform2(polygon())) {
             let mut cones = Cones::default();
             for polygon in polygons {
-                cones.push(corners(polygon).into_iter());
+                cones.push(&corners(polygon));
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
-            let standings = [there.find(b, a, false), back.find(a, b, true)];
+            let standings = [there.find(&b, &a, false), back.find(&a, &b, true)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(DVec3::ZERO, (a, index), b);
+                let clipped = inside(DVec3::ZERO, (&a, index), &b);
                 let found = match standings {
                     [Standing::Apart, _] | [_, Standing::Apart] => Inside::Nothing,
                     [Standing::Contained, _] => Inside::Part(Interval::WHOLE),

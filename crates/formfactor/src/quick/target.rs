@@ -1,6 +1,6 @@
 //! A convex target as dA sees it, and the half-spaces in which something must be to hide any of it.
 use super::clip::clip;
-use super::cone::{Corner, CornerId, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, size};
+use super::cone::{Corner, CornerId, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, rounding, size};
 use super::corners::{copy, deviation_error};
 use super::interval::greater;
 use crate::exact::deviation;
@@ -135,14 +135,14 @@ impl<'a> Target<'a> {
         }
         edges.clear();
         ids.clear();
-        faces(corners.iter().copied(), edges, ids);
+        faces(corners, edges, ids);
         if edges.len() < 3 {
             // So little is above the horizon that its corners coincide: anything would seem to cover it.
             return None;
         }
         let left_out = band.map_or(0.0, |(_, error)| error);
         let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to) + left_out;
-        *spread = Spread::of(edges, 0, corners.iter().copied());
+        *spread = Spread::of(edges, 0, rounding(corners));
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
