@@ -62,7 +62,14 @@ where
     quickly.unwrap_or_else(|| {
         *stats = Stats::default();
         let reach = |pyramid: &Pyramid| occluders(&Reach::Exact { pyramid, deviation: to.deviation() });
-        exact::form_factor(from, to, reach, scratch, stats)
+        let found = exact::form_factor(from, to, reach, scratch, stats);
+        // Where little rises above the horizon, roundings may leave open more than all of it.
+        match quick::most_seen(from, (to, to.points())) {
+            Some(most) if most < found.error_bound => {
+                FormFactor { value: found.value.min(most), error_bound: most }
+            }
+            _ => found,
+        }
     })
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 129] = [
+const ORDER: [&str; 130] = [
     "approx", "approx/paraboloid", "approx/monte_carlo", "approx/single_plane", "approx/baum", "approx/hemicube",
     "approx/visibility_index", "approx/pietrek", "approx/wallace", "approx/exact", "approx/gather", "approx/disk",
     "approx/screen", "approx/ray", "approx/frame", "approx/parts", "approx/contour", "approx/delta", "approx/random",
@@ -22,7 +22,7 @@ const ORDER: [&str; 129] = [
     "scene/body", "scene/cap", "scene/shell", "scene/slab", "scene/tree",
     "complement", "hierarchy", "centroid", "visible_part", "pipeline", "buffers",
     "quick", "quick/trace", "quick/boundary", "quick/neighbours", "quick/sides", "quick/inside", "quick/contour", "quick/classify", "quick/target",
-    "quick/clip", "quick/corners", "quick/slopes", "quick/cone", "quick/lanes", "quick/interval",
+    "quick/clip", "quick/corners", "quick/horizon", "quick/slopes", "quick/cone", "quick/lanes", "quick/interval",
     "exact", "exact/whole", "exact/cubature", "exact/visible", "exact/shadows", "exact/project", "exact/cull",
     "exact/planarity", "exact/view", "exact/pyramid", "exact/projected_vertex", "exact/deviation", "exact/halves", "exact/horizon",
     "exact/lambert",

@@ -24,7 +24,7 @@ pub(crate) fn of_facing(position: DVec3, polygon: &PlanarPolygon) -> f64 {
         return 0.0;
     }
     let (plane, least) = (polygon.plane(), deviation * polygon.plane().normal.round().length());
-    if plane.is_farther(position, least) || plane.side(position).value.hi.abs() > least {
+    if !plane.is_within(position, least) {
         return 0.0;
     }
     let low = polygon.points().iter().fold(polygon.points()[0], |low, p| low.min(*p)) - deviation;

@@ -38,7 +38,7 @@ pub(crate) fn loosen(view: &View, occluder: &PlanarPolygon, loops: &mut [Vec<Ver
     if height > 0.0 {
         let deviation = deviation_at_target(view.to, occluder);
         let at_target =
-            |v: &&mut Vertex| v.given.is_none_or(|i| is_within(view.to, occluder.points()[i], height));
+            |v: &&mut Vertex| v.given.is_none_or(|i| view.to.plane().is_within(occluder.points()[i], height));
         loops.iter_mut().flatten().filter(at_target).for_each(|v| v.deviation += deviation);
     }
 }
@@ -46,21 +46,16 @@ pub(crate) fn loosen(view: &View, occluder: &PlanarPolygon, loops: &mut [Vec<Ver
 /// Whether an occluder may be coplanar with the target: it then counts as if it were.
 pub(crate) fn is_coplanar(to: &PlanarPolygon, occluder: &PlanarPolygon) -> bool {
     let height = deviation_height(to, occluder);
-    height > 0.0 && occluder.points().iter().all(|p| is_within(to, *p, height))
+    height > 0.0 && occluder.points().iter().all(|p| to.plane().is_within(*p, height))
 }
 
 /// How far the line may be where an occluder meets the target's plane; 0 where none of its vertices is at the plane.
 pub(crate) fn at_target(to: &PlanarPolygon, occluder: &PlanarPolygon) -> f64 {
     let height = deviation_height(to, occluder);
-    if height == 0.0 || !occluder.points().iter().any(|p| is_within(to, *p, height)) {
+    if height == 0.0 || !occluder.points().iter().any(|p| to.plane().is_within(*p, height)) {
         return 0.0;
     }
     deviation_at_target(to, occluder)
-}
-
-/// Whether a point is no higher over the target's plane, on either side.
-fn is_within(to: &PlanarPolygon, point: DVec3, height: f64) -> bool {
-    !to.plane().is_farther(point, height) && to.plane().side(point).value.hi.abs() <= height
 }
 
 /// How far off the two polygons' vertices may be, as a height over the target's plane.

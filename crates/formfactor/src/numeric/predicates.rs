@@ -86,10 +86,17 @@ impl Plane {
         self.side(DVec3::new(x, y, z)).sign
     }
 
-    /// Whether a point is higher over the plane, on either side, as far as doubles decide it.
-    pub(crate) fn is_farther(&self, point: DVec3, height: f64) -> bool {
+    /// Whether a point is no higher over the plane than that, on either side.
+    pub(crate) fn is_within(&self, point: DVec3, height: f64) -> bool {
         let (value, error) = self.quick_height(point);
-        value.abs() > height + error
+        value.abs() <= height + error && self.side(point).value.hi.abs() <= height
+    }
+
+    /// Whether it is certain that two planes are far from parallel.
+    pub(crate) fn is_across(&self, other: &Self) -> bool {
+        let is_known = |plane: &Self| plane.normal_error() < 1e-3 * plane.rounded.length();
+        let [a, b] = [self, other].map(|plane| plane.rounded);
+        is_known(self) && is_known(other) && a.dot(b).abs() < 0.5 * a.length() * b.length()
     }
 
     /// The height of a point over the plane in doubles, and a bound on its error.

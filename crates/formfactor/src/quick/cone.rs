@@ -22,6 +22,10 @@ pub(super) struct CornerId {
 }
 
 impl CornerId {
+    fn vertex(given: DVec3) -> Self {
+        Self { between: [given; 2] }
+    }
+
     pub(super) fn cut(between: [DVec3; 2]) -> Self {
         Self { between }
     }
@@ -70,7 +74,7 @@ pub(super) struct Corner {
 
 impl Corner {
     pub(super) fn given(given: DVec3, origin: DVec3, deviation: f64) -> Self {
-        Self { at: given - origin, id: CornerId::cut([given; 2]), deviation, rounding: 0.0 }
+        Self { at: given - origin, id: CornerId::vertex(given), deviation, rounding: 0.0 }
     }
 
     /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
@@ -183,6 +187,20 @@ pub(super) fn faces(corners: &[Corner], edges: &mut Vec<Edge>, ids: &mut Vec<Cor
     }
 }
 
+/// The same of vertices as given.
+pub(super) fn given_faces(
+    vertices: impl DoubleEndedIterator<Item = DVec3> + Clone,
+    origin: DVec3,
+    edges: &mut Vec<Edge>,
+    ids: &mut Vec<CornerId>,
+) {
+    let before = vertices.clone().next_back().into_iter().chain(vertices.clone());
+    for (before, vertex) in before.zip(vertices).filter(|(before, vertex)| before != vertex) {
+        edges.push(Edge::new(before - origin, vertex - origin, vertex - before));
+        ids.push(CornerId::vertex(before));
+    }
+}
+
 /// How far off the places of cut corners may be.
 pub(super) fn rounding(corners: &[Corner]) -> f64 {
     corners.iter().fold(0.0, |largest, corner| greater(largest, corner.rounding))
@@ -277,11 +295,7 @@ impl Cones {
         origin: DVec3,
     ) -> &[Edge] {
         let first = self.edges.len();
-        let before = vertices.clone().next_back().into_iter().chain(vertices.clone());
-        for (before, vertex) in before.zip(vertices).filter(|(before, vertex)| before != vertex) {
-            self.edges.push(Edge::new(before - origin, vertex - origin, vertex - before));
-            self.ids.push(CornerId::cut([before; 2]));
-        }
+        given_faces(vertices, origin, &mut self.edges, &mut self.ids);
         self.spreads.push(Spread::of(&self.edges, first, 0.0));
         &self.edges[first..]
     }

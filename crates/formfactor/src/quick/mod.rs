@@ -18,6 +18,7 @@ mod clip;
 mod cone;
 mod contour;
 mod corners;
+mod horizon;
 mod inside;
 mod interval;
 mod lanes;
@@ -28,9 +29,10 @@ pub(crate) mod target;
 mod trace;
 
 pub(crate) use contour::unoccluded;
+pub(crate) use horizon::most_seen;
 
 use crate::form_factor::FormFactor;
-use crate::numeric::{predicates::place, rounding::ROUNDING};
+use crate::numeric::rounding::ROUNDING;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use classify::{Class, classify};
@@ -115,16 +117,6 @@ where
     Some(FormFactor { value: value.min(1.0), error_bound })
 }
 
-/// Whether anything of a piece may be above the horizon.
-fn rises(from: &DifferentialArea, (to, piece): (&PlanarPolygon, &[DVec3])) -> bool {
-    let (up, origin) = (from.given_normal(), from.position());
-    if to.deviation() == 0.0 {
-        return piece.iter().any(|p| place(up, origin, *p) == Ordering::Greater);
-    }
-    let reach = |p: DVec3| to.deviation() + 16.0 * ROUNDING * cone::size(p);
-    piece.iter().map(|p| *p - origin).any(|p| up.dot(p) >= -cone::size(up) * reach(p))
-}
-
 /// The form factor of a convex piece of a polygon.
 fn to_piece<'a, I>(
     from: &DifferentialArea,
@@ -139,9 +131,9 @@ where
 {
     let QuickBuffers { corners, edges, ids, sides, spread, cones, trace } = buffers;
     let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread) else {
-        let is_unseen = !rises(from, to);
-        stats.none += u64::from(is_unseen);
-        return is_unseen.then(FormFactor::default);
+        let error_bound = most_seen(from, to).filter(|most| *most <= within.unwrap_or(0.0))?;
+        stats.none += 1;
+        return Some(FormFactor { value: 0.0, error_bound });
     };
     let mut open = 0.0;
     cones.clear();

@@ -1,11 +1,13 @@
 //! A convex target as dA sees it, and the half-spaces in which something must be to hide any of it.
 use super::clip::clip;
-use super::cone::{Corner, CornerId, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, rounding, size};
+use super::cone::{
+    Corner, CornerId, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, given_faces, rounding, size,
+};
 use super::corners::{copy, deviation_error};
+use super::horizon::Band;
 use super::interval::greater;
 use crate::exact::deviation;
 use crate::numeric::predicates::{over_horizon, place, turn};
-use crate::numeric::rounding::ROUNDING;
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -66,22 +68,53 @@ impl HalfSpace {
     }
 }
 
-/// How far above the horizon a target is cut off, as a share of its distance: far more than roundings.
-const LIFT: f64 = 9.094_947_017_729_282e-13;
-/// What is left out is far less than what roundings leave open.
-const LEFT_OUT: f64 = 1e-18;
+/// Adds the edges of what is above the horizon of a piece of a polygon. Where any of its corners has a deviation they are in the first of the
+/// buffers. Returns a bound on the form factor of what is left out.
+fn add_faces(
+    from: &DifferentialArea,
+    (to, piece): (&PlanarPolygon, &[DVec3]),
+    [corners, spare]: [&mut Vec<Corner>; 2],
+    (edges, ids): (&mut Vec<Edge>, &mut Vec<CornerId>),
+) -> f64 {
+    let (mut is_cut, mut is_above) = (false, false);
+    for side in piece.iter().map(|p| place(from.given_normal(), from.position(), *p)) {
+        is_cut |= side == Ordering::Less;
+        is_above |= side == Ordering::Greater;
+    }
+    corners.clear();
+    if !is_above {
+        return 0.0;
+    }
+    if !is_cut && to.deviation() == 0.0 {
+        given_faces(piece.iter().copied(), from.position(), edges, ids);
+        return 0.0;
+    }
+    copy(piece, to.deviation(), from.position(), false, corners);
+    let left_out = if is_cut { cut_off(from, to, corners, spare) } else { 0.0 };
+    faces(corners, edges, ids);
+    left_out
+}
 
-/// How high a target that passes the horizon is cut off, along the given normal, and a bound on the form factor of what is left out. None where
-/// that would be too much.
-///
-/// Edges that lie in the horizon, as those of neighbours in a wall do, are clear of the cut then. What rises above the horizon by a sine of s at
-/// most has a form factor of at most s^2.
-fn band_above(from: &DifferentialArea, to: &PlanarPolygon, corners: &[Corner]) -> Option<(f64, f64)> {
-    let reach = corners.iter().fold(0.0, |reach, corner| greater(reach, size(corner.at)));
-    let nearest = to.normal().dot(corners[0].at).abs() - 16.0 * ROUNDING * reach - to.deviation();
-    let sine = 2.0 * LIFT * reach / nearest;
-    let error = sine * sine;
-    (nearest > 0.0 && error <= LEFT_OUT).then_some((LIFT * reach * from.given_normal().length(), error))
+/// Cuts off what is below the horizon, or hardly above it; returns a bound on the form factor of what is left out.
+fn cut_off(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    corners: &mut Vec<Corner>,
+    spare: &mut Vec<Corner>,
+) -> f64 {
+    let (origin, normal) = (from.position(), from.given_normal());
+    match Band::above(from, to, corners) {
+        Some(band) => {
+            let height = |p: DVec3| normal.dot(p - origin) - band.height;
+            clip(corners, spare, |p| height(p).total_cmp(&0.0), height);
+            band.error
+        }
+        None => {
+            let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
+            clip(corners, spare, |p| place(normal, origin, p), exact);
+            0.0
+        }
+    }
 }
 
 /// The sides that come before those of the edges: the target's plane and the horizon.
@@ -110,37 +143,17 @@ impl<'a> Target<'a> {
         sides: &'a mut Vec<HalfSpace>,
         spread: &'a mut Spread,
     ) -> Option<Self> {
-        let (origin, normal) = (from.position(), from.given_normal());
+        let origin = from.position();
         if to.plane().quick_side(origin) != Some(Ordering::Greater) {
-            return None;
-        }
-        copy(piece, to.deviation(), origin, false, corners);
-        let mut band = None;
-        let height = |c: &Corner| c.id.given().map_or(Ordering::Equal, |p| place(normal, origin, p));
-        if corners.iter().any(|c| height(c) == Ordering::Less) {
-            band = band_above(from, to, corners);
-            match band {
-                Some((height, _)) => {
-                    let height = |p: DVec3| normal.dot(p - origin) - height;
-                    clip(corners, spare, |p| height(p).total_cmp(&0.0), height);
-                }
-                None => {
-                    let exact = |p: DVec3| over_horizon(normal, origin, p).value.round();
-                    clip(corners, spare, |p| place(normal, origin, p), exact);
-                }
-            }
-        }
-        if corners.iter().all(|c| height(c) != Ordering::Greater) {
             return None;
         }
         edges.clear();
         ids.clear();
-        faces(corners, edges, ids);
+        let left_out = add_faces(from, (to, piece), [corners, spare], (edges, ids));
         if edges.len() < 3 {
-            // So little is above the horizon that its corners coincide: anything would seem to cover it.
+            // Nothing is above the horizon, or so little that its corners coincide: anything would seem to cover it.
             return None;
         }
-        let left_out = band.map_or(0.0, |(_, error)| error);
         let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to) + left_out;
         *spread = Spread::of(edges, 0, rounding(corners));
         sides.clear();

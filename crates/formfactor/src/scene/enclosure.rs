@@ -99,7 +99,8 @@ impl Enclosure {
         self.past_found(from, id, &self.polygons[id], None)
     }
 
-    /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it.
+    /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it. One made by
+    /// [`PlanarPolygon::part`] is on that plane exactly, and found the quickest.
     ///
     /// # Panics
     /// When there is no polygon `id`.

@@ -38,7 +38,7 @@ pub struct PlanarPolygon {
     axes: [usize; 3],
     /// By how much the dropped coordinate falls per unit of each kept one.
     slopes: [DoubleDouble; 2],
-    /// How far a vertex as given may lie from where it stands on the plane: zero for triangles.
+    /// How far a vertex as given may lie from where it stands on the plane: zero for triangles that are no parts.
     deviation: f64,
     convex: bool,
     /// Convex pieces that meet in whole edges, no vertex straight between its neighbours; none where it is one itself, or crosses itself.
@@ -149,8 +149,8 @@ impl PlanarPolygon {
 
     /// Whether the points that span this polygon's plane lie in that of another one, or are vertices of it.
     pub(crate) fn lies_in_plane_of(&self, other: &Self) -> bool {
-        // Most are turned against each other, and need no look at points. Vertices that stand for others nearby may turn a plane.
-        if self.deviation + other.deviation == 0.0 && self.normal.dot(other.normal).abs() < 0.5 {
+        // Most are turned against each other, and need no look at points. Vertices may be off the plane that they stand for.
+        if other.deviation == 0.0 && self.plane.is_across(&other.plane) {
             return false;
         }
         let on =
