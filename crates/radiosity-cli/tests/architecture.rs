@@ -12,8 +12,8 @@ use std::path::Path;
 const ORDER: [&str; 33] = [
     "arguments",
     "commands", "commands/compare", "commands/expose", "commands/factors", "commands/factors/format", "commands/factors/npz",
-    "commands/factors/matrix", "commands/factors/pairs", "commands/factors/tally", "commands/factors/patience",
-    "commands/factors/journal", "commands/factors/row", "commands/factors/names", "commands/inspect", "commands/plot", "commands/report", "commands/scene",
+    "commands/factors/matrix", "commands/factors/pairs", "commands/factors/tally",
+    "commands/factors/journal", "commands/factors/row", "commands/factors/names", "commands/inspect", "commands/patience", "commands/plot", "commands/report", "commands/scene",
     "commands/solve", "commands/solve/interrupt", "commands/solve/solve_outputs",
     "commands/solve/progress", "commands/solve/steps", "commands/solve/options", "commands/solve/lights", "commands/view",
     "outputs", "view_options", "input", "json", "digits", "parse", "failure",

@@ -12,7 +12,9 @@ use large_scenes::{FAMILIES, Family};
 use radiosity::formfactor::PlanarPolygon;
 use radiosity::io::{Source, collada::Collada, gltf, obj, ply};
 use radiosity::{Mesh, Moment, Options, Patch, Quality, Record, Scene, Solution};
-use radiosity::{element_table, inspect::inspect, needed_sides, patch_table, repair, solve, viewer};
+use radiosity::{
+    element_table, inspect::Cost, inspect::inspect_until, needed_sides, patch_table, repair, solve, viewer,
+};
 use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
@@ -52,6 +54,7 @@ fn tabulate((name, scene_of): Family, sizes: &[usize]) -> Result<(), Failure> {
     let (mut counts, mut columns) = (Vec::new(), Vec::new());
     for &size in sizes {
         let scene = scene_of(size);
+        eprintln!("{name} of {} patches", scene.patches.len());
         counts.push(scene.patches.len());
         columns.push(measure(&scene)?);
     }
@@ -93,7 +96,10 @@ fn measure(scene: &Scene) -> Result<Times, Failure> {
     files(scene, &mut times)?;
     let sides = double_sided(scene);
     note(&mut times, "needed sides", || needed_sides(&sides));
-    note(&mut times, "inspect", || inspect(scene));
+    let granted = Instant::now();
+    let stop = || granted.elapsed().as_secs_f64() > GRANTED;
+    let Cost { elements, seconds, .. } = inspect_until(scene, &stop).cost;
+    times.push(("a view of inspect", seconds / elements as f64));
     note(&mut times, "repair", || repair(scene));
     let options = Quality::Draft.options();
     note(&mut times, "mesh", || Mesh::even(scene, options.elements))?;
@@ -174,7 +180,9 @@ fn note<T>(times: &mut Times, stage: &'static str, run: impl Fn() -> T) -> T {
         result = black_box(run());
         repeats += 1;
     }
-    times.push((stage, (cpu_seconds() - start) / f64::from(repeats)));
+    let seconds = (cpu_seconds() - start) / f64::from(repeats);
+    eprintln!("{stage}: {}", shown(seconds));
+    times.push((stage, seconds));
     result
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 228] = [
+const ORDER: [&str; 231] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -35,14 +35,14 @@ const ORDER: [&str; 228] = [
     "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/cluster_links", "solve/levels/cluster_views", "solve/levels/clusters", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/levels/boxes", "solve/refine", "solve/drive", "solve/direct", "solve/receivers", "solve/relax", "solve/relax/bounces", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",
-    "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/run", "solve/progress",
+    "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/batches", "solve/run", "solve/progress",
     "solve/factors", "solve/hemicube", "solve/workers", "solve/occluders", "solve/lights", "solve/lights/beam", "solve/lights/dome", "solve/lights/cubature", "solve/interpolate",
     "solve/solution", "solve/ledger", "solve/shooters", "solve/rooms", "solve/light", "solve/state",
     "solve/levels/transfer", "solve/levels/tile",
     "solve/fingerprint", "solve/magnitude", "solve/check", "solve/overlap", "solve/quality",
     "solve/options", "solve/norm",
     "mesh", "mesh/subdivide", "mesh/plan", "mesh/shadows", "mesh/convex", "mesh/cover", "mesh/guests", "mesh/spacing", "mesh/outline", "mesh/tree",
-    "mesh/split", "mesh/triangulate", "mesh/divide", "mesh/lattice", "mesh/contacts", "mesh/frame",
+    "mesh/split", "mesh/triangulate", "mesh/divide", "mesh/lines", "mesh/flat_index", "mesh/lattice", "mesh/contacts", "mesh/frame",
     "mesh/refusal", "mesh/element",
     "image_file", "coplanar", "extent",
     "scene", "scene/middle", "scene/patch", "scene/lamp", "scene/photometry", "scene/sky", "scene/units", "scene/texture", "scene/camera", "scene/asset",

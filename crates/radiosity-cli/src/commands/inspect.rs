@@ -1,11 +1,13 @@
 //! `radiosity inspect`
+use super::patience::Patience;
 use crate::digits::{own_digits, six_digits};
 use crate::failure::Failure;
 use crate::input::{self, Sides};
 use crate::json;
 use crate::outputs::print;
+use crate::parse::positive;
 use clap::Args;
-use radiosity::inspect::{Finding, Inspection, KindSummary, inspect, summary};
+use radiosity::inspect::{Finding, Inspection, KindSummary, inspect_until, summary};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
@@ -31,14 +33,23 @@ pub(crate) struct Inspect {
     /// Write the repaired file to this file, in the format of its extension; of COLLADA and glTF only what was cut changes
     #[arg(short, long, value_name = "FILE", requires = "repair")]
     output: Option<PathBuf>,
+    /// Stop after so many seconds, and print what was found so far
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time: Option<f64>,
 }
 
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
 pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
+    let patience = Patience::new(arguments.time)?;
     let (scene, source) = input::read_quietly(&arguments.scene)?;
     let scene = arguments.sides.of(&scene);
-    let inspection = inspect(&scene);
+    let inspection = inspect_until(&scene, &|| patience.is_over());
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
+    if inspection.stopped {
+        let unwritten = arguments.output.as_ref().map_or("", |_| "; nothing was written");
+        eprintln!("stopped: not all was looked at{unwritten}");
+        return Ok(patience.code());
+    }
     if let Some(path) = &arguments.output {
         let repaired = radiosity::repair(&scene);
         let left_out = source.save_repaired(&scene, &repaired.scene, path)?;
@@ -83,11 +94,13 @@ fn text(inspection: &Inspection) -> String {
     }
     line("openness", openness(inspection));
     let cost = &inspection.cost;
+    let seconds =
+        if cost.seconds > 0.0 { format!("about {:.1} s", cost.seconds) } else { "not timed".into() };
     line(
         "cost",
         format!(
-            "{} elements with {} form factors to whole patches, about {:.1} s; large patches are split and need more",
-            cost.elements, cost.factors, cost.seconds
+            "{} elements with {} form factors to whole patches, {seconds}; large patches are split and need more",
+            cost.elements, cost.factors
         ),
     );
     text + &findings(inspection)

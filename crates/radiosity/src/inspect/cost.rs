@@ -13,15 +13,16 @@ pub struct Cost {
     /// Form factors from every element to every patch. A solution needs more where patches are split, up to a hundred times as
     /// many where a few large patches light each other, and fewer where patches never shoot.
     pub factors: usize,
-    /// Seconds that these will take, on as many threads as now.
+    /// Seconds that these will take, on as many threads as now; 0 where there was no time to find any.
     pub seconds: f64,
 }
 
 impl Cost {
-    /// From the time that some rows took.
-    pub(super) fn measured(scene: &Scene, rows: usize, time: Duration) -> Cost {
+    /// From the time that so many form factors took.
+    pub(super) fn measured(scene: &Scene, found: usize, time: Duration) -> Cost {
         let elements = Options::default().elements.max(scene.patches.len());
-        let row = time.as_secs_f64() / rows.max(1) as f64;
-        Cost { elements, factors: elements * scene.patches.len(), seconds: row * elements as f64 }
+        let factors = elements * scene.patches.len();
+        let each = time.as_secs_f64() / found.max(1) as f64;
+        Cost { elements, factors, seconds: each * factors as f64 }
     }
 }

@@ -60,6 +60,14 @@ pub struct Inspection {
     pub findings: Vec<Finding>,
     /// The predicted cost of the form factors.
     pub cost: Cost,
+    /// Whether it was stopped before all was looked at; see [`inspect_until`].
+    #[serde(skip_serializing_if = "is_false")]
+    pub stopped: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// A patch that emits, or a lamp.
@@ -84,10 +92,21 @@ pub struct Emitter {
 /// ```
 #[must_use]
 pub fn inspect(scene: &Scene) -> Inspection {
-    let findings = [surface::findings(scene), orientation::findings(scene), junction::findings(scene)];
-    let mut findings: Vec<Finding> = findings.into_iter().flatten().collect();
+    inspect_until(scene, &|| false)
+}
+
+/// Describes a scene as [`inspect`] does, until `stop` says to stop: what was not looked at then is left out, and where the view from no patch
+/// is known there is no opening. `stop` is asked between stages and, by any thread, between form factors.
+#[must_use]
+pub fn inspect_until(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Inspection {
+    let mut findings = Vec::new();
+    for find in [surface::findings, orientation::findings, junction::findings] {
+        if !stop() {
+            findings.extend(find(scene));
+        }
+    }
     findings.sort_by_key(|finding| finding.kind);
-    let (opening, cost) = openness::openness(scene);
+    let (opening, cost) = openness::openness(scene, stop);
     let Asset { up, unit } = scene.asset;
     Inspection {
         patches: scene.patches.len(),
@@ -104,6 +123,7 @@ pub fn inspect(scene: &Scene) -> Inspection {
         summary: summary(&findings),
         findings,
         cost,
+        stopped: stop(),
     }
 }
 

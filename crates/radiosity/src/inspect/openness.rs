@@ -5,12 +5,15 @@ use crate::solve::occluders::Occluders;
 use formfactor::{DifferentialArea, Enclosure};
 use rayon::prelude::*;
 use serde::Serialize;
-use std::time::Instant;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// At most so many patches are looked from, and fewer where there are many to look at.
 const VIEWS: usize = 256;
 /// So many form factors are enough for a look.
 const FACTORS: usize = 30_000;
+/// So many form factors are found before it is asked whether to stop.
+const BATCH: usize = 16;
 /// A view that misses less is closed: the form factors' rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -32,8 +35,12 @@ impl Opening {
     }
 }
 
-/// The widest opening seen from the middle of up to 256 patches, and the cost measured on the way.
-pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
+/// The widest opening seen from the middle of up to 256 patches, those looked from before `stop` says to stop, and the cost measured on the
+/// way.
+pub(super) fn openness(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> (Option<Opening>, Cost) {
+    if stop() {
+        return (None, Cost::measured(scene, 0, Duration::ZERO));
+    }
     let Occluders { polygons, of_patch } = Occluders::join(scene);
     let enclosure = Enclosure::new(polygons);
     let factor = |from: &DifferentialArea, to: usize| {
@@ -43,15 +50,23 @@ pub(super) fn openness(scene: &Scene) -> (Option<Opening>, Cost) {
     let step = count.div_ceil((FACTORS / count).clamp(8, VIEWS));
     let views: Vec<usize> =
         (0..scene.patches.len()).step_by(step).filter(|patch| !scene.patches[*patch].only_blocks).collect();
-    let start = Instant::now();
+    let (start, found) = (Instant::now(), AtomicUsize::new(0));
     let shares: Vec<Option<f64>> = views
         .par_iter()
         .map(|&patch| {
             let from = scene.patches[patch].middle()?.owned_by(of_patch[patch]);
-            Some(1.0 - (0..scene.patches.len()).map(|to| factor(&from, to)).sum::<f64>())
+            let mut sum = 0.0;
+            for to in 0..scene.patches.len() {
+                if to % BATCH == 0 && stop() {
+                    return None;
+                }
+                sum += factor(&from, to);
+                found.fetch_add(1, Ordering::Relaxed);
+            }
+            Some(1.0 - sum)
         })
         .collect();
-    let cost = Cost::measured(scene, views.len(), start.elapsed());
+    let cost = Cost::measured(scene, found.into_inner(), start.elapsed());
     let seen = views.iter().zip(shares).filter_map(|(&patch, share)| Some((patch, share?)));
     let widest = seen.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a });
     let opening = widest.map(|(patch, share)| Opening { patch: scene.patches[patch].name.clone(), share });

@@ -1,6 +1,6 @@
 //! Points over a patch: its boundary and the contact lines at a spacing, and a lattice inside.
 use super::lattice::{Lattice, parts};
-use super::{frame::Frame, refusal::MeshRefusal};
+use super::{flat_index::FlatIndex, frame::Frame, lines::Lines, refusal::MeshRefusal};
 use crate::predicates::ray_crosses;
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
@@ -39,11 +39,16 @@ type PlacedPoint = (DVec2, DVec3);
 /// What is divided, and how.
 struct Ground<'g> {
     frame: &'g Frame,
-    region: Region,
+    /// The region's edges, in order.
+    edges: Vec<[DVec2; 2]>,
+    /// The same, to be found.
+    outline: FlatIndex,
     /// The patch's own vertices by their place in the frame: they keep their place in space bit for bit.
     corners: BTreeMap<[u64; 2], DVec3>,
     /// Contact lines in the frame.
     contacts: Vec<[DVec2; 2]>,
+    /// Their ends.
+    contact_ends: FlatIndex,
     /// Side of a cell, in the frame's unit.
     spacing: f64,
     lattice: Lattice,
@@ -73,7 +78,8 @@ pub(super) fn divide(
     let ground = Ground::new(polygon, division, frame)?;
     let mut points = Points { lattice: ground.lattice, ..Points::default() };
     points.divide_boundary(&ground);
-    let mut lines = points.lines(points.boundary.iter().map(|piece| piece.ends));
+    let boundary = points.lines(points.boundary.iter().map(|piece| piece.ends));
+    let mut lines = Lines::new(boundary, &points.flat);
     for &contact in &ground.contacts {
         let pieces = points.divide_line(contact, &ground, &mut lines);
         points.contacts.extend(pieces);
@@ -90,7 +96,7 @@ impl Points {
     /// Appends every ring of the region, each edge in equal pieces between the contacts that end on it.
     fn divide_boundary(&mut self, ground: &Ground<'_>) {
         let mut known = BTreeMap::new();
-        for (edge, [start, end]) in ground.edges().enumerate() {
+        for (edge, &[start, end]) in ground.edges.iter().enumerate() {
             let chain: Vec<_> = ground
                 .stops(start, end)
                 .windows(2)
@@ -104,22 +110,18 @@ impl Points {
 
     /// Appends the points of the part of a line that lies inside the region and keeps a quarter of a step from the
     /// boundary and from the lines before it, but for the points that it shares with them; gives its pieces.
-    fn divide_line(
-        &mut self,
-        ends: [DVec2; 2],
-        ground: &Ground<'_>,
-        lines: &mut Vec<[DVec2; 2]>,
-    ) -> Vec<[usize; 2]> {
-        let chain: Vec<Option<usize>> = ground
-            .pieces(ends.map(|end| (end, ground.frame.lift(end))))
-            .into_iter()
-            .map(|(flat, place)| match self.known(flat, ground.near()) {
+    fn divide_line(&mut self, ends: [DVec2; 2], ground: &Ground<'_>, lines: &mut Lines) -> Vec<[usize; 2]> {
+        let mut chain: Vec<Option<usize>> = Vec::new();
+        for (flat, place) in ground.pieces(ends.map(|end| (end, ground.frame.lift(end)))) {
+            chain.push(match lines.known(flat, ground.near()) {
                 None if ground.inside_and_clear(flat, lines, ground.step(flat) / 4.0) => {
-                    Some(self.push(flat, place))
+                    let index = self.push(flat, place);
+                    lines.push_point(self.flat[index]);
+                    Some(index)
                 }
                 known => known,
-            })
-            .collect();
+            });
+        }
         let whole = chain.windows(2).filter_map(|pair| Some([pair[0]?, pair[1]?]));
         let middle = |[a, b]: [usize; 2]| self.flat[a].midpoint(self.flat[b]);
         let clear = |pair: &[usize; 2]| {
@@ -127,23 +129,18 @@ impl Points {
             ground.inside_and_clear(middle, lines, ground.step(middle) / 16.0)
         };
         let kept: Vec<_> = whole.filter(|pair| pair[0] != pair[1] && clear(pair)).collect();
-        lines.extend(self.lines(kept.iter().copied()));
+        self.lines(kept.iter().copied()).into_iter().for_each(|piece| lines.push_piece(piece));
         kept
     }
 
     /// Appends the lattice points inside the region, and those of its halved cells, that keep half a step from the
     /// lines.
-    fn fill_inside(&mut self, ground: &Ground<'_>, lines: &[[DVec2; 2]]) {
+    fn fill_inside(&mut self, ground: &Ground<'_>, lines: &Lines) {
         for point in self.lattice.points(ground.levels) {
             if ground.inside_and_clear(point, lines, ground.step(point) / 2.0) {
                 self.push(point, ground.frame.lift(point));
             }
         }
-    }
-
-    /// The first point within a distance.
-    fn known(&self, flat: DVec2, distance: f64) -> Option<usize> {
-        self.flat.iter().position(|known| known.distance(flat) < distance)
     }
 
     /// The segments between given pairs of points.
@@ -173,16 +170,15 @@ impl<'g> Ground<'g> {
             return Err(MeshRefusal("its area is zero".to_owned()));
         }
         let corners = polygon.loops().flatten().map(|&place| (key(frame.flatten(place)), place)).collect();
-        let contacts = division.contacts.iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
+        let contacts: Vec<[DVec2; 2]> =
+            division.contacts.iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
+        let contact_ends = FlatIndex::new(contacts.iter().flatten().map(|&end| [end, end]).collect());
+        let edges = edges(&region);
+        let outline = FlatIndex::new(edges.clone());
         let spacing = division.spacing / frame.unit();
         let lattice = Lattice::over(&region, spacing);
-        Ok(Ground { frame, region, corners, contacts, spacing, lattice, levels: division.levels })
-    }
-
-    /// The edges of all rings, in order.
-    fn edges(&self) -> impl Iterator<Item = [DVec2; 2]> {
-        let rings = self.region.rings();
-        rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| [start, end]))
+        let levels = division.levels;
+        Ok(Ground { frame, edges, outline, corners, contacts, contact_ends, spacing, lattice, levels })
     }
 
     /// The ends of an edge and the places between them where contact lines end.
@@ -190,8 +186,9 @@ impl<'g> Ground<'g> {
         let along = |point: DVec2| (point - start).dot(end - start) / (end - start).length_squared();
         let on_edge = |point: &DVec2| point.distance(start.lerp(end, along(*point))) < self.near();
         let margin = self.near() / start.distance(end);
-        let mut breaks: Vec<f64> =
-            self.contacts.iter().flatten().copied().filter(on_edge).map(along).collect();
+        let around = [start.min(end) - 2.0 * self.near(), start.max(end) + 2.0 * self.near()];
+        let ends = self.contact_ends.meeting(around).map(|index| self.contacts[index / 2][index % 2]);
+        let mut breaks: Vec<f64> = ends.filter(on_edge).map(along).collect();
         breaks.retain(|at| (margin..1.0 - margin).contains(at));
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|next, at| *next - *at < margin);
@@ -253,14 +250,18 @@ impl<'g> Ground<'g> {
 
     /// Whether a point lies inside the region and keeps a distance from all lines. Those of the boundary are among
     /// them, so the crossing parity needs no care near the boundary.
-    fn inside_and_clear(&self, point: DVec2, lines: &[[DVec2; 2]], distance: f64) -> bool {
+    fn inside_and_clear(&self, point: DVec2, lines: &Lines, distance: f64) -> bool {
         let crossed = |edge: &[DVec2; 2]| ray_crosses(point, *edge);
-        let near = |&[a, b]: &[DVec2; 2]| {
-            let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-            point.distance_squared(a.lerp(b, along)) < distance * distance
-        };
-        self.edges().filter(crossed).count() % 2 == 1 && !lines.iter().any(near)
+        self.outline.right_of(point).filter(crossed).count() % 2 == 1 && !lines.are_near(point, distance)
     }
+}
+
+/// The edges of all rings, in order.
+fn edges(region: &Region) -> Vec<[DVec2; 2]> {
+    let rings = region.rings();
+    rings
+        .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| [start, end]))
+        .collect()
 }
 
 /// A point as a key of a map; −0.0 reads as 0.0.

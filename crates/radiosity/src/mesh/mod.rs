@@ -13,6 +13,8 @@
 //! split        vertices that are not shared across contacts, and the zones between contacts
 //! triangulate  constrained Delaunay triangles of the points, those outside dropped
 //! divide       a patch's edges and contacts at a spacing, and the points of a lattice of that spacing inside
+//! lines        what points inside a patch are kept apart from
+//! flat_index   segments and points of a plane, to be found by where they are
 //! lattice      equal cells over a patch
 //! contacts     lines on which other patches touch a patch: light jumps there
 //! frame        a patch in two dimensions, its longest edge along x
@@ -24,9 +26,11 @@ pub(crate) mod convex;
 pub(crate) mod cover;
 mod divide;
 pub(crate) mod element;
+mod flat_index;
 pub(crate) mod frame;
 pub(crate) mod guests;
 pub(crate) mod lattice;
+mod lines;
 pub(crate) mod outline;
 pub(crate) mod plan;
 pub(crate) mod refusal;

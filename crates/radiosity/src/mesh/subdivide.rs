@@ -4,11 +4,10 @@ use super::element::{Element, Mesh};
 use super::tree::{Node, grow};
 use super::triangulate::triangulate;
 use super::{
-    contacts::contacts, convex::convex_parts, frame::Frame, outline::Flat, plan::Plan, refusal::MeshRefusal,
-    split::split,
+    contacts::Neighbourhood, convex::convex_parts, frame::Frame, outline::Flat, plan::Plan,
+    refusal::MeshRefusal, split::split,
 };
 use crate::error::Error;
-use crate::extent::Extent;
 use crate::scene::Scene;
 use formfactor::PlanarPolygon;
 use glam::DVec2;
@@ -50,11 +49,11 @@ impl Subdivision {
     pub(crate) fn new(scene: &Scene, plan: &Plan) -> Result<Subdivision, Error> {
         let mut subdivision =
             Subdivision { nodes: vec![Node::default(); scene.patches.len()], ..Default::default() };
-        let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
+        let neighbourhood = Neighbourhood::of(scene);
         let finest = plan.spacings.iter().copied().fold(f64::INFINITY, f64::min);
         for (index, patch) in scene.patches.iter().enumerate() {
             let division = Division {
-                contacts: &contacts(scene, &extents, index, finest),
+                contacts: &neighbourhood.contacts(index, finest),
                 shadows: plan.shadows.get(index).map_or(&[], Vec::as_slice),
                 spacing: plan.spacings[index],
                 levels: plan.levels.get(index).map_or(&[], Vec::as_slice),

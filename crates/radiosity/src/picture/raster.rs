@@ -113,7 +113,7 @@ pub(super) fn raster(triangles: &[Triangle<'_>], rows: Range<usize>, width: usiz
     let mut samples = Samples { colours: vec![[0.0; 3]; count], nearness: vec![0.0; count] };
     for triangle in triangles {
         for row in triangle.rows.start.max(rows.start)..triangle.rows.end.min(rows.end) {
-            for column in triangle.columns.clone() {
+            for column in triangle.columns_of(row) {
                 let first = ((row - rows.start) * width + column) * SAMPLES;
                 samples.cover(triangle, first, column, row);
             }
@@ -155,7 +155,31 @@ fn place(sample: usize) -> (f64, f64) {
     ((i + (j + 0.5) / side) / side, (j + (i + 0.5) / side) / side)
 }
 
+/// A plane's value at a sample errs by less than this share of what it is the sum of.
+const ROUNDING: f64 = 1e-12;
+
 impl Triangle<'_> {
+    /// The pixels of a row that may have a sample inside: a triangle that reaches behind the eye spans all columns, and a long one many
+    /// in which it is not.
+    fn columns_of(&self, row: usize) -> Range<usize> {
+        let [mut low, mut high] = [self.columns.start as f64, self.columns.end as f64];
+        for [start, right, down] in self.planes {
+            let [top, bottom] = [row, row + 1].map(|y| y as f64 * down);
+            let size = start.abs() + right.abs() * self.columns.end as f64 + top.abs().max(bottom.abs());
+            // All samples inside lie where this, and x to the right, are at least 0. A pixel more on each side makes up for rounding.
+            let most = start + top.max(bottom) + ROUNDING * size;
+            let edge = -most / right;
+            match right {
+                0.0 if most < 0.0 => return 0..0,
+                0.0.. => low = low.max(edge - 2.0),
+                _ => high = high.min(edge + 2.0),
+            }
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two columns")]
+        let [low, high] = [low.floor() as usize, high.max(0.0).ceil() as usize];
+        low..high
+    }
+
     /// The colour at barycentric weights: interpolated, and multiplied with the picture where there is one.
     fn colour(&self, weights: [f64; 3]) -> [f64; 3] {
         let mixed = |band: usize| (0..3).map(|corner| weights[corner] * self.colours[corner][band]).sum();
@@ -168,5 +192,45 @@ impl Triangle<'_> {
                 std::array::from_fn(|band| light[band] * texel[band])
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::element::{Element, Mesh};
+
+    /// Triangles all around the eye, most of which reach behind it, each of another colour.
+    fn around_the_eye() -> (Mesh, Vec<[f64; 3]>) {
+        let way = |k: usize| DVec2::from_angle(2.4 * k as f64);
+        let place = |k: usize| way(k).extend(0.3 * (k % 7) as f64 - 1.0) * (1.0 + (k % 5) as f64);
+        let vertices: Vec<DVec3> = (0..90).map(place).collect();
+        let triangle = |k: usize| [3 * k, 3 * k + 1, 3 * k + 2];
+        let both = (0..30).flat_map(|k| [triangle(k), [3 * k, 3 * k + 2, 3 * k + 1]]);
+        let elements = both.map(|corners| Element { patch: 0, corners }).collect();
+        let light = (0..90).map(|k| [1.0 + (k / 3) as f64, 1.0, 1.0]).collect();
+        (Mesh { vertices, elements }, light)
+    }
+
+    #[test]
+    fn no_sample_is_lost_where_triangles_reach_behind_the_eye() {
+        let (mesh, light) = around_the_eye();
+        let camera = Camera {
+            name: String::new(),
+            position: DVec3::new(0.1, -0.2, 0.05),
+            direction: DVec3::X,
+            up: DVec3::Z,
+            vertical_fov: 1.5,
+            aspect: 1.5,
+        };
+        let painting = Painting { mesh: &mesh, light: &light, places: &[], images: &[] };
+        let triangles = Eye::new(&camera, 60, 40).triangles(&painting);
+        assert!(triangles.iter().filter(|triangle| triangle.columns == (0..60)).count() > 5);
+        let mut all =
+            Samples { colours: vec![[0.0; 3]; 2400 * SAMPLES], nearness: vec![0.0; 2400 * SAMPLES] };
+        for (triangle, pixel) in triangles.iter().flat_map(|t| (0..2400).map(move |pixel| (t, pixel))) {
+            all.cover(triangle, pixel * SAMPLES, pixel % 60, pixel / 60);
+        }
+        assert_eq!(raster(&triangles, 0..40, 60), all.colours);
     }
 }

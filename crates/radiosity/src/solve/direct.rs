@@ -31,10 +31,12 @@ pub(super) fn gather(
             let irradiance = values[place * bands..].iter_mut().zip(&patch.emission);
             irradiance.for_each(|(h, radiance)| *h += PI * radiance * factor);
         };
-        for (element, factor) in run.factors.column(emitter)?.iter() {
+        let Some(column) = run.column(emitter)? else { return Ok(None) };
+        for (element, factor) in column.iter() {
             shine(&mut elements, element, factor);
         }
-        let factors = run.factors.seen_from(&receivers, emitter)?;
+        let whole = run.factors.piece(emitter)?;
+        let Some(factors) = run.seen_from(&receivers, &whole)? else { return Ok(None) };
         factors.into_iter().enumerate().for_each(|(vertex, factor)| shine(&mut vertices, vertex, factor));
     }
     Ok(Some(Gathered { elements, vertices }))

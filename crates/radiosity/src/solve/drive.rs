@@ -116,7 +116,11 @@ impl Run<'_> {
         if missing > (pieces.len() - missing).max(FEW) {
             return Ok(None);
         }
-        let sums = self.factors.sums(pieces)?;
+        let mut sums = vec![0.0; self.light.areas.len()];
+        for node in pieces {
+            let Some(column) = self.column(node)? else { return Ok(None) };
+            column.iter().for_each(|(element, factor)| sums[element] += factor);
+        }
         Ok(Some(sums.iter().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max)))
     }
 }

@@ -5,10 +5,17 @@ use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
-use std::{ops::Range, sync::Arc};
+use std::sync::Arc;
 
 /// What a form factor may be off by: far less than what tells a closed room from an open one.
 const ENOUGH: f64 = 1e-11;
+
+/// A piece of a patch, in the plane of the polygon that the enclosure has for the patch.
+#[derive(Debug)]
+pub(super) struct PieceShape {
+    patch: usize,
+    polygon: PlanarPolygon,
+}
 
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
 #[derive(Debug)]
@@ -19,7 +26,7 @@ pub(super) struct Factors<'s> {
     lights: Lights<'s>,
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
-    receivers: Vec<DifferentialArea>,
+    pub(super) receivers: Vec<DifferentialArea>,
     /// What takes the place of exact factors, to compare with.
     hemicubes: Option<Hemicubes>,
     /// The mesh in `state`.
@@ -75,30 +82,30 @@ impl<'s> Factors<'s> {
         self.state.column(self.fingerprint, node, self.receivers.len())
     }
 
-    /// The form factors from all elements to one piece. They never change, so they are kept while memory lasts.
-    pub(super) fn column(&mut self, node: usize) -> Result<Arc<Column>, Error> {
-        if let Some(column) = self.kept(node) {
-            return Ok(column);
+    /// The form factors from all elements to one piece, where nothing is left to be found of them.
+    pub(super) fn known(&mut self, node: usize) -> Option<Arc<Column>> {
+        let drawn = || {
+            let elements = self.subdivision.nodes[node].elements.clone();
+            self.hemicubes.as_ref().map(|hemicubes| hemicubes.column(elements))
+        };
+        if let Some(kept) = self.kept(node) {
+            return Some(kept);
         }
-        let column = Arc::new(Column::new(&self.find(node)?));
+        let column = drawn()?;
+        Some(self.keep(node, &column))
+    }
+
+    /// Keeps the form factors from all elements to one piece while memory lasts: they never change.
+    pub(super) fn keep(&mut self, node: usize, factors: &[f64]) -> Arc<Column> {
+        let column = Arc::new(Column::new(factors));
         self.state.keep(self.fingerprint, node, &column);
-        Ok(column)
+        column
     }
 
-    /// What lights without surfaces bring to the centroids of some elements, in all and from beyond the scene: elements × bands.
-    pub(super) fn direct(&self, elements: Range<usize>) -> Result<[Vec<f64>; 2], Error> {
-        self.straight(&self.receivers[elements])
-    }
-
-    /// What lights without surfaces bring to any points, in all and from beyond the scene: points × bands.
-    pub(super) fn straight(&self, points: &[DifferentialArea]) -> Result<[Vec<f64>; 2], Error> {
-        let mut all = [(); 2].map(|()| Vec::with_capacity(points.len() * self.scene.bands));
+    /// What lights without surfaces bring to any points, from lamps and from beyond the scene: for each point and band.
+    pub(super) fn straight(&self, points: &[DifferentialArea]) -> Result<Vec<[Vec<f64>; 2]>, Error> {
         let find = |point: &DifferentialArea| self.lights.irradiance(&self.enclosure, point);
-        for [lamps, beyond] in workers::from_all(points, "what a light shines on", find)? {
-            all[0].extend(lamps.iter().zip(&beyond).map(|(lamps, beyond)| lamps + beyond));
-            all[1].extend(beyond);
-        }
-        Ok(all)
+        workers::from_all(points, "what a light shines on", find)
     }
 
     /// Whether there are lights without surfaces.
@@ -116,52 +123,34 @@ impl<'s> Factors<'s> {
         from.owned_by(self.surface_of[patch])
     }
 
-    /// The form factors from any points to a whole patch.
-    pub(super) fn seen_from(&self, points: &[DifferentialArea], patch: usize) -> Result<Vec<f64>, Error> {
-        self.to_part(points, patch, &self.scene.patches[patch].polygon)
-    }
-
-    /// The form factors from any points to a part of a patch.
-    fn to_part(
-        &self,
-        points: &[DifferentialArea],
-        patch: usize,
-        part: &PlanarPolygon,
-    ) -> Result<Vec<f64>, Error> {
-        let (name, surface) = (&self.scene.patches[patch].name, self.surface_of[patch]);
-        // A patch may be farther off the plane of a wall that it is joined with than roundings are.
-        let part = &self.enclosure.polygons()[surface].part(part.loops()).unwrap_or_else(|_| part.clone());
+    /// The form factors from some points to a piece.
+    pub(super) fn seen(&self, points: &[DifferentialArea], piece: &PieceShape) -> Result<Vec<f64>, Error> {
+        let PieceShape { patch, polygon } = piece;
+        let (name, surface) = (&self.scene.patches[*patch].name, self.surface_of[*patch]);
         workers::from_all(points, name, |from| {
             #[cfg(test)]
-            assert_ne!(self.state.trap, Some(patch), "injected");
-            self.enclosure.form_factor_within(from, surface, part, ENOUGH).value
+            assert_ne!(self.state.trap, Some(*patch), "injected");
+            self.enclosure.form_factor_within(from, surface, polygon, ENOUGH).value
         })
     }
 
-    /// Finds the form factors from all elements to one piece.
-    fn find(&self, node: usize) -> Result<Vec<f64>, Error> {
+    /// The shape of a piece.
+    pub(super) fn piece(&self, node: usize) -> Result<PieceShape, Error> {
         let Subdivision { mesh, nodes, flat, .. } = self.subdivision;
-        if let Some(hemicubes) = &self.hemicubes {
-            return Ok(hemicubes.column(nodes[node].elements.clone()));
-        }
         let patch = nodes[node].patch;
         if node == patch {
-            return self.seen_from(&self.receivers, patch);
+            return Ok(self.part(patch, &self.scene.patches[patch].polygon));
         }
-        let piece = flat
+        let outline = flat
             .outline(mesh, &mesh.elements[nodes[node].elements.clone()])
             .map_err(|source| Error::Shape { patch: self.scene.patches[patch].name.clone(), source })?;
-        self.to_part(&self.receivers, patch, &piece)
+        Ok(self.part(patch, &outline))
     }
 
-    /// The sums of form factors from every element over pieces.
-    pub(super) fn sums(&mut self, pieces: impl IntoIterator<Item = usize>) -> Result<Vec<f64>, Error> {
-        let mut sums = vec![0.0; self.receivers.len()];
-        for node in pieces {
-            for (element, factor) in self.column(node)?.iter() {
-                sums[element] += factor;
-            }
-        }
-        Ok(sums)
+    fn part(&self, patch: usize, polygon: &PlanarPolygon) -> PieceShape {
+        let whole = &self.enclosure.polygons()[self.surface_of[patch]];
+        // A patch may be farther off the plane of a wall that it is joined with than roundings are.
+        let polygon = whole.part(polygon.loops()).unwrap_or_else(|_| polygon.clone());
+        PieceShape { patch, polygon }
     }
 }

@@ -21,7 +21,8 @@ pub(super) fn follow(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Rooms>, 
         if run.report().is_break() {
             return Ok(None);
         }
-        for (element, factor) in run.factors.column(sender)?.iter() {
+        let Some(column) = run.column(sender)? else { return Ok(None) };
+        for (element, factor) in column.iter() {
             let receiver = patch_of[element];
             sums[element] += factor;
             // A black patch without emission ends the light that reaches it: it connects nobody.

@@ -10,6 +10,7 @@
 //! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
 //! shoot        progressive refinement: the piece with most to shoot shoots, again and again
 //! follow       the light followed through the rooms
+//! batches      form factors and light of many points; the watcher is asked in between
 //! run          what the steps of a run share
 //! progress     the progress of a run, as its caller sees it
 //! factors      columns of exact form factors from every element's centroid to one piece; kept in the state
@@ -34,6 +35,7 @@
 //! from element i to piece j, and P takes the mean of B over each piece (Barreto, Equations 2.5 and A.15). Conjugate
 //! gradients solve the symmetric system of the pieces' mean factors instead, in which the power adds up in both
 //! directions.
+mod batches;
 mod check;
 mod direct;
 mod drive;

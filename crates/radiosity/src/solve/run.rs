@@ -17,9 +17,6 @@ use crate::scene::Scene;
 use formfactor::DifferentialArea;
 use std::{ops::ControlFlow, time::Instant};
 
-/// At so many points light is found before the watcher is asked whether to go on.
-const BATCH: usize = 256;
-
 /// Whoever follows a run.
 pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 
@@ -27,6 +24,8 @@ pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 pub(super) struct Run<'r> {
     pub(super) options: &'r Options,
     start: Instant,
+    /// When the watcher was asked last.
+    pub(super) asked: Instant,
     pub(super) factors: Factors<'r>,
     pub(super) light: Light,
     pub(super) shooters: Shooters<'r>,
@@ -65,6 +64,7 @@ impl<'r> Run<'r> {
         Ok(Run {
             options,
             start,
+            asked: Instant::now(),
             factors,
             shooters: Shooters::new(0..scene.patches.len(), subdivision, &light),
             gaps: gaps(&light, None),
@@ -86,15 +86,15 @@ impl<'r> Run<'r> {
         if !self.factors.are_lit() {
             return Ok(true);
         }
-        let (count, mut direct) = (self.light.areas.len(), DirectLight::default());
-        let mut goes_on = true;
-        for first in (0..count).step_by(BATCH) {
-            goes_on = self.report().is_continue();
-            if !goes_on {
-                break;
-            }
-            let [irradiance, beyond] = self.factors.direct(first..count.min(first + BATCH))?;
-            direct.irradiance.extend(irradiance);
+        let count = self.factors.receivers.len();
+        if self.report().is_break() {
+            return Ok(false);
+        }
+        let found = self.in_batches(count, |run, some| run.factors.straight(&run.factors.receivers[some]))?;
+        let goes_on = found.len() == count;
+        let mut direct = DirectLight::default();
+        for [lamps, beyond] in found {
+            direct.irradiance.extend(lamps.iter().zip(&beyond).map(|(lamps, beyond)| lamps + beyond));
             direct.beyond.extend(beyond);
         }
         self.light.shine(direct, self.factors.lamp_power());
@@ -107,15 +107,11 @@ impl<'r> Run<'r> {
 
     /// What lights without surfaces bring to any points, points × bands; nothing when the watcher wants to stop.
     pub(super) fn straight(&mut self, points: &[DifferentialArea]) -> Result<Option<Vec<f64>>, Error> {
-        let mut all = Vec::with_capacity(points.len() * self.light.bands);
-        for points in points.chunks(BATCH) {
-            if self.report().is_break() {
-                return Ok(None);
-            }
-            let [irradiance, _] = self.factors.straight(points)?;
-            all.extend(irradiance);
-        }
-        Ok(Some(all))
+        let found = self.in_batches(points.len(), |run, some| run.factors.straight(&points[some]))?;
+        let sum = |[lamps, beyond]: &[Vec<f64>; 2]| {
+            lamps.iter().zip(beyond).map(|(lamps, beyond)| lamps + beyond).collect::<Vec<f64>>()
+        };
+        Ok((found.len() == points.len()).then(|| found.iter().flat_map(sum).collect()))
     }
 
     /// Refuses a state of another scene or mesh.
@@ -167,6 +163,7 @@ impl<'r> Run<'r> {
     /// Shows the watcher where the run stands; a break when it, or the time, says to stop.
     pub(super) fn show(&mut self, moment: Moment<'_>) -> ControlFlow<()> {
         let seconds = self.start.elapsed().as_secs_f64();
+        self.asked = Instant::now();
         let Run { light, factors, shooters, bound, ledger, products, scaling, welds, .. } = self;
         let so_far = || Solution {
             bands: light.bands,

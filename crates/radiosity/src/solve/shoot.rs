@@ -33,7 +33,7 @@ pub(super) fn shoot(run: &mut Run<'_>, granted: usize) -> Result<Shooting, Error
         }
         // A piece that was split shoots in a later round, as its halves.
         if !run.shooters.split(next, &run.light, run.options.spread) {
-            let column = run.factors.column(run.shooters.node(next))?;
+            let Some(column) = run.column(run.shooters.node(next))? else { return Ok(Shooting::Stopped) };
             run.light.receive(&column, &run.shooters.shoot(next));
         }
     }

@@ -7,7 +7,6 @@
 //! pairs     what patches exchange: on all threads, row by row, to a journal
 //! journal   rows found so far, in a file
 //! tally     progress and the time left
-//! patience  limits of time, and Ctrl-C
 //! row       rows of form factors
 //! names     patches by their names
 //! ```
@@ -17,10 +16,10 @@ mod matrix;
 mod names;
 mod npz;
 mod pairs;
-mod patience;
 mod row;
 mod tally;
 
+use crate::commands::patience::Patience;
 use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{is_stream, print, save};
@@ -28,7 +27,6 @@ use crate::parse::positive;
 use clap::{Args, ValueEnum};
 use format::Table;
 use matrix::Found;
-use patience::Patience;
 use radiosity::formfactor::{DifferentialArea, Enclosure};
 use radiosity::glam::DVec3;
 use radiosity::io::Source;
@@ -89,6 +87,8 @@ enum Format {
 pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     let format = if arguments.json { Format::Json } else { arguments.format };
     check(arguments, format)?;
+    // Reading counts. Factors from points are quick, and Ctrl-C ends them.
+    let patience = arguments.area.map(|_| Patience::new(arguments.time)).transpose()?;
     let (scene, source) = input::read(&arguments.scene)?;
     let output = arguments.output.as_deref().filter(|path| !is_stream(path));
     let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
@@ -97,18 +97,24 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
             eprintln!("warning: {}: {finding}", finding.patches.join(" and "));
         });
     }
-    let found = match arguments.area {
-        Some(tolerance) if is_whole(arguments) => {
+    let found = match (arguments.area, &patience) {
+        (Some(tolerance), Some(patience)) if is_matrix(arguments) => {
             let request = match &source {
                 Source::Vs3(file) => Some(file.request()?),
                 _ => None,
             };
-            let patience = Patience::new(arguments.time)?;
-            let pairs = pairs::find(&enclosure, tolerance, output, &patience)?;
+            let pairs = pairs::find(&enclosure, tolerance, output, patience)?;
             let Some(pairs) = pairs else { return Ok(patience.code()) };
             matrix::finish(&scene, pairs, request, &arguments.changes)?
         }
-        _ => Found::of(&scene, rows(arguments, &scene, &enclosure)?),
+        _ => {
+            let found = rows(arguments, &scene, &enclosure, patience.as_ref())?;
+            if let Some(patience) = patience.as_ref().filter(|_| found.len() < arguments.row.len()) {
+                eprintln!("stopped: {} of {} rows are there", found.len(), arguments.row.len());
+                return Ok(patience.code());
+            }
+            Found::of(&scene, found)
+        }
     };
     let table = Table { found: &found, tolerance: arguments.area };
     let text = match format {
@@ -125,19 +131,20 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
         Some(path) => save(path, text.as_bytes())?,
         None => print(&text)?,
     }
-    if arguments.area.is_some() && is_whole(arguments) {
+    if is_matrix(arguments) {
         pairs::forget(output);
     }
     Ok(ExitCode::SUCCESS)
 }
 
-fn is_whole(arguments: &Factors) -> bool {
-    arguments.row.is_empty() && arguments.from.is_none()
+/// Whether it is the whole matrix from area to area.
+fn is_matrix(arguments: &Factors) -> bool {
+    arguments.area.is_some() && arguments.row.is_empty() && arguments.from.is_none()
 }
 
 /// Refuses what only a whole matrix from area to area has.
 fn check(arguments: &Factors, format: Format) -> Result<(), Failure> {
-    let is_matrix = is_whole(arguments) && arguments.area.is_some();
+    let is_matrix = is_matrix(arguments);
     let needs = "a whole matrix from area to area; give --area TOLERANCE and no --row or --from";
     if format == Format::View3d && !is_matrix {
         return Err(Failure::usage(format!("View3D's format holds {needs}")));
@@ -153,7 +160,12 @@ fn check(arguments: &Factors, format: Format) -> Result<(), Failure> {
 }
 
 /// The rows asked for, where they are not a whole matrix from area to area.
-fn rows(arguments: &Factors, scene: &Scene, enclosure: &Enclosure) -> Result<Vec<Row>, Failure> {
+fn rows(
+    arguments: &Factors,
+    scene: &Scene,
+    enclosure: &Enclosure,
+    patience: Option<&Patience>,
+) -> Result<Vec<Row>, Failure> {
     if let Some([x, y, z, nx, ny, nz]) = arguments.from {
         let place = (DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
         let mut from = DifferentialArea::new(place.0, place.1).map_err(Failure::usage)?;
@@ -164,9 +176,9 @@ fn rows(arguments: &Factors, scene: &Scene, enclosure: &Enclosure) -> Result<Vec
     }
     let named = arguments.row.iter().map(|name| find(scene, name));
     let named = named.collect::<Result<Vec<_>, _>>()?;
-    match arguments.area {
+    match arguments.area.zip(patience) {
         None => Ok(row::from_middles(scene, enclosure, &named)),
-        Some(tolerance) => row::from_areas(enclosure, &named, tolerance),
+        Some((tolerance, patience)) => row::from_areas(enclosure, &named, tolerance, patience),
     }
 }
 

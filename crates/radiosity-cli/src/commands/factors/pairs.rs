@@ -1,7 +1,7 @@
 //! What patches exchange: each pair once, on all threads, row by row.
 use super::journal::Journal;
-use super::patience::Patience;
 use super::tally::Tally;
+use crate::commands::patience::Patience;
 use crate::failure::Failure;
 use radiosity::formfactor::{Enclosure, ExchangeRow, Limits};
 use rayon::prelude::*;

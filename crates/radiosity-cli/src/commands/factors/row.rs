@@ -1,4 +1,5 @@
 //! Rows of form factors.
+use crate::commands::patience::Patience;
 use crate::failure::Failure;
 use radiosity::Scene;
 use radiosity::formfactor::{DifferentialArea, Enclosure, FactorMatrix, Limits};
@@ -94,17 +95,21 @@ pub(super) fn from_middles(scene: &Scene, enclosure: &Enclosure, named: &[usize]
     chosen.par_iter().map(row).collect()
 }
 
-/// From the named patches, area to area.
+/// From the named patches, area to area; as many of them as there is time for.
 pub(super) fn from_areas(
     enclosure: &Enclosure,
     named: &[usize],
     tolerance: f64,
+    patience: &Patience,
 ) -> Result<Vec<Row>, Failure> {
+    let limits = Limits { stop: &|| patience.is_over(), ..Limits::default() };
     let row = |patch: &usize| {
-        let row = enclosure.area_row(*patch, tolerance, &Limits::default()).map_err(Failure::usage)?;
-        let factors = row.unwrap_or_default().into_iter();
-        let entries = factors.map(|(to, f)| Entry { to, value: f.value, error: f.error_estimate });
-        Ok(Row { from: Some(*patch), entries: entries.collect() })
+        let row = enclosure.area_row(*patch, tolerance, &limits).map_err(Failure::usage)?;
+        Ok(row.map(|row| {
+            let factors = row.into_iter();
+            let entries = factors.map(|(to, f)| Entry { to, value: f.value, error: f.error_estimate });
+            Row { from: Some(*patch), entries: entries.collect() }
+        }))
     };
-    named.iter().map(row).collect()
+    named.iter().map(row).take_while(|row| !matches!(row, Ok(None))).filter_map(Result::transpose).collect()
 }

@@ -1,6 +1,6 @@
 //! Bound and ledger of every step, as CSV.
 use crate::failure::Failure;
-use radiosity::{Progress, io};
+use radiosity::{Moment, Progress, io};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -9,19 +9,24 @@ use std::path::{Path, PathBuf};
 pub(super) struct Steps {
     path: Option<PathBuf>,
     table: String,
+    /// The shots and products of the last row.
+    last: Option<[usize; 2]>,
 }
 
 impl Steps {
     /// An empty table, for a file.
     pub(super) fn new(path: Option<&Path>) -> Steps {
-        Steps { path: path.map(Path::to_owned), table: String::new() }
+        Steps { path: path.map(Path::to_owned), table: String::new(), last: None }
     }
 
-    /// Adds a row.
+    /// Adds a row, unless the run only prepares a step and the last row says as much.
     pub(super) fn note(&mut self, progress: &Progress<'_>) {
-        if self.path.is_none() {
+        let here = Some([progress.shots, progress.products]);
+        let is_told = progress.moment == Moment::Preparation && self.last == here;
+        if self.path.is_none() || is_told {
             return;
         }
+        self.last = here;
         let ledger = progress.ledger;
         let columns = [
             ("bound", progress.bound),

@@ -4,7 +4,7 @@ use super::tile::{Outline, SQUARE};
 use crate::error::Error;
 use crate::extent::Extent;
 use crate::mesh::{
-    contacts::contacts,
+    contacts::Neighbourhood,
     convex::convex_parts,
     frame::{Frame, power_of_two},
 };
@@ -79,12 +79,12 @@ impl<'s> Tiling<'s> {
         let Occluders { polygons, of_patch } = Occluders::join(scene);
         let [low, high] = scene.extent();
         let size = (high - low).length();
-        let extents: Vec<Extent> = scene.patches.iter().map(Extent::of).collect();
+        let neighbourhood = Neighbourhood::of(scene);
         let base = |(patch, polygon): (usize, &PlanarPolygon)| {
-            let (frame, Extent { low, high }) = (Frame::new(polygon), extents[patch]);
+            let (frame, Extent { low, high }) = (Frame::new(polygon), Extent::around(polygon));
             let scale = size.min(WIDE * (high - low).length());
             // A thousandth of this is near.
-            let lines = contacts(scene, &extents, patch, 1e3 * NEAR * scale);
+            let lines = neighbourhood.contacts(patch, 1e3 * NEAR * scale);
             Base {
                 frame,
                 scale,

@@ -66,7 +66,8 @@ fn columns(run: &mut Run<'_>) -> Result<Option<Vec<Arc<Column>>>, Error> {
         if run.report().is_break() {
             return Ok(None);
         }
-        columns.push(run.factors.column(run.shooters.node(piece))?);
+        let Some(column) = run.column(run.shooters.node(piece))? else { return Ok(None) };
+        columns.push(column);
     }
     Ok(Some(columns))
 }

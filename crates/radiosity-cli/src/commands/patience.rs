@@ -10,7 +10,7 @@ const INTERRUPTED: u8 = 130;
 /// Stopped before all was done.
 const UNDONE: u8 = 4;
 
-/// How long the matrix may take, and whether somebody wants it no longer.
+/// How long a command may take, and whether somebody wants it no longer.
 #[derive(Debug)]
 pub(super) struct Patience {
     deadline: Option<Instant>,
