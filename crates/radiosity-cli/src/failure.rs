@@ -30,6 +30,11 @@ impl Failure {
         Failure::internal(format!("the threads cannot be started: {}; try -j 1", error.to_string()))
     }
 
+    /// The time was up before there was anything to write: exit code 4.
+    pub(crate) fn late() -> Failure {
+        Failure { code: 4, message: radiosity::Error::Time.to_string() }
+    }
+
     /// Prints the message on stderr; gives the exit code.
     pub(crate) fn report(&self) -> ExitCode {
         eprintln!("error: {}", self.message);
@@ -38,9 +43,10 @@ impl Failure {
 }
 
 impl From<radiosity::Error> for Failure {
-    /// Whatever the solver refuses is the scene's fault: exit code 3.
+    /// Whatever the solver refuses is the scene's fault: exit code 3. What there was no time for has 4.
     fn from(error: radiosity::Error) -> Failure {
-        Failure { code: 3, message: error.to_string() }
+        let code = if matches!(error, radiosity::Error::Time) { 4 } else { 3 };
+        Failure { code, message: error.to_string() }
     }
 }
 

@@ -6,6 +6,9 @@ use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, re
 use serde::Deserialize;
 use std::{io::Read, path::Path};
 
+/// So few patches are repaired in less than a second, whatever the time.
+const FEW_PATCHES: usize = 10_000;
+
 /// The name that stands for standard input and output.
 pub(crate) const STREAM: &str = "-";
 
@@ -35,15 +38,24 @@ pub(crate) struct RepairedInput {
     pub(crate) repairs: Vec<KindSummary>,
 }
 
-/// Reads a scene, lets `light` light it, and repairs it; prints what the reader had to say on stderr, and in a line what was repaired.
+/// Reads a scene, lets `light` light it, and repairs it; prints what the reader had to say on stderr, and in a line what was repaired. Where
+/// `is_late`, scenes of very many patches are not repaired.
 pub(crate) fn read_repaired(
     path: &Path,
     reading: Reading,
     light: impl FnOnce(&mut Scene) -> Result<(), Failure>,
+    is_late: impl Fn() -> bool,
 ) -> Result<RepairedInput, Failure> {
+    let in_time = |scene: &Scene| {
+        if scene.patches.len() > FEW_PATCHES && is_late() { Err(Failure::late()) } else { Ok(()) }
+    };
     let (mut scene, source) = read_quietly(path)?;
     light(&mut scene)?;
-    let Repaired { scene, repairs, .. } = repair(&reading.sides.of(&scene));
+    in_time(&scene)?;
+    scene = reading.sides.of(&scene);
+    in_time(&scene)?;
+    let Repaired { scene, repairs, .. } = repair(&scene);
+    in_time(&scene)?;
     if reading.strict && !repairs.is_empty() {
         return Err(refusal(path, &repairs));
     }

@@ -601,3 +601,21 @@ fn a_stopped_run_is_4_and_writes_its_result() {
     let light = |output| (json(output)["patches"].clone(), json(output)["energy"].clone());
     assert_eq!(light(&resumed), light(&whole));
 }
+
+/// A time that is over at once: what costs nothing is printed, and the exit code is that of a solve that ends early.
+#[test]
+fn what_there_is_no_time_for_is_left_out_and_said() {
+    let inspected = radiosity(&["inspect", "scenes/cornell-box.dae", "--time", "1e-9"]);
+    let (found, told) = (String::from_utf8_lossy(&inspected.stdout), stderr(&inspected));
+    assert_eq!(code(&inspected), 4, "{told}");
+    assert_eq!(told, "stopped: not all was looked at\n");
+    assert!(found.contains("patches    15 with") && found.contains("not timed"), "{found}");
+    let as_json = radiosity(&["inspect", "scenes/cornell-box.dae", "--time", "1e-9", "--json"]);
+    let json: Value = serde_json::from_slice(&as_json.stdout).expect("JSON");
+    assert!(json["stopped"] == true && json["opening"].is_null(), "{json}");
+    let row = ["factors", "scenes/cornell-box.dae", "--area", "1e-3", "--row", "floor", "--time", "1e-9"];
+    let unfound = radiosity(&row);
+    let told = stderr(&unfound);
+    assert!(code(&unfound) == 4 && told.contains("stopped: 0 of 1 rows are there"), "{told}");
+    assert!(unfound.stdout.is_empty());
+}

@@ -33,6 +33,9 @@ pub enum Error {
         /// The patch that reflects all light.
         patch: String,
     },
+    /// The time was up before the first step: nothing was found.
+    #[error("the time was up before any light was found; allow more seconds, or solve a part of the scene")]
+    Time,
     /// The pieces are too many for a matrix.
     #[error("{pieces} pieces are too many for a matrix; solve by shooting, or with fewer elements")]
     Size {

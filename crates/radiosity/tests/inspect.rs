@@ -1,8 +1,9 @@
 //! What `inspect` finds in scenes with known faults, and what `repair` makes of them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 use radiosity::formfactor::PlanarPolygon;
-use radiosity::inspect::{Kind, inspect};
+use radiosity::inspect::{Kind, inspect, inspect_until};
 use radiosity::{Patch, Scene, repair, scenes};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A level rectangle, `[low x, low y, high x, high y]`, that faces up.
 fn level(name: &str, [x0, y0, x1, y1]: [f64; 4], z: f64) -> Patch {
@@ -47,6 +48,21 @@ fn closed_rooms_are_closed_and_open_ones_are_not() {
     assert!(opening("furnace").closed && opening("cube").closed && opening("colour-bleeding").closed);
     let open = opening("cornell-box");
     assert!(!open.closed && open.opening.unwrap().share > 0.1);
+}
+
+#[test]
+fn what_is_inspected_until_it_is_stopped_says_so_and_has_what_was_found() {
+    let scene = pair();
+    let whole = inspect(&scene);
+    assert!(!whole.stopped && whole.opening.is_some() && !whole.findings.is_empty());
+    let at_once = inspect_until(&scene, &|| true);
+    assert!(at_once.stopped && at_once.findings.is_empty() && at_once.opening.is_none() && !at_once.closed);
+    assert_eq!((at_once.patches, at_once.cost.factors), (3, whole.cost.factors));
+    // The stages come first, then the views.
+    let asked = AtomicUsize::new(0);
+    let without_views = inspect_until(&scene, &|| asked.fetch_add(1, Ordering::Relaxed) > 3);
+    assert!(without_views.stopped && without_views.opening.is_none());
+    assert_eq!(without_views.findings, whole.findings);
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn scene(name: &str) -> Result<Scene, Failure> {
     let scene = match scenes::scene(name) {
         Some(scene) => scene,
         None if Path::new(name).extension().is_some() => {
-            input::read_repaired(Path::new(name), Reading::default(), |_| Ok(()))?.scene
+            input::read_repaired(Path::new(name), Reading::default(), |_| Ok(()), || false)?.scene
         }
         None => {
             let known: Vec<_> = scenes::names().collect();

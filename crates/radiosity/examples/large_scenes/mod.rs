@@ -26,7 +26,7 @@ const WALLS: [[DVec3; 2]; 6] = [
 
 /// Houses of all heights on one ground, lit by a lamp above and by some of their roofs.
 fn town(patches: usize) -> Scene {
-    let side = (patches as f64 / 5.0).sqrt().round().max(2.0) as usize;
+    let side = (patches / 5).isqrt().max(2);
     let end = 2.0 * side as f64;
     let mut parts = Parts::default();
     parts.grid("ground", [DVec3::ZERO, end * DVec3::X, end * DVec3::Y], 1);
@@ -53,13 +53,13 @@ fn town_under_a_sky(patches: usize) -> Scene {
 
 /// A room of tiles with boxes on its floor; some of its tiles are lamps.
 fn room(patches: usize) -> Scene {
-    let side = (patches as f64 / 6.5).sqrt().round().max(4.0) as usize;
+    let side = (2 * patches / 13).isqrt().max(4);
     let mut parts = Parts::default();
     for (wall, edges) in walls().enumerate() {
         parts.grid(&format!("wall-{wall}"), edges, side);
     }
     (0..parts.patches.len()).for_each(|tile| parts.light_at(tile, tile));
-    let row = (side as f64 / 3.0).ceil() as usize;
+    let row = side.div_ceil(3);
     let step = 10.0 / row as f64;
     for piece in 0..row * row {
         let corner = DVec3::new((piece % row) as f64 + 0.3, (piece / row) as f64 + 0.3, 0.0) * step;
@@ -70,7 +70,7 @@ fn room(patches: usize) -> Scene {
 
 /// A smooth torus of small facets in a room of six walls, one of them a lamp.
 fn torus(patches: usize) -> Scene {
-    let around = (2.0 * patches as f64).sqrt().round().max(8.0) as usize;
+    let around = (2 * patches).isqrt().max(8);
     let across = (patches / around).max(4);
     let mut parts = Parts::default();
     for (wall, edges) in walls().enumerate() {

@@ -1,6 +1,6 @@
 //! Points over a patch: its boundary and the contact lines at a spacing, and a lattice inside.
 use super::lattice::{Lattice, parts};
-use super::{flat_index::FlatIndex, frame::Frame, lines::Lines, refusal::MeshRefusal};
+use super::{flat_index::FlatIndex, frame::Frame, lines::InnerLines, refusal::MeshRefusal};
 use crate::predicates::ray_crosses;
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
@@ -79,7 +79,7 @@ pub(super) fn divide(
     let mut points = Points { lattice: ground.lattice, ..Points::default() };
     points.divide_boundary(&ground);
     let boundary = points.lines(points.boundary.iter().map(|piece| piece.ends));
-    let mut lines = Lines::new(boundary, &points.flat);
+    let mut lines = InnerLines::new(boundary, &points.flat);
     for &contact in &ground.contacts {
         let pieces = points.divide_line(contact, &ground, &mut lines);
         points.contacts.extend(pieces);
@@ -110,7 +110,12 @@ impl Points {
 
     /// Appends the points of the part of a line that lies inside the region and keeps a quarter of a step from the
     /// boundary and from the lines before it, but for the points that it shares with them; gives its pieces.
-    fn divide_line(&mut self, ends: [DVec2; 2], ground: &Ground<'_>, lines: &mut Lines) -> Vec<[usize; 2]> {
+    fn divide_line(
+        &mut self,
+        ends: [DVec2; 2],
+        ground: &Ground<'_>,
+        lines: &mut InnerLines,
+    ) -> Vec<[usize; 2]> {
         let mut chain: Vec<Option<usize>> = Vec::new();
         for (flat, place) in ground.pieces(ends.map(|end| (end, ground.frame.lift(end)))) {
             chain.push(match lines.known(flat, ground.near()) {
@@ -135,7 +140,7 @@ impl Points {
 
     /// Appends the lattice points inside the region, and those of its halved cells, that keep half a step from the
     /// lines.
-    fn fill_inside(&mut self, ground: &Ground<'_>, lines: &Lines) {
+    fn fill_inside(&mut self, ground: &Ground<'_>, lines: &InnerLines) {
         for point in self.lattice.points(ground.levels) {
             if ground.inside_and_clear(point, lines, ground.step(point) / 2.0) {
                 self.push(point, ground.frame.lift(point));
@@ -250,7 +255,7 @@ impl<'g> Ground<'g> {
 
     /// Whether a point lies inside the region and keeps a distance from all lines. Those of the boundary are among
     /// them, so the crossing parity needs no care near the boundary.
-    fn inside_and_clear(&self, point: DVec2, lines: &Lines, distance: f64) -> bool {
+    fn inside_and_clear(&self, point: DVec2, lines: &InnerLines, distance: f64) -> bool {
         let crossed = |edge: &[DVec2; 2]| ray_crosses(point, *edge);
         self.outline.right_of(point).filter(crossed).count() % 2 == 1 && !lines.are_near(point, distance)
     }

@@ -3,17 +3,17 @@ use super::flat_index::FlatIndex;
 use glam::DVec2;
 
 /// The lines so far.
-pub(super) struct Lines {
+pub(super) struct InnerLines {
     pieces: FlatIndex,
     /// The points, under their numbers.
     points: FlatIndex,
 }
 
-impl Lines {
+impl InnerLines {
     /// The pieces of a boundary, and its points.
-    pub(super) fn new(pieces: Vec<[DVec2; 2]>, points: &[DVec2]) -> Lines {
+    pub(super) fn new(pieces: Vec<[DVec2; 2]>, points: &[DVec2]) -> InnerLines {
         let points = points.iter().map(|&point| [point, point]).collect();
-        Lines { pieces: FlatIndex::new(pieces), points: FlatIndex::new(points) }
+        InnerLines { pieces: FlatIndex::new(pieces), points: FlatIndex::new(points) }
     }
 
     /// Adds the next point.

@@ -169,10 +169,11 @@ impl Triangle<'_> {
             // All samples inside lie where this, and x to the right, are at least 0. A pixel more on each side makes up for rounding.
             let most = start + top.max(bottom) + ROUNDING * size;
             let edge = -most / right;
-            match right {
-                0.0 if most < 0.0 => return 0..0,
-                0.0.. => low = low.max(edge - 2.0),
-                _ => high = high.min(edge + 2.0),
+            // Neither for a plane along the row, whose zero may have either sign.
+            if right > 0.0 {
+                low = low.max(edge - 2.0);
+            } else if right < 0.0 {
+                high = high.min(edge + 2.0);
             }
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two columns")]
@@ -212,25 +213,52 @@ mod tests {
         (Mesh { vertices, elements }, light)
     }
 
+    /// Squares that face the eye, in two triangles each: their edges run along rows and columns of pixels.
+    fn before_the_eye() -> (Mesh, Vec<[f64; 3]>) {
+        let corner = |k: usize| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][k % 4].map(|x: f64| x * 1.3);
+        let place = |k: usize| {
+            let [y, z] = corner(k);
+            DVec3::new(3.0, y - 2.0 + (k / 4) as f64, z - 2.0 + (k / 8) as f64)
+        };
+        let square = |k: usize| [[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]];
+        let both = (0..4).flat_map(square).flat_map(|[a, b, c]| [[a, b, c], [a, c, b]]);
+        let elements = both.map(|corners| Element { patch: 0, corners }).collect();
+        let mesh = Mesh { vertices: (0..16).map(place).collect(), elements };
+        (mesh, (0..16).map(|k| [1.0 + k as f64, 1.0, 1.0]).collect())
+    }
+
     #[test]
     fn no_sample_is_lost_where_triangles_reach_behind_the_eye() {
         let (mesh, light) = around_the_eye();
+        let wide = assert_all_is_drawn(&mesh, &light, DVec3::new(0.1, -0.2, 0.05));
+        assert!(wide > 5, "only {wide}");
+    }
+
+    #[test]
+    fn no_sample_is_lost_where_edges_run_along_rows() {
+        let (mesh, light) = before_the_eye();
+        assert_all_is_drawn(&mesh, &light, DVec3::ZERO);
+    }
+
+    /// That pictures have every sample that a triangle covers; how many triangles span all columns.
+    fn assert_all_is_drawn(mesh: &Mesh, light: &[[f64; 3]], position: DVec3) -> usize {
         let camera = Camera {
             name: String::new(),
-            position: DVec3::new(0.1, -0.2, 0.05),
+            position,
             direction: DVec3::X,
             up: DVec3::Z,
             vertical_fov: 1.5,
             aspect: 1.5,
         };
-        let painting = Painting { mesh: &mesh, light: &light, places: &[], images: &[] };
+        let painting = Painting { mesh, light, places: &[], images: &[] };
         let triangles = Eye::new(&camera, 60, 40).triangles(&painting);
-        assert!(triangles.iter().filter(|triangle| triangle.columns == (0..60)).count() > 5);
         let mut all =
             Samples { colours: vec![[0.0; 3]; 2400 * SAMPLES], nearness: vec![0.0; 2400 * SAMPLES] };
         for (triangle, pixel) in triangles.iter().flat_map(|t| (0..2400).map(move |pixel| (t, pixel))) {
             all.cover(triangle, pixel * SAMPLES, pixel % 60, pixel / 60);
         }
+        assert!(all.nearness.iter().any(|nearness| *nearness > 0.0));
         assert_eq!(raster(&triangles, 0..40, 60), all.colours);
+        triangles.iter().filter(|triangle| triangle.columns == (0..60)).count()
     }
 }

@@ -4,12 +4,8 @@ use crate::error::Error;
 use formfactor::DifferentialArea;
 use std::{ops::Range, sync::Arc, time::Instant};
 
-/// The first batch is of so many points.
-const FIRST: usize = 64;
-/// No batch is of fewer.
-const LEAST: usize = 16;
 /// Batches become smaller that take more seconds, and larger that take less than half of them; the watcher is asked as often.
-const PAUSE: f64 = 0.1;
+const PAUSE: f64 = if cfg!(test) { 0.0 } else { 0.1 };
 
 impl Run<'_> {
     /// The form factors from all elements to one piece; nothing when the watcher wants to stop.
@@ -40,7 +36,8 @@ impl Run<'_> {
         count: usize,
         find: impl Fn(&Self, Range<usize>) -> Result<Vec<T>, Error>,
     ) -> Result<Vec<T>, Error> {
-        let (mut found, mut size) = (Vec::with_capacity(count), FIRST);
+        // One point may take long among very many polygons.
+        let (mut found, mut size) = (Vec::with_capacity(count), rayon::current_num_threads());
         while found.len() < count {
             let start = Instant::now();
             let batch = found.len()..count.min(found.len() + size);
@@ -60,6 +57,6 @@ fn next(size: usize, seconds: f64) -> usize {
     match seconds / PAUSE {
         ..0.5 => 2 * size,
         ..1.0 => size,
-        _ => LEAST.max(size / 2),
+        _ => rayon::current_num_threads().max(size / 2),
     }
 }

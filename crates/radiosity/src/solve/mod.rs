@@ -76,6 +76,9 @@ use solution::Solution;
 use state::State;
 use std::{ops::ControlFlow, time::Instant};
 
+/// What is done with so few patches before the first step takes less than a second, and is done whatever the time.
+const FEW_PATCHES: usize = 10_000;
+
 /// Solves for the light of a scene. `watch` is called before every step and may end the run early.
 ///
 /// A scene without emission is solved at once: it is dark. The result does not depend on the number of threads.
@@ -83,7 +86,8 @@ use std::{ops::ControlFlow, time::Instant};
 ///
 /// # Errors
 /// A reflectance outside [0, 1], one of 1 in a closed lit room, negative emission, a polygon that cannot be cut into
-/// triangles: see [`Error`]. A panic in a form factor ends the run early instead; see [`Solution::fault`].
+/// triangles, a time that is up before the first step among very many patches: see [`Error`]. A panic in a form factor ends the run early
+/// instead; see [`Solution::fault`].
 pub fn solve(
     scene: &Scene,
     options: &Options,
@@ -105,8 +109,10 @@ pub fn solve_from(
     mut watch: impl FnMut(&Progress<'_>) -> ControlFlow<()>,
 ) -> Result<Solution, Error> {
     let start = Instant::now();
+    let in_time = || check_time(scene, options, start);
     check::check(scene)?;
     overlap::check(scene)?;
+    in_time()?;
     let options =
         &Options { method: options.method.choose(scene.patches.len(), options.hemicube), ..*options };
     if options.method == Method::Hierarchical {
@@ -120,7 +126,9 @@ pub fn solve_from(
     }
     let mut passes_left = options.passes;
     loop {
+        in_time()?;
         let subdivision = Subdivision::new(scene, &plan)?;
+        in_time()?;
         let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
         if passes_left == options.passes {
             run.recognise()?;
@@ -133,6 +141,12 @@ pub fn solve_from(
         passes_left -= 1;
         plan = refine::refine(&plan, &subdivision, &solution, options.norm, options.elements >> passes_left);
     }
+}
+
+/// Refuses to go on with very many patches when the time is up: nothing is found yet that could be shown.
+fn check_time(scene: &Scene, options: &Options, start: Instant) -> Result<(), Error> {
+    let is_up = options.max_seconds.is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
+    if is_up && scene.patches.len() > FEW_PATCHES { Err(Error::Time) } else { Ok(()) }
 }
 
 #[cfg(test)]

@@ -107,6 +107,40 @@ fn threads_change_nothing() {
     assert_eq!(with(1), with(3));
 }
 
+/// The watcher is asked within a shot too: what it ends there has the light of the shots before, and goes on to the same bits.
+#[test]
+fn a_run_that_is_stopped_within_a_shot_goes_on_to_the_same_bits() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let options = options(200, 1e-4);
+    let whole = quick(&scene, options);
+    for last in [0, 1, 2] {
+        let (mut state, mut stands) = (State::default(), None);
+        let stopped = solve_from(&scene, &options, &mut state, |progress| {
+            let within = stands.is_some() && progress.moment == Moment::Preparation && progress.shots == last;
+            stands = Some(progress.solution().irradiance);
+            if within { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let stopped = stopped.unwrap();
+        assert!(!stopped.converged && stopped.shots == last, "{}", stopped.shots);
+        assert_eq!(Some(stopped.irradiance), stands);
+        let again = solve_from(&scene, &options, &mut state, |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(again.radiosity, whole.radiosity);
+    }
+}
+
+#[test]
+fn what_is_cut_among_very_many_patches_takes_no_more_than_its_time() {
+    let tile = |k: i32| {
+        let x = f64::from(k);
+        patch("tile", &[[x, 0., 0.], [x + 0.5, 0., 0.], [x + 0.5, 1., 0.], [x, 1., 0.]], 0.5, 1.0)
+    };
+    let scene = Scene { patches: (0..10_001).map(tile).collect(), bands: 1, ..Scene::default() };
+    let options = Options { max_seconds: Some(0.0), ..Options::default() };
+    let run = solve(&scene, &options, |_| ControlFlow::Continue(()));
+    assert!(matches!(run, Err(Error::Time)));
+}
+
 #[test]
 fn a_dark_scene_is_dark_at_once() {
     let solution = quick(&room(0.5, 0.0), options(100, 1e-4));

@@ -14,7 +14,8 @@ pub(super) fn from_all<T: Send>(
     patch: &str,
     factor: impl Fn(&DifferentialArea) -> T + Sync,
 ) -> Result<Vec<T>, Error> {
-    let all = || points.par_iter().with_min_len(8).map(&factor).collect();
+    let shared = (points.len() / rayon::current_num_threads()).clamp(1, 8);
+    let all = || points.par_iter().with_min_len(shared).map(&factor).collect();
     attempt(patch, all)
 }
 

@@ -42,7 +42,8 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let (start, mut options) = (Instant::now(), options(arguments)?);
     let outputs = Output::all(&arguments.output, &arguments.format)?;
     let lit = |scene: &mut Scene| light(scene, &arguments.lights);
-    let input = input::read_repaired(&arguments.scene, arguments.reading, lit)?;
+    let is_late = || arguments.time.is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
+    let input = input::read_repaired(&arguments.scene, arguments.reading, lit, is_late)?;
     let scene = &input.scene;
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
