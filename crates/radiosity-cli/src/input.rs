@@ -2,7 +2,7 @@
 use crate::failure::Failure;
 use clap::Args;
 use radiosity::inspect::{Finding, KindSummary, in_one_line, summary};
-use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair};
+use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair_until};
 use serde::Deserialize;
 use std::{io::Read, path::Path};
 
@@ -54,8 +54,8 @@ pub(crate) fn read_repaired(
     in_time(&scene)?;
     scene = reading.sides.of(&scene);
     in_time(&scene)?;
-    let Repaired { scene, repairs, .. } = repair(&scene);
-    in_time(&scene)?;
+    let repaired = repair_until(&scene, &|| in_time(&scene).is_err());
+    let Repaired { scene, repairs, .. } = repaired.ok_or_else(Failure::late)?;
     if reading.strict && !repairs.is_empty() {
         return Err(refusal(path, &repairs));
     }

@@ -5,29 +5,25 @@
 //! ```
 //!
 //! Between two sizes stands the exponent: the logarithm of the ratio of times over that of the numbers of patches; – where there was no
-//! time to measure. `inspect` looks from 8 to 256 patches; one of these views is measured.
+//! time to measure. `inspect` repairs, and looks from 8 to 256 patches, of which one is
+//! measured.
 mod large_scenes;
 
 use large_scenes::{FAMILIES, Family};
 use radiosity::formfactor::PlanarPolygon;
 use radiosity::io::{Source, collada::Collada, gltf, obj, ply};
 use radiosity::{Mesh, Moment, Options, Patch, Quality, Record, Scene, Solution};
-use radiosity::{
-    element_table, inspect::Cost, inspect::inspect_until, needed_sides, patch_table, repair, solve, viewer,
-};
+use radiosity::{element_table, inspect::inspect_until, needed_sides, patch_table, repair, solve, viewer};
 use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// Quick stages are repeated until they have taken so many seconds.
 const LEAST: f64 = 0.02;
 /// Views, and lights and shots, are granted so many seconds.
 const GRANTED: f64 = 8.0;
-/// The stages of `inspect` before its views: it asks before each whether to stop.
-const FINDINGS: usize = 3;
 /// So many shots are measured.
 const SHOTS: usize = 3;
 
@@ -99,7 +95,7 @@ fn measure(scene: &Scene) -> Result<Times, Failure> {
     files(scene, &mut times)?;
     let sides = double_sided(scene);
     note(&mut times, "needed sides", || needed_sides(&sides));
-    inspections(scene, &mut times);
+    view(scene, &mut times);
     note(&mut times, "repair", || repair(scene));
     let options = Quality::Draft.options();
     note(&mut times, "mesh", || Mesh::even(scene, options.elements))?;
@@ -130,16 +126,12 @@ fn double_sided(scene: &Scene) -> Scene {
     Scene { patches, ..scene.clone() }
 }
 
-/// What `inspect` finds, and a view of it.
-fn inspections(scene: &Scene, times: &mut Times) {
-    note(times, "inspect, without views", || {
-        let asked = AtomicUsize::new(0);
-        inspect_until(scene, &|| asked.fetch_add(1, Ordering::Relaxed) >= FINDINGS)
-    });
+/// A row of form factors, as `inspect` finds some.
+fn view(scene: &Scene, times: &mut Times) {
     let granted = Instant::now();
-    let Cost { elements, seconds, .. } =
-        inspect_until(scene, &|| granted.elapsed().as_secs_f64() > GRANTED).cost;
-    times.push(("a view of inspect", seconds / elements as f64));
+    let inspection = inspect_until(scene, &|| granted.elapsed().as_secs_f64() > GRANTED);
+    let seconds = inspection.cost.seconds / inspection.cost.elements as f64;
+    times.push(("a view of inspect", if inspection.stopped { 0.0 } else { seconds }));
 }
 
 /// Solves until some shots are made, or the time is up.

@@ -69,7 +69,7 @@ pub use record::{PatchRecord, Record};
 pub use recording::packed::Packed;
 pub use recording::recorder::Recorder;
 pub use recording::{PackedMesh, PackedTiles, Recording, Step, StepKind};
-pub use repair::{Repaired, repair};
+pub use repair::{Repaired, repair, repair_until};
 pub use scene::Scene;
 pub use scene::asset::Asset;
 pub use scene::camera::Camera;

@@ -96,11 +96,11 @@ pub fn inspect(scene: &Scene) -> Inspection {
 }
 
 /// Describes a scene as [`inspect`] does, until `stop` says to stop: what was not looked at then is left out, and where the view from no patch
-/// is known there is no opening. `stop` is asked between stages and, by any thread, between form factors.
+/// is known there is no opening. `stop` is asked between stages, in repair and, by any thread, between form factors.
 #[must_use]
 pub fn inspect_until(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Inspection {
-    let mut findings = Vec::new();
-    for find in [surface::findings, orientation::findings, junction::findings] {
+    let mut findings = surface::findings(scene, stop);
+    for find in [orientation::findings, junction::findings] {
         if !stop() {
             findings.extend(find(scene));
         }

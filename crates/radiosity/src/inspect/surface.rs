@@ -1,11 +1,11 @@
 //! What the reader told, whether there is light, and what repair finds.
-use crate::repair::repair;
+use crate::repair::repair_until;
 use crate::scene::{
     Scene,
     finding::{Finding, Kind},
 };
 
-pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
+pub(super) fn findings(scene: &Scene, stop: &dyn Fn() -> bool) -> Vec<Finding> {
     let told = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_none()).cloned();
     let dark = (!scene.has_light()).then(|| Finding {
         kind: Kind::Dark,
@@ -14,5 +14,6 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         repair: "give the material of an emitter an emission above 0, or solve with --emit or --sky".into(),
         places: Vec::new(),
     });
-    told.chain(dark).chain(repair(scene).repairs).collect()
+    let repairs = repair_until(scene, stop).into_iter().flat_map(|repaired| repaired.repairs);
+    told.chain(dark).chain(repairs).collect()
 }

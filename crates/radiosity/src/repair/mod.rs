@@ -50,29 +50,43 @@ pub struct Repaired {
 /// All other patches stay as they are, bit for bit. What is repaired already stays as it is. O(n log n) for n patches that are spread out.
 #[must_use]
 pub fn repair(scene: &Scene) -> Repaired {
+    repair_until(scene, &|| false).expect("nothing stops it")
+}
+
+/// Repairs the surfaces of a scene as [`repair`] does, or nothing when `stop` says to stop: it is asked several times, less than a second apart
+/// for scenes of 100 000 patches.
+#[must_use]
+pub fn repair_until(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Repaired> {
     let mut scene = scene.clone();
     let read = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_some()).cloned();
     let mut repairs: Vec<Finding> = read.collect();
     repairs.extend(reflectance::limit(&mut scene));
-    if put_right(&mut scene, &mut repairs) {
-        settle(&mut scene);
+    if put_right(&mut scene, &mut repairs, stop)? {
+        settle(&mut scene, stop)?;
     }
-    Repaired { scene, repairs }
+    Some(Repaired { scene, repairs })
 }
 
-/// Repairs the shapes of patches once; returns whether anything was to be done.
-fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>) -> bool {
+/// Repairs the shapes of patches once; returns whether anything was to be done, nothing when stopped.
+fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>, stop: &dyn Fn() -> bool) -> Option<bool> {
     let known = findings.len();
     let is_moved = weld::weld(scene, findings);
+    if stop() {
+        return None;
+    }
     findings.extend(slivers::leave_out(scene));
     findings.extend(cut::cut(scene));
-    is_moved || findings.len() > known
+    (!stop()).then_some(is_moved || findings.len() > known)
 }
 
 /// Repairs what cuts leave: corners of two pieces at one place that were rounded apart, thin pieces, and overlaps where planes are one in
 /// pairs and not all together. What overlaps after some rounds is left out.
-fn settle(scene: &mut Scene) {
-    if (0..ROUNDS).all(|_| put_right(scene, &mut Vec::new())) {
-        cut::leave_out_covered(scene);
+fn settle(scene: &mut Scene, stop: &dyn Fn() -> bool) -> Option<()> {
+    for _ in 0..ROUNDS {
+        if !put_right(scene, &mut Vec::new(), stop)? {
+            return Some(());
+        }
     }
+    cut::leave_out_covered(scene);
+    Some(())
 }
