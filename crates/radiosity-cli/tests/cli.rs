@@ -609,7 +609,7 @@ fn what_there_is_no_time_for_is_left_out_and_said() {
     let (found, told) = (String::from_utf8_lossy(&inspected.stdout), stderr(&inspected));
     assert_eq!(code(&inspected), 4, "{told}");
     assert_eq!(told, "stopped: not all was looked at\n");
-    assert!(found.contains("patches    15 with") && found.contains("not timed"), "{found}");
+    assert!(found.contains("patches    17 with") && found.contains("not timed"), "{found}");
     let as_json = radiosity(&["inspect", "scenes/cornell-box.dae", "--time", "1e-9", "--json"]);
     let json: Value = serde_json::from_slice(&as_json.stdout).expect("JSON");
     assert!(json["stopped"] == true && json["opening"].is_null(), "{json}");
