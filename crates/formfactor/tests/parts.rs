@@ -156,6 +156,31 @@ fn parts_are_on_the_plane_of_the_whole() {
     }
 }
 
+/// Quadrilaterals of a cone with two sides, as meshes have them: roundings put parts of one side a last bit behind the other.
+#[test]
+fn rounded_parts_are_not_hidden_by_what_lies_on_them() {
+    let at = |radius: f64, turn: f64, z: f64| DVec3::new(radius * turn.cos(), radius * turn.sin(), z);
+    for step in 0..32 {
+        let [from, to] = [0.1, 0.7].map(|turn| turn + 0.2 * f64::from(step));
+        let corners = [at(11.3, from, 0.1), at(11.3, to, 0.1), at(2.7, to, 1.9), at(2.7, from, 1.9)];
+        let side = |order: [usize; 4]| polygon(&order.map(|i| corners[i]));
+        let cone = Enclosure::new(vec![side([0, 1, 2, 3]), side([3, 2, 1, 0])]);
+        let middle = corners.iter().sum::<DVec3>() / 4.0;
+        let rounded = [0, 1, 2, 3].map(|i| polygon(&[corners[i], corners[(i + 1) % 4], middle]));
+        let above = DifferentialArea::new(middle + DVec3::Z * 29.0, DVec3::NEG_Z).unwrap();
+        let whole = cone.form_factor(&above, 0).value;
+        let sum = |factor: &dyn Fn(&PlanarPolygon) -> f64| rounded.iter().map(factor).sum::<f64>();
+        let sums = [
+            sum(&|part| cone.form_factor_to_part(&above, 0, part).value),
+            sum(&|part| cone.form_factor_within(&above, 0, part, 1e-14).value),
+            sum(&|part| cone.form_factor_and_centroid(&above, 0, part, &[1]).0.value),
+        ];
+        assert!(whole > 0.0 && sums.iter().all(|sum| (sum / whole - 1.0).abs() < 1e-12), "{sums:?} {whole}");
+        let area = sum(&|part| cone.visible_part(&above, 0, part).area());
+        assert!((area / cone.polygons()[0].area() - 1.0).abs() < 1e-12, "{area}");
+    }
+}
+
 #[test]
 fn what_is_off_the_plane_is_no_part() {
     let wall = polygon(&[DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]);

@@ -7,6 +7,7 @@ use crate::pipeline::{self, Reach};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 /// A set of polygons, each of which is a target and an occluder of the others.
@@ -90,6 +91,15 @@ impl Enclosure {
         self.past_found(from, id, &self.polygons[id], None).0
     }
 
+    /// A part of polygon `id` on the plane of that polygon. One that is farther off than roundings are stays where it is.
+    pub(super) fn on_plane<'p>(&self, id: usize, part: &'p PlanarPolygon) -> Cow<'p, PlanarPolygon> {
+        let whole = &self.polygons[id];
+        if part.has_plane_of(whole) {
+            return Cow::Borrowed(part);
+        }
+        whole.part(part.loops()).map_or(Cow::Borrowed(part), Cow::Owned)
+    }
+
     /// [`Self::form_factor`], with counts of the work that it took.
     ///
     /// # Panics
@@ -99,8 +109,10 @@ impl Enclosure {
         self.past_found(from, id, &self.polygons[id], None)
     }
 
-    /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it. One made by
-    /// [`PlanarPolygon::part`] is on that plane exactly, and found the quickest.
+    /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it.
+    ///
+    /// A part that roundings put off the plane, and so behind what lies on it, as the other side of a thin wall, stands for
+    /// [`PlanarPolygon::part`] of the same loops. Making that once saves making it here.
     ///
     /// # Panics
     /// When there is no polygon `id`.
@@ -174,7 +186,7 @@ impl Enclosure {
             return (FormFactor::default(), part.points()[0]);
         }
         let occluders: Vec<&PlanarPolygon> = self.others(from, id, among.iter().copied()).collect();
-        self.pool.lend(|buffers| with_centroid(from, part, &occluders, buffers))
+        self.pool.lend(|buffers| with_centroid(from, &self.on_plane(id, part), &occluders, buffers))
     }
 
     /// The form factor to a part of polygon `id`, past the occluders that the tree finds.
@@ -212,7 +224,7 @@ impl Enclosure {
         }
         self.pool.lend(|buffers| {
             let occluders = |reach: &Reach| self.others(from, id, candidates(reach));
-            (pipeline::past(from, part, occluders, within, buffers), buffers.stats)
+            (pipeline::past(from, &self.on_plane(id, part), occluders, within, buffers), buffers.stats)
         })
     }
 

@@ -16,8 +16,9 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn visible_part(&self, from: &DifferentialArea, id: usize, part: &PlanarPolygon) -> VisiblePart {
+        let part = self.on_plane(id, part);
         let deviation = self.deviation() + part.deviation();
-        seen_past(from, part, |pyramid| {
+        seen_past(from, &part, |pyramid| {
             let near = self.tree().find(|extent| pyramid.misses_box(extent, deviation));
             self.others(from, id, near).collect::<Vec<_>>()
         })
@@ -60,7 +61,7 @@ impl Enclosure {
             self.others(from, id, found)
         };
         let quickly = self.pool.lend(|buffers| {
-            let found = quick::boundary(from, part, occluders, &mut buffers.quick);
+            let found = quick::boundary(from, &self.on_plane(id, part), occluders, &mut buffers.quick);
             found.map(|_| buffers.quick.recorded().to_vec())
         });
         quickly.unwrap_or_else(|| {

@@ -94,6 +94,11 @@ impl PlanarPolygon {
         Self::on_plane(points, ends, self.plane.clone(), self.normal)
     }
 
+    /// Whether this is a polygon's [`Self::part`], or the polygon itself: the plane is the same, bit for bit.
+    pub(crate) fn has_plane_of(&self, whole: &PlanarPolygon) -> bool {
+        self.plane.corners == whole.plane.corners
+    }
+
     fn on_plane(points: Vec<DVec3>, ends: Vec<usize>, plane: Plane, normal: DVec3) -> Result<Self, Error> {
         let axes = kept_axes(plane.normal.round());
         let deviation = deviation(&points, &ends, &plane, normal)?;

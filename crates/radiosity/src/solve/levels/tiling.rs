@@ -144,16 +144,19 @@ impl<'s> Tiling<'s> {
         let refused = |error| Error::Shape { patch: source.name.clone(), source: error };
         let places: Vec<DVec3> = outline.places().collect();
         let middle = frame.lift(outline.centroid);
-        let within = places
-            .iter()
-            .map(|place| if parent.is_some() { *place + (middle - *place) * WITHIN } else { *place });
+        let within =
+            |place: &DVec3| if parent.is_some() { *place + (middle - *place) * WITHIN } else { *place };
+        let within: Vec<DVec3> = places.iter().map(within).collect();
+        let surface = &self.enclosure.polygons()[self.surface_of[patch]];
+        // A patch may be farther off the plane of a wall that it is joined with than roundings are.
+        let polygon = surface.part([&within]).or_else(|_| source.polygon.part([&within])).map_err(refused)?;
         let normal = source.polygon.normal();
         let points = self.points(patch, &outline)?;
         Ok(Tile {
             patch,
             surface: self.surface_of[patch],
             reflectance: source.reflectance_within(&places),
-            polygon: PlanarPolygon::new([within.collect::<Vec<_>>()]).map_err(refused)?,
+            polygon,
             area: self.area(patch, &outline),
             points,
             normal,
