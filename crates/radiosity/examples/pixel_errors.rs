@@ -5,10 +5,10 @@
 //! ```
 //!
 //! Errors are shares of the brightest reflected light of the picture.
-#[path = "../tests/pixels/mod.rs"]
-mod pixels;
+#[path = "../tests/gather/mod.rs"]
+mod gather;
 
-use pixels::pixel_errors;
+use gather::pixels::pixel_errors;
 use radiosity::{Quality, scenes, solve};
 use std::error::Error;
 use std::io::Write;

@@ -1,9 +1,9 @@
 //! The pixels of pictures are as bright as an exact gather at their points says.
 
-#[path = "pixels/mod.rs"]
+#[path = "gather/mod.rs"]
 mod gather;
 
-use gather::pixel_errors;
+use gather::pixels::pixel_errors;
 use radiosity::{Quality, scenes, solve};
 use std::ops::ControlFlow;
 

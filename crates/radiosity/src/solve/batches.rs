@@ -1,7 +1,6 @@
 //! Form factors and light of many points, batch by batch: between two batches the watcher is asked whether to go on.
-use super::{factors::PieceShape, run::Run, state::Column};
+use super::{run::Run, state::Column};
 use crate::error::Error;
-use formfactor::DifferentialArea;
 use std::{ops::Range, sync::Arc, time::Instant};
 
 /// Batches become smaller that take more seconds, and larger that take less than half of them; the watcher is asked as often.
@@ -18,16 +17,6 @@ impl Run<'_> {
         let found =
             self.in_batches(count, |run, some| run.factors.seen(&run.factors.receivers[some], &piece))?;
         Ok((found.len() == count).then(|| self.factors.keep(node, &found)))
-    }
-
-    /// The form factors from any points to a piece; nothing when the watcher wants to stop.
-    pub(super) fn seen_from(
-        &mut self,
-        points: &[DifferentialArea],
-        piece: &PieceShape,
-    ) -> Result<Option<Vec<f64>>, Error> {
-        let found = self.in_batches(points.len(), |run, some| run.factors.seen(&points[some], piece))?;
-        Ok((found.len() == points.len()).then_some(found))
     }
 
     /// What `find` finds for so many points, all or as many as the watcher waits for. Batches change nothing in it.

@@ -1,6 +1,6 @@
 //! A run from its first step to its solution.
 use super::{
-    direct::gather, follow::follow, hemicube::Hemicubes, ledger::gaps, options::Method, relax::relax,
+    final_gather::gather, follow::follow, hemicube::Hemicubes, ledger::gaps, options::Method, relax::relax,
 };
 use super::{run::Run, shoot::Shooting, shoot::shoot, shooters::Shooters, solution::Solution};
 use crate::error::Error;
@@ -90,17 +90,16 @@ impl Run<'_> {
         Ok(Some(method))
     }
 
-    /// The solution; direct light is gathered for the last mesh only.
+    /// The solution; what vertices receive is gathered for the last mesh only.
     pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
         let (mut closure, mut gathered) = (None, None);
         if converged {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
-        if converged && last {
-            let with_emitters = self.options.gather;
-            let direct = gather(scene, &mut self, with_emitters);
-            gathered = self.survive(direct)?.flatten();
+        if converged && last && self.options.gather && self.options.hemicube.is_none() {
+            let found = gather(scene, &mut self);
+            gathered = self.survive(found)?.flatten();
         }
         Ok(self.into_solution(converged, closure, gathered))
     }

@@ -9,12 +9,14 @@ use std::sync::Arc;
 
 /// What a form factor may be off by: far less than what tells a closed room from an open one.
 const ENOUGH: f64 = 1e-11;
+/// And where it is shown, and nothing is made of it.
+const SHOWN: f64 = 1e-7;
 
 /// A piece of a patch, in the plane of the polygon that the enclosure has for the patch.
 #[derive(Debug)]
 pub(super) struct PieceShape {
     patch: usize,
-    polygon: PlanarPolygon,
+    pub(super) polygon: PlanarPolygon,
 }
 
 /// Columns of form factors: from the centroid of every element to one piece, all other patches occluding.
@@ -121,6 +123,24 @@ impl<'s> Factors<'s> {
     /// A point of a patch, as the enclosure knows it.
     pub(super) fn on_patch(&self, from: DifferentialArea, patch: usize) -> DifferentialArea {
         from.owned_by(self.surface_of[patch])
+    }
+
+    /// The form factor from a point to a piece, as good as is shown.
+    pub(super) fn shown(&self, from: &DifferentialArea, piece: &PieceShape) -> f64 {
+        let surface = self.surface_of[piece.patch];
+        self.enclosure.form_factor_within(from, surface, &piece.polygon, SHOWN).value
+    }
+
+    /// Whether a piece gives light of its own.
+    pub(super) fn emits(&self, piece: &PieceShape) -> bool {
+        self.scene.patches[piece.patch].emits()
+    }
+
+    /// The shape of an element; nothing for one without area.
+    pub(super) fn triangle(&self, element: usize) -> Option<PieceShape> {
+        let mesh = &self.subdivision.mesh;
+        let polygon = PlanarPolygon::new([mesh.triangle(element)]).ok()?;
+        Some(self.part(mesh.elements[element].patch, &polygon))
     }
 
     /// The form factors from some points to a piece.

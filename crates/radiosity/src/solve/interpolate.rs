@@ -85,7 +85,7 @@ const SPREAD: usize = 64;
 const SMOOTH: f64 = 0.5;
 
 /// Area-weighted means around vertices.
-struct Means<'m> {
+pub(super) struct Means<'m> {
     mesh: &'m Mesh,
     bands: usize,
     areas: Vec<f64>,
@@ -94,7 +94,7 @@ struct Means<'m> {
 }
 
 impl<'m> Means<'m> {
-    fn of(mesh: &'m Mesh, bands: usize) -> Means<'m> {
+    pub(super) fn of(mesh: &'m Mesh, bands: usize) -> Means<'m> {
         let areas: Vec<f64> = (0..mesh.elements.len()).map(|element| mesh.area(element)).collect();
         let mut weights = vec![0.0; mesh.vertices.len()];
         for (element, area) in mesh.elements.iter().zip(&areas) {
@@ -104,7 +104,7 @@ impl<'m> Means<'m> {
     }
 
     /// The means of element values, vertices × bands.
-    fn around(&self, values: &[f64]) -> Vec<f64> {
+    pub(super) fn around(&self, values: &[f64]) -> Vec<f64> {
         let mut means = vec![0.0; self.weights.len() * self.bands];
         for (element, value) in values.chunks_exact(self.bands).enumerate() {
             for corner in self.mesh.elements[element].corners {

@@ -119,6 +119,12 @@ impl Light {
         sums
     }
 
+    /// What some elements send on average, per band.
+    pub(super) fn mean_radiosity(&self, elements: Range<usize>) -> Vec<f64> {
+        let area: f64 = self.areas[elements.clone()].iter().sum();
+        self.power(&self.radiosity, elements).iter().map(|power| power / area).collect()
+    }
+
     /// Σ A·value over all elements, for each band.
     pub(super) fn total(&self, values: &[f64]) -> Vec<f64> {
         self.power(values, 0..self.areas.len())

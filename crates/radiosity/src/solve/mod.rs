@@ -4,7 +4,7 @@
 //! refine       where the light is not resolved, and a plan for a finer mesh
 //! drive        one mesh from the first step to its solution: which method, the steps, closure, direct light
 //! levels       light between parts of patches of any size; the mesh follows
-//! direct       light straight from the emitters, exact at every vertex
+//! final_gather what vertices receive, exactly past what stands in between
 //! receivers    where the light of vertices is gathered
 //! lights       lamps, the sun and the sky: what points and polygons receive of them
 //! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
@@ -37,9 +37,9 @@
 //! directions.
 mod batches;
 mod check;
-mod direct;
 mod drive;
 mod factors;
+mod final_gather;
 mod fingerprint;
 mod follow;
 mod hemicube;

@@ -54,7 +54,8 @@ pub struct Options {
     pub shadows: usize,
     /// The resolution of hemicubes that replace exact form factors, to compare with; `None` for exact ones.
     pub hemicube: Option<u32>,
-    /// Whether to compute the direct light exactly at every vertex at the end.
+    /// Whether to find at the end what vertices receive, exactly past what stands in between, rather than interpolate the light of
+    /// elements. Hemicubes do not.
     pub gather: bool,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.
@@ -92,7 +93,7 @@ impl Default for Options {
             norm: Norm::L2,
             shadows: 0,
             hemicube: None,
-            gather: false,
+            gather: true,
             tolerance: 1e-3,
             error: 1e-2,
             spread: 2e-4,

@@ -14,7 +14,6 @@ use super::{
 use crate::error::Error;
 use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
-use formfactor::DifferentialArea;
 use std::{ops::ControlFlow, time::Instant};
 
 /// Whoever follows a run.
@@ -105,13 +104,10 @@ impl<'r> Run<'r> {
         Ok(goes_on)
     }
 
-    /// What lights without surfaces bring to any points, points × bands; nothing when the watcher wants to stop.
-    pub(super) fn straight(&mut self, points: &[DifferentialArea]) -> Result<Option<Vec<f64>>, Error> {
-        let found = self.in_batches(points.len(), |run, some| run.factors.straight(&points[some]))?;
-        let sum = |[lamps, beyond]: &[Vec<f64>; 2]| {
-            lamps.iter().zip(beyond).map(|(lamps, beyond)| lamps + beyond).collect::<Vec<f64>>()
-        };
-        Ok((found.len() == points.len()).then(|| found.iter().flat_map(sum).collect()))
+    /// Whether a piece sends light.
+    pub(super) fn sends(&self, node: usize) -> bool {
+        let (elements, bands) = (&self.factors.subdivision.nodes[node].elements, self.light.bands);
+        self.light.radiosity[elements.start * bands..elements.end * bands].iter().any(|sent| *sent > 0.0)
     }
 
     /// Refuses a state of another scene or mesh.

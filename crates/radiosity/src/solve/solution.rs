@@ -97,7 +97,7 @@ impl Solution {
     }
 }
 
-/// Light that was gathered at every vertex: straight from the emitters, or all of it.
+/// Light that was gathered at vertices.
 #[derive(Clone, Debug)]
 pub(crate) struct Gathered {
     /// How much of the irradiance of the elements it is, elements × bands.

@@ -89,8 +89,8 @@ pub(super) enum Quality {
     Draft,
     /// For pictures: an error of 1 %; on a mesh 6000 elements, half of them where the light changes most, a bound of 0.1 %
     Normal,
-    /// For figures and close views: an error of 0.3 %; on a mesh 20 000 elements, shadow edges along element edges, exact
-    /// direct light at every vertex, a bound of 0.1 %
+    /// For figures and close views: an error of 0.3 %; on a mesh 20 000 elements, shadow edges along element edges, a bound of
+    /// 0.1 %
     High,
 }
 

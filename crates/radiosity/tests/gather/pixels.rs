@@ -1,6 +1,7 @@
 //! How far pictures are from the light that their own solution sends: at the point behind each pixel an exact gather from all
 //! elements.
-use radiosity::formfactor::{DifferentialArea, Enclosure, Error, PlanarPolygon};
+use super::sources::Sources;
+use radiosity::formfactor::Error;
 use radiosity::glam::DVec3;
 use radiosity::{Camera, Record, Scene, Solution};
 use rayon::prelude::*;
@@ -59,54 +60,6 @@ pub(crate) fn pixel_errors(
     let (worst, place) = errors.last().copied().unwrap_or_default();
     let percentile = errors.get(pixels * 99 / 100).map_or(0.0, |error| error.0);
     Ok(PixelErrors { pixels, mean, percentile, worst, place })
-}
-
-/// All that sends light.
-struct Sources<'s> {
-    scene: &'s Scene,
-    enclosure: Enclosure,
-    /// For each patch its elements, and what each sends beyond what the patch emits, band by band.
-    elements: Vec<Vec<(PlanarPolygon, Vec<f64>)>>,
-}
-
-impl<'s> Sources<'s> {
-    fn new(scene: &'s Scene, solution: &Solution) -> Result<Sources<'s>, Error> {
-        let mut elements = vec![Vec::new(); scene.patches.len()];
-        for (index, element) in solution.mesh.elements.iter().enumerate() {
-            let patch = &scene.patches[element.patch];
-            let emitted = patch.emission.iter().map(|radiance| std::f64::consts::PI * radiance);
-            let sent = &solution.radiosity[index * scene.bands..][..scene.bands];
-            let reflected: Vec<f64> =
-                sent.iter().zip(emitted).map(|(sent, emitted)| sent - emitted).collect();
-            if reflected.iter().any(|band| *band > 0.0) {
-                // Slivers of no area send nothing.
-                let Ok(polygon) = PlanarPolygon::new([solution.mesh.triangle(index)]) else { continue };
-                elements[element.patch].push((polygon, reflected));
-            }
-        }
-        let polygons = scene.patches.iter().map(|patch| patch.polygon.clone()).collect();
-        Ok(Sources { scene, enclosure: Enclosure::new(polygons), elements })
-    }
-
-    /// The irradiance of a point of a patch.
-    fn gather(&self, patch: usize, point: DVec3) -> Result<Vec<f64>, Error> {
-        let normal = self.scene.patches[patch].polygon.normal();
-        let here = DifferentialArea::new(point, normal)?.owned_by(patch);
-        let mut light = vec![0.0; self.scene.bands];
-        for (source, patch) in self.scene.patches.iter().enumerate() {
-            let whole = self.enclosure.form_factor(&here, source).value;
-            if whole == 0.0 {
-                continue;
-            }
-            let emitted = patch.emission.iter().map(|radiance| std::f64::consts::PI * radiance);
-            light.iter_mut().zip(emitted).for_each(|(light, emitted)| *light += whole * emitted);
-            for (polygon, sent) in &self.elements[source] {
-                let factor = self.enclosure.form_factor_to_part(&here, source, polygon).value;
-                light.iter_mut().zip(sent).for_each(|(light, sent)| *light += factor * sent);
-            }
-        }
-        Ok(light)
-    }
 }
 
 /// What the middle of every pixel shows, where that is something.
