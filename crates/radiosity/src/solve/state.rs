@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use thiserror::Error;
 
 /// How many factors are kept: 1.5 GB.
-const KEPT: usize = 1 << 27;
+pub(super) const KEPT: usize = 1 << 27;
 /// What a file starts with; the digit counts the formats.
 const MAGIC: &[u8] = b"radiosity state 2\n";
 
@@ -66,6 +66,17 @@ impl Column {
     /// Elements and the factors from them, by ascending element.
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
         self.elements.iter().map(|element| *element as usize).zip(self.factors.iter().copied())
+    }
+
+    /// How many factors it has.
+    pub(super) fn len(&self) -> usize {
+        self.factors.len()
+    }
+
+    /// The factor from one element. O(log elements).
+    pub(super) fn factor(&self, element: usize) -> f64 {
+        let place = self.elements.binary_search_by_key(&element, |element| *element as usize);
+        place.map_or(0.0, |place| self.factors[place])
     }
 
     /// The same for elements from `start` on.

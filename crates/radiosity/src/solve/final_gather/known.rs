@@ -2,9 +2,11 @@
 use super::around::PlaceAmong;
 use super::senders::Sender;
 use crate::error::Error;
+use crate::solve::state::{Column, KEPT};
 use crate::solve::{factors::Factors, run::Run, workers::attempt};
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// The share of its light that a point may receive from patches that it does not look at itself.
 const UNSEEN: f64 = 0.1;
@@ -13,59 +15,59 @@ const UNEVEN: f64 = 0.005;
 /// What is darker than this share of the mean counts as that bright.
 const DIM: f64 = 0.01;
 
-/// What elements receive of the pieces that shot.
+/// What elements receive of patches.
 pub(super) struct Known {
     /// The patches that send light.
     senders: Vec<Sender>,
-    /// What each piece of them sends, per band.
-    pieces: Vec<Vec<f64>>,
-    /// For each element what it sees.
-    rows: Vec<Vec<Seen>>,
+    /// For each of them the pieces that shot.
+    pieces: Vec<Vec<SentPiece>>,
+    /// What elements receive of all pieces, elements × bands.
+    received: Vec<f64>,
     /// The mean irradiance, per band.
     mean: Vec<f64>,
 }
 
-/// What an element sees of a piece.
-#[derive(Clone, Copy)]
-struct Seen {
-    sender: usize,
-    piece: usize,
-    factor: f64,
+/// A piece of a patch.
+struct SentPiece {
+    /// What it sends on average, per band.
+    radiosity: Vec<f64>,
+    column: Arc<Column>,
 }
 
 impl Known {
-    /// What the elements of a run received; nothing when the watcher wants to stop.
+    /// What the elements of a run received; nothing when the watcher wants to stop, or where there are more form factors than are kept.
     pub(super) fn of(run: &mut Run<'_>) -> Result<Option<Known>, Error> {
-        let (subdivision, count) = (run.factors.subdivision, run.light.areas.len());
-        let nodes = &subdivision.nodes;
+        let nodes = &run.factors.subdivision.nodes;
         let area: f64 = run.light.areas.iter().sum();
         let mean = run.light.total(&run.light.irradiance).iter().map(|power| power / area).collect();
-        let mut known =
-            Known { senders: Vec::new(), pieces: Vec::new(), rows: vec![Vec::new(); count], mean };
-        let mut of_patch = vec![None; nodes.len()];
-        let front: Vec<usize> = run.shooters.front().collect();
-        for node in front {
+        let received = vec![0.0; run.light.irradiance.len()];
+        let mut known = Known { senders: Vec::new(), pieces: Vec::new(), received, mean };
+        let (mut of_patch, mut count) = (vec![None; nodes.len()], 0);
+        for node in run.shooters.front().collect::<Vec<_>>() {
             if !run.sends(node) {
                 continue;
             }
-            let patch = nodes[node].patch;
-            let sender = match of_patch[patch] {
-                Some(sender) => sender,
-                None => known.add(Sender::of_node(&run.factors, &run.light, patch)?),
-            };
-            of_patch[patch] = Some(sender);
-            let piece = known.pieces.len();
-            known.pieces.push(run.light.mean_radiosity(nodes[node].elements.clone()));
             let Some(column) = run.column(node)? else { return Ok(None) };
-            for (element, factor) in column.iter() {
-                known.rows[element].push(Seen { sender, piece, factor });
+            count += column.len();
+            if count > KEPT {
+                return Ok(None);
             }
+            let sender = match of_patch[nodes[node].patch] {
+                Some(sender) => sender,
+                None => known.add(Sender::of_node(&run.factors, &run.light, nodes[node].patch)?),
+            };
+            of_patch[nodes[node].patch] = Some(sender);
+            let piece =
+                SentPiece { radiosity: run.light.mean_radiosity(nodes[node].elements.clone()), column };
+            piece.shine(&mut known.received);
+            known.pieces[sender].push(piece);
         }
         Ok(Some(known))
     }
 
     fn add(&mut self, sender: Sender) -> usize {
         self.senders.push(sender);
+        self.pieces.push(Vec::new());
         self.senders.len() - 1
     }
 
@@ -104,19 +106,19 @@ impl Known {
         of: &[f64],
         light: &mut [f64],
     ) {
-        let mut is_seen = vec![false; self.senders.len()];
-        for sender in self.brightest(point, of) {
-            is_seen[sender] = true;
-            self.senders[sender].shine(factors, point, (of, UNEVEN), light);
-        }
+        let bands = of.len();
+        let mut rest = vec![0.0; bands];
         for (element, share) in around {
-            for Seen { sender, piece, factor } in &self.rows[*element] {
-                if !is_seen[*sender] {
-                    let sent = light.iter_mut().zip(&self.pieces[*piece]);
-                    sent.for_each(|(light, sent)| *light += share * factor * sent);
-                }
+            add(&mut rest, *share, &self.received[element * bands..][..bands]);
+        }
+        for sender in self.brightest(point, of) {
+            self.senders[sender].shine(factors, point, (of, UNEVEN), light);
+            for SentPiece { radiosity, column } in &self.pieces[sender] {
+                let seen: f64 = around.iter().map(|(element, share)| share * column.factor(*element)).sum();
+                add(&mut rest, -seen, radiosity);
             }
         }
+        light.iter_mut().zip(rest).for_each(|(light, rest)| *light += rest.max(0.0));
     }
 
     /// The lights, and the senders that may bring the most to a point: all others together bring no more than a share of its light.
@@ -131,4 +133,19 @@ impl Known {
             (emits || sum > UNSEEN).then_some(sender)
         })
     }
+}
+
+impl SentPiece {
+    /// Adds what elements receive of it, elements × bands.
+    fn shine(&self, received: &mut [f64]) {
+        let bands = self.radiosity.len();
+        for (element, factor) in self.column.iter() {
+            add(&mut received[element * bands..][..bands], factor, &self.radiosity);
+        }
+    }
+}
+
+/// Adds a share of the light of each band.
+fn add(to: &mut [f64], share: f64, light: &[f64]) {
+    to.iter_mut().zip(light).for_each(|(to, light)| *to += share * light);
 }
