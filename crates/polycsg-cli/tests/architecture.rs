@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 44] = [
+const ORDER: [&str; 45] = [
     "fuzzing",
     "arguments",
     "commands", "commands/overlay", "commands/pairs", "commands/dissolve", "commands/clip", "commands/repair",
@@ -20,7 +20,7 @@ const ORDER: [&str; 44] = [
     "formats/flatgeobuf", "formats/flatgeobuf/writer", "formats/flatgeobuf/reader", "formats/flatgeobuf/properties",
     "formats/flatgeobuf/shapes",
     "formats/geoparquet", "formats/geoparquet/writer", "formats/geoparquet/reader", "formats/geoparquet/geometries",
-    "formats/geoparquet/metadata",
+    "formats/geoparquet/metadata", "formats/geoparquet/damage",
     "formats/lines", "formats/wkb", "formats/values", "formats/writer", "formats/reader",
     "input", "output", "progress",
     "layer", "layer/columns", "layer/batch", "layer/crs", "layer/areas",

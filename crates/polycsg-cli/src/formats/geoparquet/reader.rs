@@ -1,4 +1,5 @@
 //! Reads GeoParquet, some rows at a time.
+use super::damage::guarded;
 use super::geometries::{self, Encoding};
 use super::metadata::{Geo, GeometryColumn, MARKS, marked};
 use crate::failure::Failure;
@@ -7,7 +8,7 @@ use crate::input::Input;
 use crate::layer::batch::{Batch, Gathered, Layer, table};
 use crate::progress::Progress;
 use arrow_array::RecordBatch;
-use arrow_schema::{ArrowError, Schema};
+use arrow_schema::Schema;
 use parquet::arrow::arrow_reader::{
     ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
 };
@@ -35,9 +36,10 @@ pub(crate) struct GeoParquet {
 impl GeoParquet {
     pub(crate) fn open(input: &Input) -> Result<GeoParquet, Failure> {
         let file = input.file()?;
-        let builder = ParquetRecordBatchReaderBuilder::try_new_with_options(file, options());
-        let builder = builder.map_err(|error| failed(input, error))?;
         let data = |error: String| Failure::data(input.name(), error);
+        let damaged = |damage: &str| data(damage.to_owned());
+        let builder = guarded(|| ParquetRecordBatchReaderBuilder::try_new_with_options(file, options()));
+        let builder = builder.map_err(damaged)?.map_err(|error| failed(input, error))?;
         let (name, column) = primary(builder.metadata()).map_err(data)?;
         let schema = Arc::clone(builder.schema());
         let geometry = schema.index_of(&name).map_err(|error| data(error.to_string()))?;
@@ -52,7 +54,8 @@ impl GeoParquet {
         let size = batch_size(builder.metadata());
         let count = u64::try_from(builder.metadata().file_metadata().num_rows()).unwrap_or_default();
         let progress = Progress::of_features(&layer.name, count);
-        let rows = builder.with_batch_size(size).build().map_err(|error| failed(input, error))?;
+        let rows = guarded(|| builder.with_batch_size(size).build());
+        let rows = rows.map_err(damaged)?.map_err(|error| failed(input, error))?;
         Ok(GeoParquet { input: input.clone(), rows, progress, layer, encoding, geometry, attributes })
     }
 
@@ -75,12 +78,14 @@ impl Source for GeoParquet {
 
     fn read(mut self: Box<Self>, each: &mut Each<'_>) -> Result<(), Failure> {
         let mut gathered = Gathered::default();
-        while let Some(rows) = self.rows.next() {
+        loop {
+            let after = gathered.next;
+            let broken =
+                |damage: String| Failure::data(&self.layer.name, format!("after feature {after}: {damage}"));
+            let found = guarded(|| self.rows.next()).map_err(|damage| broken(damage.to_owned()))?;
+            let Some(rows) = found else { break };
             self.input.interrupt.check()?;
-            let broken = |error: ArrowError| {
-                Failure::data(&self.layer.name, format!("after feature {}: {error}", gathered.next))
-            };
-            let rows = rows.map_err(broken)?;
+            let rows = rows.map_err(|error| broken(error.to_string()))?;
             each(self.batch(&rows, &mut gathered)?)?;
             self.progress.add(rows.num_rows());
         }
@@ -130,4 +135,27 @@ fn failed(input: &Input, error: ParquetError) -> Failure {
 pub(super) fn with_column(schema: &Schema, field: arrow_schema::Field) -> Schema {
     let fields = schema.fields().iter().cloned().chain([Arc::new(field)]);
     Schema::new(fields.collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interrupt::Interrupt;
+
+    /// A width of more bits than indices have makes the library's decoder of runs panic.
+    #[test]
+    fn any_damaged_byte_is_an_error_or_other_data() {
+        let bytes = include_bytes!("../../../tests/data/geopandas.parquet");
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("damaged.parquet");
+        let (whole, mut refused) = (bytes.len(), 0);
+        for place in 0..whole {
+            let mut damaged = bytes.to_vec();
+            damaged[place] = 255;
+            std::fs::write(&path, damaged).unwrap();
+            let file = GeoParquet::open(&Input::new(&path, &Interrupt::default()));
+            refused += usize::from(file.and_then(|file| Box::new(file).read(&mut |_| Ok(()))).is_err());
+        }
+        assert!(refused > whole / 8 && refused < whole, "{refused} of {whole}");
+    }
 }
