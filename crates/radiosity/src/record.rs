@@ -1,6 +1,7 @@
 //! A solution as it is written: all that pictures, pages and tables need, without the scene's file.
 use crate::expose::Exposure;
 use crate::image_file::fetch;
+use crate::mesh::conform::Conforming;
 use crate::mesh::element::{Element, Mesh};
 use crate::picture::{framing::framing, linear::LinearFormat, paint, painting::Painting, radiance, seen};
 use crate::recording::Recording;
@@ -83,10 +84,12 @@ pub struct PatchRecord {
 }
 
 impl Record {
-    /// The record of a solution of `scene`, which was read from the file `name`.
+    /// The record of a solution of `scene`, which was read from the file `name`. Elements with vertices of others in the middle of their sides
+    /// are cut there, so that what is drawn has no cracks.
     #[must_use]
     pub fn new(name: &str, scene: &Scene, solution: &Solution) -> Record {
-        let mesh = &solution.mesh;
+        let (shown, bands) = (Conforming::of(&solution.mesh), solution.bands);
+        let mesh = &shown.mesh;
         let (pictures, numbers) = pictures(scene);
         let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
@@ -96,7 +99,7 @@ impl Record {
             scene: name.into(),
             asset: scene.asset,
             cameras: scene.cameras.clone(),
-            bands: solution.bands,
+            bands,
             wavelengths: scene.wavelengths.clone(),
             lumens: scene.lumens(),
             bound: solution.bound.clone(),
@@ -114,12 +117,12 @@ impl Record {
                 })
                 .collect(),
             vertices: mesh.vertices.clone(),
-            vertex_radiosity: solution.vertex_radiosity(),
-            vertex_irradiance: solution.vertex_irradiance(),
+            vertex_radiosity: shown.at_vertices(solution.vertex_radiosity(), bands),
+            vertex_irradiance: shown.at_vertices(solution.vertex_irradiance(), bands),
             places: if pictures.is_empty() { Vec::new() } else { places(scene, mesh) },
             elements: mesh.elements.iter().map(|element| indices(*element)).collect(),
-            radiosity: solution.radiosity.clone(),
-            irradiance: solution.irradiance.clone(),
+            radiosity: shown.on_elements(&solution.radiosity, bands),
+            irradiance: shown.on_elements(&solution.irradiance, bands),
             pictures,
             recording: None,
         }

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 234] = [
+const ORDER: [&str; 235] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -41,7 +41,7 @@ const ORDER: [&str; 234] = [
     "solve/levels/transfer", "solve/levels/tile",
     "solve/fingerprint", "solve/magnitude", "solve/check", "solve/overlap", "solve/quality",
     "solve/options", "solve/norm",
-    "mesh", "mesh/subdivide", "mesh/plan", "mesh/shadows", "mesh/convex", "mesh/cover", "mesh/guests", "mesh/spacing", "mesh/outline", "mesh/tree",
+    "mesh", "mesh/subdivide", "mesh/plan", "mesh/shadows", "mesh/convex", "mesh/cover", "mesh/conform", "mesh/guests", "mesh/spacing", "mesh/outline", "mesh/tree",
     "mesh/split", "mesh/triangulate", "mesh/divide", "mesh/lines", "mesh/flat_index", "mesh/lattice", "mesh/contacts", "mesh/frame",
     "mesh/refusal", "mesh/element",
     "image_file", "coplanar", "extent",

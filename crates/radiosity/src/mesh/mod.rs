@@ -5,6 +5,7 @@
 //! plan         how fine to cut what
 //! convex       a patch in convex parts
 //! cover        convex tiles in triangles that share their vertices
+//! conform      elements cut where vertices of others hang in the middle of their sides
 //! guests       corners of other patches' tiles on the edges of a patch
 //! shadows      lines where the light of strong emitters starts or ceases to be hidden
 //! spacing      how long the sides of cells are
@@ -21,6 +22,7 @@
 //! refusal      why a polygon could not be cut
 //! element      the mesh
 //! ```
+pub(crate) mod conform;
 pub(crate) mod contacts;
 pub(crate) mod convex;
 pub(crate) mod cover;

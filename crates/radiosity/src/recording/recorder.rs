@@ -1,6 +1,7 @@
 //! Steps of a run, kept as they come.
 use super::packed::{Packed, index_text, number_text};
 use super::{PackedMesh, PackedTiles, Recording, Step, StepKind};
+use crate::mesh::conform::Conforming;
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use crate::solve::ledger::Ledger;
@@ -84,12 +85,14 @@ impl Recorder {
     /// All that was kept, and the solution.
     #[must_use]
     pub fn end(mut self, solution: &Solution) -> Recording {
+        let shown = Conforming::of(&solution.mesh);
         let mut last = self.step(StepKind::Solution, 0, solution, &solution.ledger);
+        last.light = Packed::new(&shown.on_elements(&self.reflected(solution), 1));
         last.seconds = solution.seconds;
         if let Some((step, _)) = self.steps.last().filter(|(step, _)| step.kind == StepKind::Rounds) {
             (last.links, last.link_count) = (step.links.clone(), step.link_count);
         }
-        let meshes = self.pack_meshes(&solution.mesh);
+        let meshes = self.pack_meshes(&shown.mesh);
         let corners = self.tiles.iter().flatten().flat_map(|corner| corner.to_array());
         Recording {
             first: self.first,
@@ -121,9 +124,14 @@ impl Recorder {
         packed
     }
 
-    fn step(&self, kind: StepKind, count: usize, solution: &Solution, ledger: &Ledger) -> Step {
+    /// The colours that the elements reflect.
+    fn reflected(&self, solution: &Solution) -> Vec<[f64; 3]> {
         let reflected: Vec<f64> =
             solution.irradiance.iter().zip(&solution.reflectance).map(|(h, rho)| h * rho).collect();
+        self.colours.rows(&reflected)
+    }
+
+    fn step(&self, kind: StepKind, count: usize, solution: &Solution, ledger: &Ledger) -> Step {
         Step {
             kind,
             count,
@@ -133,7 +141,7 @@ impl Recorder {
             absorbed: ledger.absorbed.clone(),
             escaped: ledger.escaped.clone(),
             unshot: ledger.unshot.clone(),
-            light: Packed::new(&self.colours.rows(&reflected)),
+            light: Packed::new(&self.reflected(solution)),
             open: None,
             links: String::new(),
             link_count: 0,

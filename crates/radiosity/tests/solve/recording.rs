@@ -134,6 +134,31 @@ fn long_runs_are_thinned_evenly_after_their_first_steps() {
     assert_eq!(kept, (0..recording.seen).filter(|count| wanted(count)).collect::<Vec<_>>());
 }
 
+/// Where a finer mesh borders on a coarser one, elements are cut, and the recording is of the same elements.
+#[test]
+fn a_record_has_no_vertices_in_the_middle_of_sides() {
+    let scene = scenes::scene("cornell-box").expect("a built-in scene");
+    let (solution, recording) =
+        recorded(&scene, &Options { elements: 400, tolerance: 0.1, ..options(Method::Shoot) });
+    let record = Record { recording: Some(recording), ..Record::new("cornell-box", &scene, &solution) };
+    assert_eq!(record.check(), Ok(()));
+    let hanging = |mesh: &radiosity::Mesh| {
+        let sides = (0..mesh.elements.len()).flat_map(|element| {
+            let [a, b, c] = mesh.triangle(element);
+            [[a, b], [b, c], [c, a]]
+        });
+        let on = |[start, end]: [radiosity::glam::DVec3; 2]| {
+            let ends = |place| [start.distance(place), end.distance(place)];
+            let is_on =
+                |[to, from]: &[f64; 2]| to + from - start.distance(end) < 1e-9 && to.min(*from) > 1e-3;
+            mesh.vertices.iter().map(|place| ends(*place)).filter(is_on).count()
+        };
+        sides.map(on).sum::<usize>()
+    };
+    assert!(hanging(&solution.mesh) > 0);
+    assert_eq!(hanging(&record.mesh()), 0);
+}
+
 #[test]
 fn a_written_recording_comes_back_and_a_damaged_one_is_refused() {
     let scene = lit();
