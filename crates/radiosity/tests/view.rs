@@ -97,6 +97,13 @@ window.onload = async () => {
     HTMLAnchorElement.prototype.click = function () { named(this.download); };
     key("i");
   });
+  // How deep what is seen is, at the least.
+  report.least = Infinity;
+  for (let y = 5; y < canvas.clientHeight; y += 10) for (let x = 5; x < canvas.clientWidth; x += 10) {
+    const { element, point } = hit(x, y), { ahead, eye } = axes();
+    if (element >= 0) report.least = Math.min(report.least, dot(sub(point, eye), ahead));
+  }
+  report.near = nearest();
   report.title = document.title;
   report.wide = document.documentElement.scrollWidth > innerWidth;
   report.error = gl.getError();
@@ -261,6 +268,11 @@ fn the_page_draws_and_its_controls_change_the_picture() {
     assert!(report["middle"].as_str().unwrap().starts_with("patch       "), "{report}");
     assert_eq!(report["saved"], "chessboard.png");
     assert_eq!((&report["title"], &report["wide"]), (&"chessboard.dae – radiosity".into(), &false.into()));
+    let [near, least] = ["near", "least"].map(|depth| report[depth].as_f64().unwrap());
+    assert!(
+        near <= least && near > 0.3 * least,
+        "depths are told apart from {near} on, {least} is the least"
+    );
     let probe = report["probe"].as_str().unwrap();
     for word in ["patch       floor", "element ", "radiosity ", "irradiance ", "bound "] {
         assert!(probe.contains(word), "{word}: {probe}");
