@@ -60,9 +60,9 @@ struct PatchFigures<'s> {
 }
 
 impl<'s> Figures<'s> {
-    /// The figures of `solution`, the solution of `scene`, read from the file `name` with some repairs.
+    /// The figures of `solution`, the solution of `scene`, read with some repairs and written as `record`.
     pub(crate) fn new(
-        name: &'s str,
+        record: &'s Record,
         scene: &'s Scene,
         repairs: &'s [KindSummary],
         solution: &'s Solution,
@@ -72,9 +72,9 @@ impl<'s> Figures<'s> {
         let radiosity = solution.patch_means(&solution.radiosity, scene.patches.len());
         let patches = scene.patches.iter().zip(irradiance).zip(radiosity).enumerate();
         Figures {
-            scene: name,
+            scene: &record.scene,
             repairs,
-            elements: solution.mesh.elements.len(),
+            elements: record.elements.len(),
             shots: solution.shots,
             products: solution.products,
             seconds: solution.seconds,

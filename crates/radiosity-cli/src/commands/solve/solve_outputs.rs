@@ -19,10 +19,10 @@ impl SolveOutputs<'_> {
     pub(super) fn write(&self, solution: &Solution, recording: Option<Recording>) -> Result<String, Failure> {
         let &SolveOutputs { arguments, outputs, input: RepairedInput { scene, source, repairs } } = self;
         let name = arguments.scene.display().to_string();
-        let figures = json::Figures::new(&name, scene, repairs, solution);
+        let record = &Record { recording, ..Record::new(&name, scene, solution) };
+        let figures = json::Figures::new(record, scene, repairs, solution);
         if !outputs.is_empty() {
             let view = &arguments.view;
-            let record = &Record { recording, ..Record::new(&name, scene, solution) };
             let contents = Contents { view, record, source: Some((source, scene)), figures: Some(&figures) };
             // A picture of a stopped run shows what is unshot as if it had spread evenly.
             let shown = Record::new(&name, scene, &solution.with_ambient());
