@@ -88,6 +88,7 @@ impl Record {
     /// are cut there, so that what is drawn has no cracks.
     #[must_use]
     pub fn new(name: &str, scene: &Scene, solution: &Solution) -> Record {
+        let solution = &*solution.shown();
         let (shown, bands) = (Conforming::of(&solution.mesh), solution.bands);
         let mesh = &shown.mesh;
         let (pictures, numbers) = pictures(scene);

@@ -27,6 +27,7 @@ pub use summary::{KindSummary, summary};
 
 use crate::scene::{Scene, asset::Asset, patch::Patch};
 use serde::Serialize;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A description of a scene.
 #[derive(Clone, Debug, Serialize)]
@@ -99,6 +100,12 @@ pub fn inspect(scene: &Scene) -> Inspection {
 /// is known there is no opening. `stop` is asked between stages, in repair and, by any thread, between form factors.
 #[must_use]
 pub fn inspect_until(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Inspection {
+    let stopped = AtomicBool::new(false);
+    let stop = &|| {
+        let stops = stop();
+        stopped.fetch_or(stops, Ordering::Relaxed);
+        stops
+    };
     let mut findings = surface::findings(scene, stop);
     for find in [orientation::findings, junction::findings] {
         if !stop() {
@@ -123,7 +130,7 @@ pub fn inspect_until(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Inspect
         summary: summary(&findings),
         findings,
         cost,
-        stopped: stop(),
+        stopped: stopped.into_inner(),
     }
 }
 

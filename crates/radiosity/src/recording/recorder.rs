@@ -85,6 +85,7 @@ impl Recorder {
     /// All that was kept, and the solution.
     #[must_use]
     pub fn end(mut self, solution: &Solution) -> Recording {
+        let solution = &*solution.shown();
         let shown = Conforming::of(&solution.mesh);
         let mut last = self.step(StepKind::Solution, 0, solution, &solution.ledger);
         last.light = Packed::new(&shown.on_elements(&self.reflected(solution), 1));

@@ -90,18 +90,18 @@ impl Run<'_> {
         Ok(Some(method))
     }
 
-    /// The solution; what vertices receive is gathered for the last mesh only.
+    /// The solution; what is shown is gathered for the last mesh only.
     pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
-        let (mut closure, mut gathered) = (None, None);
+        let (mut closure, mut fine) = (None, None);
         if converged {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
         if converged && last && self.options.gather && self.options.hemicube.is_none() {
             let found = gather(scene, &mut self);
-            gathered = self.survive(found)?.flatten();
+            fine = self.survive(found)?.flatten();
         }
-        Ok(self.into_solution(converged, closure, gathered))
+        Ok(self.into_solution(converged, closure, fine))
     }
 
     /// The largest |ΣF − 1| over the elements, for pieces that cover the patches once. Not found where that takes more

@@ -9,8 +9,6 @@ use std::sync::Arc;
 
 /// What a form factor may be off by: far less than what tells a closed room from an open one.
 const ENOUGH: f64 = 1e-11;
-/// And where it is shown, and nothing is made of it.
-const SHOWN: f64 = 1e-7;
 
 /// A piece of a patch, in the plane of the polygon that the enclosure has for the patch.
 #[derive(Debug)]
@@ -125,10 +123,10 @@ impl<'s> Factors<'s> {
         from.owned_by(self.surface_of[patch])
     }
 
-    /// The form factor from a point to a piece, as good as is shown.
-    pub(super) fn shown(&self, from: &DifferentialArea, piece: &PieceShape) -> f64 {
+    /// The form factor from a point to a piece.
+    pub(super) fn factor(&self, from: &DifferentialArea, piece: &PieceShape) -> f64 {
         let surface = self.surface_of[piece.patch];
-        self.enclosure.form_factor_within(from, surface, &piece.polygon, SHOWN).value
+        self.enclosure.form_factor_within(from, surface, &piece.polygon, ENOUGH).value
     }
 
     /// Whether a piece gives light of its own.
@@ -145,12 +143,10 @@ impl<'s> Factors<'s> {
 
     /// The form factors from some points to a piece.
     pub(super) fn seen(&self, points: &[DifferentialArea], piece: &PieceShape) -> Result<Vec<f64>, Error> {
-        let PieceShape { patch, polygon } = piece;
-        let (name, surface) = (&self.scene.patches[*patch].name, self.surface_of[*patch]);
-        workers::from_all(points, name, |from| {
+        workers::from_all(points, &self.scene.patches[piece.patch].name, |from| {
             #[cfg(test)]
-            assert_ne!(self.state.trap, Some(*patch), "injected");
-            self.enclosure.form_factor_within(from, surface, polygon, ENOUGH).value
+            assert_ne!(self.state.trap, Some(piece.patch), "injected");
+            self.factor(from, piece)
         })
     }
 

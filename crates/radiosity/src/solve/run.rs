@@ -1,6 +1,6 @@
 //! A run of the solver: all that its steps share.
 use super::ledger::{Ledger, bound, gaps};
-use super::solution::{Gathered, Solution};
+use super::solution::{FineLight, Gathered, Solution};
 use super::{
     factors::Factors, interpolate::welds, light::DirectLight, light::Light, magnitude::largest,
     options::Options,
@@ -39,6 +39,8 @@ pub(super) struct Run<'r> {
     pub(super) ledger: Ledger,
     /// The defect that ended the run.
     fault: Option<Error>,
+    /// Whether the watcher, or the time, said to stop.
+    pub(super) is_stopped: bool,
     /// Σ|AΔB| over the emitted power, per band.
     pub(super) unshot: Vec<f64>,
     /// See [`gaps`].
@@ -72,6 +74,7 @@ impl<'r> Run<'r> {
             unshot: live(&light, 1.0),
             ledger: Ledger::dark(&light),
             fault: None,
+            is_stopped: false,
             light,
             rooms: None,
             products: 0,
@@ -167,6 +170,7 @@ impl<'r> Run<'r> {
             irradiance: light.irradiance.clone(),
             reflectance: light.reflectance.clone(),
             gathered: None,
+            fine: None,
             welds: welds.clone(),
             ledger: ledger.clone(),
             bound: bound.clone(),
@@ -180,7 +184,7 @@ impl<'r> Run<'r> {
             mesh: factors.subdivision.mesh.clone(),
             seconds,
         };
-        (self.watch)(&Progress {
+        let goes_on = (self.watch)(&Progress {
             shots: shooters.shots,
             products: *products,
             unshot: largest(&self.unshot),
@@ -192,9 +196,10 @@ impl<'r> Run<'r> {
             open: &|| shooters.unshot_radiosity(light),
             tiles: &LinkedTiles::default,
             state: factors.state,
-        })?;
-        let late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
-        if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let is_late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
+        self.is_stopped = goes_on.is_break() || is_late;
+        if self.is_stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     /// Whether the last step of every band was within the tolerance.
@@ -209,8 +214,13 @@ impl<'r> Run<'r> {
         self,
         converged: bool,
         closure: Option<f64>,
-        gathered: Option<Gathered>,
+        fine: Option<FineLight>,
     ) -> Solution {
+        let vertices = self.factors.subdivision.mesh.vertices.len() * self.light.bands;
+        let gathered = fine.as_ref().map(|fine| Gathered {
+            elements: self.light.irradiance.clone(),
+            vertices: fine.vertices[..vertices].to_vec(),
+        });
         Solution {
             bands: self.light.bands,
             ledger: Ledger::new(&self.light, &self.shooters),
@@ -219,6 +229,7 @@ impl<'r> Run<'r> {
             irradiance: self.light.irradiance,
             reflectance: self.light.reflectance,
             gathered,
+            fine,
             welds: self.welds,
             bound: self.bound,
             estimate: None,
@@ -226,7 +237,7 @@ impl<'r> Run<'r> {
             scaling: self.scaling,
             shots: self.shooters.shots,
             products: self.products,
-            converged: converged && self.fault.is_none(),
+            converged: converged && self.fault.is_none() && !self.is_stopped,
             fault: self.fault,
             seconds: self.start.elapsed().as_secs_f64(),
         }

@@ -2,6 +2,7 @@
 use super::ledger::Ledger;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
+use std::borrow::Cow;
 
 /// The light of a scene.
 #[derive(Clone, Debug)]
@@ -32,7 +33,7 @@ pub struct Solution {
     pub shots: usize,
     /// How many matrix-vector products were made.
     pub products: usize,
-    /// Whether the tolerance was reached; by levels also whether the estimate is within [`Options::error`](crate::Options::error).
+    /// Whether the tolerance was reached, and what is shown was gathered where that is asked for; by levels also whether the estimate is within [`Options::error`](crate::Options::error).
     pub converged: bool,
     /// The [`Error::Defect`] that ended the run early, if one did; the light is as far as the run had come.
     pub fault: Option<Error>,
@@ -42,6 +43,8 @@ pub struct Solution {
     pub(crate) reflectance: Vec<f64>,
     /// What the vertices receive, where it was gathered.
     pub(crate) gathered: Option<Gathered>,
+    /// A finer mesh for what is shown, where light was gathered on one.
+    pub(crate) fine: Option<FineLight>,
     /// For each vertex the first one that it shares its light with.
     pub(crate) welds: Vec<usize>,
 }
@@ -61,6 +64,27 @@ impl Solution {
             if unshot == 0.0 || absorbed == 0.0 { 0.0 } else { unshot / absorbed }
         };
         (0..self.bands).map(in_band).collect()
+    }
+
+    /// The solution as it is shown: on a finer mesh where light was gathered on one. Parts of elements send and receive what the whole does.
+    pub(crate) fn shown(&self) -> Cow<'_, Solution> {
+        let Some(fine) = &self.fine else { return Cow::Borrowed(self) };
+        let part = |values: &[f64]| -> Vec<f64> {
+            let of = |element: &usize| &values[element * self.bands..][..self.bands];
+            fine.whole.iter().flat_map(of).copied().collect()
+        };
+        let gathered = self.gathered.as_ref().map(|gathered| part(&gathered.elements));
+        let gathered = Gathered { elements: gathered.unwrap_or_default(), vertices: fine.vertices.clone() };
+        Cow::Owned(Solution {
+            mesh: fine.mesh.clone(),
+            radiosity: part(&self.radiosity),
+            irradiance: part(&self.irradiance),
+            reflectance: part(&self.reflectance),
+            welds: fine.welds.clone(),
+            gathered: Some(gathered),
+            fine: None,
+            ..self.clone()
+        })
     }
 
     /// The solution with [`Solution::ambient`] added to every element, for display only.
@@ -104,4 +128,17 @@ pub(crate) struct Gathered {
     pub(crate) elements: Vec<f64>,
     /// Irradiance of the vertices, vertices × bands.
     pub(crate) vertices: Vec<f64>,
+}
+
+/// Light that was gathered on a finer mesh.
+#[derive(Clone, Debug)]
+pub(crate) struct FineLight {
+    /// Its first vertices are those of the solution.
+    pub(crate) mesh: Mesh,
+    /// For each element the one of the solution that it is a part of, in ascending order.
+    pub(crate) whole: Vec<usize>,
+    /// Irradiance of the vertices, vertices × bands.
+    pub(crate) vertices: Vec<f64>,
+    /// As [`Solution::welds`].
+    pub(crate) welds: Vec<usize>,
 }

@@ -102,7 +102,7 @@ fn threads_change_nothing() {
     scene.patches[0].emission[0] = 1.0;
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| quick(&scene, options(200, 1e-4)).radiosity)
+        pool.install(|| quick(&scene, options(200, 1e-4)).vertex_irradiance())
     };
     assert_eq!(with(1), with(3));
 }
@@ -126,7 +126,32 @@ fn a_run_that_is_stopped_within_a_shot_goes_on_to_the_same_bits() {
         assert_eq!(Some(stopped.irradiance), stands);
         let again = solve_from(&scene, &options, &mut state, |_| ControlFlow::Continue(())).unwrap();
         assert_eq!(again.radiosity, whole.radiosity);
+        assert_eq!(again.vertex_irradiance(), whole.vertex_irradiance());
     }
+}
+
+/// All light is found, but not all that is shown: the run has not converged, and goes on to the same bits.
+#[test]
+fn a_run_that_is_stopped_within_the_final_gather_goes_on_to_the_same_bits() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let options = options(200, 1e-4);
+    let mut reports = 0;
+    let whole = solve(&scene, &options, |_| {
+        reports += 1;
+        ControlFlow::Continue(())
+    });
+    let whole = whole.unwrap();
+    let (mut state, mut left) = (State::default(), reports - 2);
+    let stopped = solve_from(&scene, &options, &mut state, |_| {
+        left -= 1;
+        if left <= 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let stopped = stopped.unwrap();
+    assert!(!stopped.converged && stopped.shots == whole.shots);
+    let again = solve_from(&scene, &options, &mut state, |_| ControlFlow::Continue(())).unwrap();
+    assert!(again.converged);
+    assert_eq!(again.vertex_irradiance(), whole.vertex_irradiance());
 }
 
 #[test]

@@ -75,8 +75,8 @@ fn every_step_accounts_for_all_power_and_the_last_is_the_solution() {
 #[test]
 fn light_only_grows_while_whole_pieces_shoot_or_all_light_is_reflected() {
     for method in [Method::Shoot, Method::Matrix, Method::Cg, Method::Gmres] {
-        // Pieces that are not split only shoot what is new.
-        let options = Options { spread: 1e9, passes: 0, ..options(method) };
+        // Pieces that are not split only shoot what is new. Without a final gather the last step has the mesh of the others.
+        let options = Options { spread: 1e9, passes: 0, gather: false, ..options(method) };
         let (_, recording) = recorded(&lit(), &options);
         assert!(recording.steps.len() > 5, "{method:?}");
         for pair in recording.steps.windows(2) {

@@ -1,17 +1,14 @@
 //! What elements are known to receive of every patch, and what a point among them receives.
-use super::around::PlaceAmong;
+use super::outlook::Outlook;
 use super::senders::Sender;
 use crate::error::Error;
 use crate::solve::state::{Column, KEPT};
 use crate::solve::{factors::Factors, run::Run, workers::attempt};
-use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The share of its light that a point may receive from patches that it does not look at itself.
 const UNSEEN: f64 = 0.1;
-/// Pieces are looked at one by one where that may change more than this share.
-const UNEVEN: f64 = 0.005;
 /// What is darker than this share of the mean counts as that bright.
 const DIM: f64 = 0.01;
 
@@ -72,47 +69,29 @@ impl Known {
     }
 
     /// What vertices receive, for each and each band.
-    pub(super) fn look(&self, run: &Run<'_>, vertices: &[PlaceAmong<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+    pub(super) fn look(&self, run: &Run<'_>, outlooks: &[Outlook]) -> Result<Vec<Vec<f64>>, Error> {
         let factors = &run.factors;
-        let points: Vec<DifferentialArea> = vertices.iter().map(|(point, _)| *point).collect();
+        let points: Vec<_> = outlooks.iter().map(|outlook| outlook.point).collect();
         let straight = factors.straight(&points)?;
-        let of: Vec<Vec<f64>> =
-            vertices.iter().map(|(_, around)| self.brightness(&run.light.irradiance, around)).collect();
-        let at = |(index, (point, around)): (usize, &PlaceAmong<'_>)| {
-            let [lamps, beyond] = &straight[index];
+        let at = |(outlook, [lamps, beyond]): (&Outlook, &[Vec<f64>; 2])| {
             let mut light: Vec<f64> =
                 lamps.iter().zip(beyond).map(|(lamps, beyond)| lamps + beyond).collect();
-            self.add_reflected(factors, (point, *around), &of[index], &mut light);
+            self.add_reflected(factors, outlook, &mut light);
             light
         };
-        attempt("the final gather", || vertices.par_iter().enumerate().map(at).collect())
+        attempt("the final gather", || outlooks.par_iter().zip(&straight).map(at).collect())
     }
 
-    /// About how bright a vertex is, per band, but no less than what counts.
-    fn brightness(&self, irradiance: &[f64], around: &[(usize, f64)]) -> Vec<f64> {
-        let bands = self.mean.len();
-        let mean = |band: usize| -> f64 {
-            around.iter().map(|(element, share)| share * irradiance[element * bands + band]).sum()
-        };
-        let least = |(band, whole): (usize, &f64)| mean(band).max(DIM * whole).max(f64::MIN_POSITIVE);
-        self.mean.iter().enumerate().map(least).collect()
-    }
-
-    /// Adds what a point receives of patches, the elements around it with their shares; `of` is how bright it is.
-    fn add_reflected(
-        &self,
-        factors: &Factors<'_>,
-        (point, around): (&DifferentialArea, &[(usize, f64)]),
-        of: &[f64],
-        light: &mut [f64],
-    ) {
-        let bands = of.len();
+    /// Adds what a vertex receives of patches: what the elements around it do, but for those that it looks at itself.
+    fn add_reflected(&self, factors: &Factors<'_>, outlook: &Outlook, light: &mut [f64]) {
+        let (bands, around) = (light.len(), &outlook.around);
+        let of = self.at_least(&outlook.mean);
         let mut rest = vec![0.0; bands];
         for (element, share) in around {
             add(&mut rest, *share, &self.received[element * bands..][..bands]);
         }
-        for sender in self.brightest(point, of) {
-            self.senders[sender].shine(factors, point, (of, UNEVEN), light);
+        for sender in self.seen(outlook, &of) {
+            self.senders[sender].shine(factors, &outlook.point, &of, light);
             for SentPiece { radiosity, column } in &self.pieces[sender] {
                 let seen: f64 = around.iter().map(|(element, share)| share * column.factor(*element)).sum();
                 add(&mut rest, -seen, radiosity);
@@ -121,17 +100,33 @@ impl Known {
         light.iter_mut().zip(rest).for_each(|(light, rest)| *light += rest.max(0.0));
     }
 
-    /// The lights, and the senders that may bring the most to a point: all others together bring no more than a share of its light.
-    fn brightest(&self, point: &DifferentialArea, of: &[f64]) -> impl Iterator<Item = usize> {
-        let most = self.senders.iter().map(|sender| sender.most(point, of));
-        let mut most: Vec<(f64, usize)> = most.zip(0..).filter(|(most, _)| *most > 0.0).collect();
-        most.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut sum = 0.0;
-        most.into_iter().filter_map(move |(most, sender)| {
-            let emits = self.senders[sender].emits;
-            sum += if emits { 0.0 } else { most };
-            (emits || sum > UNSEEN).then_some(sender)
-        })
+    /// How bright something is, per band, but no less than what counts.
+    fn at_least(&self, light: &[f64]) -> Vec<f64> {
+        let least = |(light, mean): (&f64, &f64)| light.max(DIM * mean).max(f64::MIN_POSITIVE);
+        light.iter().zip(&self.mean).map(least).collect()
+    }
+
+    /// By how much light is off other light, as a share of it, all bands together.
+    pub(super) fn difference(&self, light: &[f64], other: &[f64]) -> f64 {
+        let [light, other, mean] = [light, other, &self.mean].map(|light| light.iter().sum::<f64>());
+        (light - other).abs() / light.max(DIM * mean).max(f64::MIN_POSITIVE)
+    }
+
+    /// The senders that a vertex looks at: lights, and from wide ones those that may bring the most. All others together bring no more than a
+    /// share of its light.
+    fn seen(&self, outlook: &Outlook, of: &[f64]) -> Vec<usize> {
+        let most = self.senders.iter().map(|sender| sender.most(&outlook.point, of)).zip(0..);
+        let (mut seen, mut others): (Vec<_>, Vec<_>) =
+            most.filter(|(most, _)| *most > 0.0).partition(|(_, sender)| self.senders[*sender].emits);
+        if outlook.is_wide {
+            others.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut sum = 0.0;
+            seen.extend(others.into_iter().filter(|(most, _)| {
+                sum += most;
+                sum > UNSEEN
+            }));
+        }
+        seen.into_iter().map(|(_, sender)| sender).collect()
     }
 }
 

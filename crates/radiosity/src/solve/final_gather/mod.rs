@@ -1,46 +1,70 @@
-//! The final gather: what vertices receive, exactly past what stands in between.
+//! The final gather: what vertices receive, exactly past what stands in between, and more vertices where light is not linear in between.
 //!
 //! ```text
-//! known      what elements are known to receive of every patch, and what a point receives
+//! known      what elements are known to receive of every patch, and what a vertex receives
 //! senders    patches, their pieces and their elements, each as bright as its elements are on average
-//! around     the elements around every vertex
+//! outlook    where vertices are looked from, and the elements around them
+//! shown      linear light between vertices; which elements are to be cut
+//! bisection  elements cut in halves
 //! ```
 //!
 //! Lights, and patches that bring much, are looked at from the vertex itself: near patches piece by piece, where these are not equally bright.
 //! Of the others a vertex receives what the elements around it do. Together they bring no more than a tenth of its light, and what is wrong is
-//! a small part of that. The smallest elements are left as they are: they have 3 % of the area, and are most where bodies are round.
-mod around;
+//! a small part of that. From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
+mod bisection;
 mod known;
+mod outlook;
 mod senders;
+mod shown;
 
-use super::{interpolate::Means, receivers::receivers, run::Run, solution::Gathered};
+use super::{interpolate::Means, run::Run, solution::FineLight};
 use crate::error::Error;
 use crate::scene::Scene;
-use around::{Around, PlaceAmong};
 use known::Known;
+use outlook::{narrow, outlooks};
+use shown::Shown;
 
-/// What every vertex receives: the mean of the elements around it where it is not looked from, or not in time;
-/// nothing when the watcher wants to stop before the first.
+/// So many vertices are looked from for each one of the mesh, itself included.
+const LOOKS: usize = 2;
+/// In so many rounds.
+const ROUNDS: usize = 8;
+
+/// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
+/// in time. Nothing when the watcher wants to stop before the first.
 ///
 /// Takes (form factors to the patches that a vertex is near) × (vertices), and the light of lamps, sun and sky for each.
 ///
 /// # Errors
 /// [`Error::Shape`] where a place is beyond what form factors take, [`Error::Defect`] when one fails.
-pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<Gathered>, Error> {
-    let (subdivision, bands) = (run.factors.subdivision, run.light.bands);
-    let mesh = &subdivision.mesh;
-    let (around, receivers) = (Around::of(mesh), receivers(scene, mesh)?);
-    let mut vertices = Means::of(mesh, bands).around(&run.light.irradiance);
+pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLight>, Error> {
     let Some(known) = Known::of(run)? else { return Ok(None) };
-    let large = around.large();
-    let vertex = |&vertex: &usize| -> PlaceAmong<'_> {
-        let (element, point) = receivers[vertex];
-        (run.factors.on_patch(point, mesh.elements[element].patch), around.elements(vertex))
-    };
-    let looking: Vec<PlaceAmong<'_>> = large.iter().map(vertex).collect();
-    let found = run.in_batches(large.len(), |run, some| known.look(run, &looking[some]))?;
-    for (vertex, found) in large.iter().zip(&found) {
-        vertices[vertex * bands..][..bands].copy_from_slice(found);
+    let mesh = &run.factors.subdivision.mesh;
+    let mut shown = Shown::of(mesh, corners(scene, run, &known)?, &run.light, &known);
+    let looks = (LOOKS - 1) * mesh.vertices.len();
+    for _ in 0..ROUNDS {
+        let middles = shown.cut(looks.div_ceil(ROUNDS));
+        if middles.is_empty() || run.is_stopped {
+            break;
+        }
+        let vertices: Vec<usize> = middles.iter().map(|middle| middle.vertex).collect();
+        let bisection = &shown.bisection;
+        let outlooks = outlooks(scene, run, (&bisection.mesh, &bisection.whole), &vertices)?;
+        let found = run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some]))?;
+        shown.learn(&middles, &found, &known);
     }
-    Ok(Some(Gathered { elements: run.light.irradiance.clone(), vertices }))
+    Ok(Some(shown.into_light(scene)))
+}
+
+/// What the vertices of the run's mesh receive.
+fn corners(scene: &Scene, run: &mut Run<'_>, known: &Known) -> Result<Vec<f64>, Error> {
+    let mesh = &run.factors.subdivision.mesh;
+    let [vertices, whole] =
+        [mesh.vertices.len(), mesh.elements.len()].map(|count| (0..count).collect::<Vec<_>>());
+    let mut outlooks = outlooks(scene, run, (mesh, &whole), &vertices)?;
+    narrow(mesh, &mut outlooks);
+    let found = run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some]))?;
+    let mut light = found.concat();
+    let means = Means::of(mesh, run.light.bands).around(&run.light.irradiance);
+    light.extend(&means[light.len()..]);
+    Ok(light)
 }

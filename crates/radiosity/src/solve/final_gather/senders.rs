@@ -7,6 +7,9 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::ops::Range;
 
+/// Parts are looked at one by one where that may change more than this share.
+const UNEVEN: f64 = 0.005;
+
 /// A patch, a piece of one, or an element.
 #[derive(Debug)]
 pub(super) struct Sender {
@@ -32,12 +35,13 @@ struct Ball {
 }
 
 impl Sender {
-    /// A patch or a piece of one, by its node.
+    /// A patch or a piece of one, by its node. Halves that are too thin to be outlined count as what they are parts of.
     pub(super) fn of_node(factors: &Factors<'_>, light: &Light, node: usize) -> Result<Sender, Error> {
         let piece = &factors.subdivision.nodes[node];
         let parts = match piece.halves {
             Some(halves) => {
-                halves.iter().map(|half| Sender::of_node(factors, light, *half)).collect::<Result<_, _>>()?
+                let halves = halves.iter().map(|half| Sender::of_node(factors, light, *half));
+                halves.collect::<Result<_, _>>().unwrap_or_default()
             }
             None => Sender::of_elements(factors, light, piece.elements.clone()),
         };
@@ -86,16 +90,16 @@ impl Sender {
         &self,
         factors: &Factors<'_>,
         point: &DifferentialArea,
-        (of, share): (&[f64], f64),
+        of: &[f64],
         light: &mut [f64],
     ) {
-        let factor = factors.shown(point, &self.shape);
+        let factor = factors.factor(point, &self.shape);
         if factor == 0.0 {
             return;
         }
         let uneven = self.spread.iter().zip(of).map(|(spread, of)| factor * spread / of).fold(0.0, f64::max);
-        if uneven > share && !self.parts.is_empty() {
-            self.parts.iter().for_each(|part| part.shine(factors, point, (of, share), light));
+        if uneven > UNEVEN && !self.parts.is_empty() {
+            self.parts.iter().for_each(|part| part.shine(factors, point, of, light));
             return;
         }
         light.iter_mut().zip(&self.radiosity).for_each(|(light, sent)| *light += factor * sent);

@@ -184,6 +184,7 @@ pub(super) fn solution(
         bound: light.bound.clone(),
         estimate: None,
         gathered: None,
+        fine: None,
         closure: None,
         scaling: Some(equilibrium.scaling()),
         shots: 0,

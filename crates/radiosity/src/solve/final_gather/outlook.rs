@@ -1,0 +1,71 @@
+//! Where vertices are looked from, and the elements around them.
+use crate::error::Error;
+use crate::mesh::element::Mesh;
+use crate::scene::Scene;
+use crate::solve::{receivers::receivers, run::Run};
+use formfactor::DifferentialArea;
+
+/// From vertices that have this share of the area together, only lights are looked at,
+const FEW: f64 = 0.03;
+/// where each has less than this share of the mean.
+const SMALL: f64 = 0.125;
+
+/// A vertex that is looked from.
+#[derive(Debug)]
+pub(super) struct Outlook {
+    pub(super) point: DifferentialArea,
+    /// The elements around it that sent light, with their shares of the area there.
+    pub(super) around: Vec<(usize, f64)>,
+    /// What they receive on average, per band.
+    pub(super) mean: Vec<f64>,
+    /// Whether more is looked at than lights.
+    pub(super) is_wide: bool,
+}
+
+/// The outlooks from some vertices of a mesh, in ascending order. Its elements are parts of those of the run, `whole`.
+pub(super) fn outlooks(
+    scene: &Scene,
+    run: &Run<'_>,
+    (mesh, whole): (&Mesh, &[usize]),
+    vertices: &[usize],
+) -> Result<Vec<Outlook>, Error> {
+    let mut around = vec![Vec::new(); vertices.len()];
+    for (index, element) in mesh.elements.iter().enumerate() {
+        for at in element.corners.iter().filter_map(|corner| vertices.binary_search(corner).ok()) {
+            around[at].push((whole[index], mesh.area(index)));
+        }
+    }
+    let places = receivers(scene, mesh)?;
+    let outlook = |(mut around, &vertex): (Vec<(usize, f64)>, &usize)| {
+        let (element, point) = places[vertex];
+        let area: f64 = around.iter().map(|(_, area)| area).sum();
+        around.iter_mut().for_each(|(_, share)| *share /= area.max(f64::MIN_POSITIVE));
+        let mean = |band: usize| {
+            let received = |at: usize| run.light.irradiance[at * run.light.bands + band];
+            around.iter().map(|(element, share)| share * received(*element)).sum()
+        };
+        Outlook {
+            point: run.factors.on_patch(point, mesh.elements[element].patch),
+            mean: (0..run.light.bands).map(mean).collect(),
+            around,
+            is_wide: true,
+        }
+    };
+    Ok(around.into_iter().zip(vertices).map(outlook).collect())
+}
+
+/// From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
+pub(super) fn narrow(mesh: &Mesh, outlooks: &mut [Outlook]) {
+    let mut areas = vec![0.0; outlooks.len()];
+    for (index, element) in mesh.elements.iter().enumerate() {
+        element.corners.iter().for_each(|&corner| areas[corner] += mesh.area(index));
+    }
+    let mut all: Vec<usize> = (0..areas.len()).collect();
+    all.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]));
+    let whole: f64 = areas.iter().sum();
+    let (small, mut sum) = (SMALL * whole / all.len().max(1) as f64, 0.0);
+    for vertex in all {
+        sum += areas[vertex];
+        outlooks[vertex].is_wide = sum >= FEW * whole || areas[vertex] >= small;
+    }
+}
