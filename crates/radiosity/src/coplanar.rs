@@ -3,7 +3,7 @@
 //! Files hold coordinates in single precision, so planes nearer than its rounding are one, and strips along edges that are thinner than
 //! it do not count. Where two planes are a little further apart the front one hides the other, and nothing is counted twice.
 use crate::extent::{BoxTree, Extent};
-use crate::plane::{Plane, slack};
+use crate::plane::Plane;
 use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::{DVec2, DVec3};
@@ -57,7 +57,7 @@ impl Sheet<'_> {
             patch,
             plane: Plane::of(&patch.polygon),
             extent: Extent::holding(&points),
-            slack: slack(&points),
+            slack: patch.slack(),
         }
     }
 

@@ -7,7 +7,8 @@ use crate::json;
 use crate::outputs::print;
 use crate::parse::positive;
 use clap::Args;
-use radiosity::inspect::{Finding, Inspection, KindSummary, inspect_until, summary};
+use radiosity::inspect::{Finding, Inspection, KindSummary, in_one_line, inspect_until, summary};
+use radiosity::{Scene, io::RepairedFile};
 use std::{fmt::Write, path::PathBuf, process::ExitCode};
 
 /// How many emitters are listed for people.
@@ -52,10 +53,15 @@ pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
     }
     if let Some(path) = &arguments.output {
         let repaired = radiosity::repair(&scene);
-        let left_out = source.save_repaired(&scene, &repaired.scene, path)?;
+        let sides = |scene: &Scene| arguments.sides.of(scene);
+        let RepairedFile { left_out, remaining, .. } =
+            source.save_repaired([&scene, &repaired.scene], &sides, path)?;
         let repairs = summary(&repaired.repairs);
         let what = if repairs.is_empty() { "nothing".to_owned() } else { input::counts(&repairs) };
         eprintln!("repaired: {what}; written to {}", path.display());
+        if let Some(line) = in_one_line(&remaining) {
+            eprintln!("warning: {}: not all could be repaired: {line}", path.display());
+        }
         if !left_out.is_empty() {
             eprintln!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
         }

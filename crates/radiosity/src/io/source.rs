@@ -1,7 +1,7 @@
 //! A scene file of any kind.
-use super::save::{bytes_of, save};
+use super::save::bytes_of;
 use super::{collada::Collada, error::FileError, format::Format, gltf::Gltf};
-use super::{obj::Obj, ply::Ply, scene_file::save_scene, stl::Stl, vs3::Vs3};
+use super::{obj::Obj, ply::Ply, stl::Stl, vs3::Vs3};
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use std::path::Path;
@@ -78,30 +78,16 @@ impl Source {
         }
     }
 
-    /// Writes this file with the polygons of a repaired scene. A COLLADA file stays COLLADA, and glTF stays glTF: polygons that were cut give
-    /// way to their pieces, and everything else stays, see [`Collada::repaired`] and [`Gltf::repaired`]. Other formats, and another extension
-    /// than the file's own, are written anew by [`save_scene`]; returns what they cannot hold.
-    ///
-    /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()).
-    ///
-    /// # Errors
-    /// As [`Source::scene`] and [`save_scene`].
-    pub fn save_repaired(
-        &self,
-        before: &Scene,
-        after: &Scene,
-        path: impl AsRef<Path>,
-    ) -> Result<Vec<&'static str>, FileError> {
-        let path = path.as_ref();
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    /// The contents of the file.
+    pub(super) fn bytes(&self) -> &[u8] {
         match self {
-            Self::Collada(file) if extension == "dae" => {
-                save(path, file.repaired(before, after)?.as_bytes())?
-            }
-            Self::Gltf(file) if extension == file.extension() => save(path, &file.repaired(before, after)?)?,
-            _ => return save_scene(after, path),
+            Self::Collada(file) => file.text().as_bytes(),
+            Self::Gltf(file) => file.bytes(),
+            Self::Obj(file) => file.bytes(),
+            Self::Ply(file) => file.bytes(),
+            Self::Stl(file) => file.bytes(),
+            Self::Vs3(file) => file.bytes(),
         }
-        Ok(Vec::new())
     }
 
     /// A COLLADA text in which the mesh's triangles replace the scene's polygons, with `colours` (red, green and blue for each

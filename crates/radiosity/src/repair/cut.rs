@@ -65,12 +65,13 @@ fn rank(scene: &Scene, index: usize) -> (bool, u64, usize) {
 
 /// What the patches above leave of a patch.
 fn rest(scene: &Scene, index: usize, upper: &[usize]) -> Vec<PlanarPolygon> {
-    let polygon = &scene.patches[index].polygon;
+    let patch = &scene.patches[index];
+    let polygon = &patch.polygon;
     let plane = Plane::of(polygon);
     let above: Vec<&PlanarPolygon> = upper.iter().map(|&index| &scene.patches[index].polygon).collect();
     let regions: Vec<Region> = above.iter().map(|polygon| plane.region(polygon)).collect();
     let rest = (Csg::from(&plane.region(polygon)) - Csg::union(&regions)).evaluate();
-    let width = SINGLE * Extent::around(polygon).diagonal();
+    let width = patch.rounding + SINGLE * Extent::around(polygon).diagonal();
     // What lies on the plane is a corner of both, so that no crack opens between them.
     let corners = above.iter().flat_map(|polygon| polygon.loops().flatten());
     let shared = corners.filter(|corner| plane.height(**corner).abs() <= ON_PLANE * slack(&[**corner]));

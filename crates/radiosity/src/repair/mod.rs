@@ -41,7 +41,7 @@ pub struct Repaired {
 ///
 /// - Reflectances of 1 or more become 0.99, negative ones 0.
 /// - Vertices that lie beside each other by less than single precision rounds away become one, where polygons stay planar.
-///   What lies beside each other by rounding of doubles is not told.
+///   What lies beside each other by rounding of the file's numbers, or of doubles, is not told.
 /// - Slivers and spikes of polygons, which are thinner than rounding, are left out.
 /// - Patches that face the same way in one plane are cut out of each other, so that no point is covered twice. An emitter stays whole
 ///   and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal ones the first. Duplicates and

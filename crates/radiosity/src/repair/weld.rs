@@ -1,7 +1,6 @@
 //! Vertices that nearly meet become one: cracks that rounding opened are closed.
 use crate::coplanar::SINGLE;
 use crate::extent::{BoxTree, Extent};
-use crate::plane::slack;
 use crate::scene::{
     Scene,
     finding::{Finding, Kind},
@@ -14,9 +13,17 @@ use std::collections::BTreeMap;
 /// A place as a key of a map; −0.0 reads as 0.0.
 pub(crate) type PointKey = [u64; 3];
 
-/// For each place from which a vertex is moved, the place to which.
+/// For each place from which a vertex is moved, where to.
 #[derive(Debug)]
-pub(crate) struct Welds(BTreeMap<PointKey, DVec3>);
+pub(crate) struct Welds(BTreeMap<PointKey, Weld>);
+
+/// Where a vertex is moved to.
+#[derive(Clone, Copy, Debug)]
+struct Weld {
+    place: DVec3,
+    /// Whether it is further than the file's rounding of both places.
+    is_told: bool,
+}
 
 impl Welds {
     /// Each vertex goes to one that is nearer than a rounding of the smallest patch there: that to which the others around it have the
@@ -37,14 +44,14 @@ impl Welds {
         for index in order {
             let target = near[index].iter().map(|(_, other)| *other).find(|other| stays[*other]);
             stays[index] = target.is_none();
-            moves.extend(target.map(|target| (key(corners[index].place), corners[target].place)));
+            moves.extend(target.map(|target| corners[index].weld(&corners[target])));
         }
         Welds(moves)
     }
 
     /// Where a vertex of the scene goes.
     pub(crate) fn place(&self, vertex: DVec3) -> DVec3 {
-        self.0.get(&key(vertex)).copied().unwrap_or(vertex)
+        self.0.get(&key(vertex)).map_or(vertex, |weld| weld.place)
     }
 }
 
@@ -54,11 +61,19 @@ struct WeldedCorner {
     place: DVec3,
     /// How far they may be moved.
     reach: f64,
+    /// How far the file's numbers leave them from their places.
+    rounding: f64,
     /// How many there are.
     vertices: f64,
 }
 
 impl WeldedCorner {
+    /// It becomes one with another corner.
+    fn weld(&self, target: &WeldedCorner) -> (PointKey, Weld) {
+        let is_told = self.place.distance(target.place) > self.rounding + target.rounding;
+        (key(self.place), Weld { place: target.place, is_told })
+    }
+
     /// The other corners that may become one with it, nearest first, each behind its distance.
     fn near(&self, corners: &[WeldedCorner], boxes: &BoxTree) -> Vec<(f64, usize)> {
         let around =
@@ -76,14 +91,16 @@ fn corners(scene: &Scene) -> Vec<WeldedCorner> {
     let mut known: BTreeMap<PointKey, usize> = BTreeMap::new();
     let mut corners: Vec<WeldedCorner> = Vec::new();
     for patch in &scene.patches {
-        let reach = SINGLE * Extent::of(patch).diagonal();
+        let (reach, rounding) = (SINGLE * Extent::of(patch).diagonal(), patch.slack());
         for &place in patch.polygon.loops().flatten() {
             let index = *known.entry(key(place)).or_insert(corners.len());
             match corners.get_mut(index) {
                 Some(corner) => {
-                    (corner.reach, corner.vertices) = (corner.reach.min(reach), corner.vertices + 1.0)
+                    (corner.reach, corner.rounding) =
+                        (corner.reach.min(reach), corner.rounding.max(rounding));
+                    corner.vertices += 1.0;
                 }
-                None => corners.push(WeldedCorner { place, reach, vertices: 1.0 }),
+                None => corners.push(WeldedCorner { place, reach, rounding, vertices: 1.0 }),
             }
         }
     }
@@ -95,8 +112,8 @@ pub(crate) fn key(place: DVec3) -> PointKey {
     place.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
 }
 
-/// Moves the vertices; a polygon that would no longer be planar stays as it is. Tells which were further apart than rounding of their
-/// coordinates; returns whether any was moved.
+/// Moves the vertices; a polygon that would no longer be planar stays as it is. Tells which were further apart than rounding of the
+/// file's numbers; returns whether any was moved.
 pub(super) fn weld(scene: &mut Scene, findings: &mut Vec<Finding>) -> bool {
     let welds = Welds::of(scene);
     let mut is_moved = false;
@@ -127,11 +144,14 @@ fn welded(patch: &Patch, welds: &Welds) -> Option<PlanarPolygon> {
     (polygon.normal().dot(patch.polygon.normal()) > 0.0).then_some(polygon)
 }
 
-/// Of vertices that were moved further than rounding of a transform moves them.
+/// Of vertices that were moved further than rounding of the file's numbers moves them.
 fn finding(patch: &Patch, welds: &Welds) -> Option<Finding> {
-    let vertices: Vec<DVec3> = patch.polygon.loops().flatten().copied().collect();
-    let moved = vertices.iter().map(|vertex| vertex.distance(welds.place(*vertex))).fold(0.0, f64::max);
-    (moved > slack(&vertices)).then(|| Finding {
+    let way = |vertex: &DVec3| {
+        let weld = welds.0.get(&key(*vertex)).filter(|weld| weld.is_told)?;
+        Some(vertex.distance(weld.place))
+    };
+    let moved = patch.polygon.loops().flatten().filter_map(way).reduce(f64::max)?;
+    Some(Finding {
         kind: Kind::Crack,
         patches: vec![patch.name.clone()],
         what: format!("its vertices lie up to {moved:.1e} beside those of its neighbours"),

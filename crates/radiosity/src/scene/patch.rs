@@ -1,5 +1,6 @@
 //! Patches.
 use super::texture::Texture;
+use crate::plane::slack;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use std::sync::Arc;
@@ -26,6 +27,9 @@ pub struct Patch {
     pub only_blocks: bool,
     /// Whether it is the second side of a surface that the file calls double-sided; its first side is the patch before it.
     pub is_back: bool,
+    /// How far from their places the file's numbers may leave its vertices: what lies so near each other is meant as one. 0 without a
+    /// file; rounding of doubles counts in any case.
+    pub rounding: f64,
     /// The place in the file.
     pub origin: Origin,
 }
@@ -62,6 +66,7 @@ impl Patch {
             smoothing,
             only_blocks,
             is_back,
+            rounding: 0.0,
             origin,
         }
     }
@@ -92,6 +97,12 @@ impl Patch {
             mean.iter_mut().zip(share).for_each(|(mean, rho)| *mean += rho * area / whole);
         }
         mean
+    }
+
+    /// How far off still counts as on: its vertices' rounding in the file and in doubles.
+    pub(crate) fn slack(&self) -> f64 {
+        let points: Vec<DVec3> = self.polygon.loops().flatten().copied().collect();
+        slack(&points).max(self.rounding)
     }
 
     /// Whether the patch emits light in some band.

@@ -36,7 +36,7 @@ use super::save::bytes_of;
 use crate::expose::Exposure;
 use crate::io::surface::changes::{changes, dimmed};
 use crate::mesh::element::Mesh;
-use crate::scene::{Scene, asset::Asset};
+use crate::scene::{Scene, asset::Asset, patch::Origin};
 use compose::text_with;
 use file::{File, child};
 use glam::DVec3;
@@ -98,29 +98,25 @@ impl Collada {
     /// # Errors
     /// [`FileError::Xml`] and [`FileError::Scene`], with the line.
     pub fn scene(&self) -> Result<Scene, FileError> {
-        self.with_file(|file| {
-            let walk::Walk { instances, camera_instances, light_instances, mut warnings } = walk::walk(file)?;
-            unread::tell(file, &mut warnings);
-            let asset = asset(file)?;
-            let folder = Path::new(&self.name).parent();
-            let mut images = images::Images::new(folder);
-            let lights = lights::lights(file, &light_instances, asset.unit, &mut warnings)?;
-            let patches = patches::patches(file, &instances, &lights.areas, &mut images, &mut warnings)?;
-            let cameras = camera::cameras(file, &camera_instances, &mut warnings);
-            let (bands, wavelengths) = spectra::bands(file, &patches)?;
-            let lights::ReadLights { lamps, suns, .. } = lights;
-            Ok(Scene {
-                patches,
-                lamps,
-                suns,
-                cameras,
-                bands,
-                wavelengths,
-                warnings,
-                asset,
-                ..Scene::default()
-            })
-        })
+        self.with_file(|file| Ok(self.read(file)?.0))
+    }
+
+    /// The scene, and where polygons were split or left out.
+    fn read(&self, file: &File<'_>) -> Result<(Scene, Vec<Origin>), FileError> {
+        let walk::Walk { instances, camera_instances, light_instances, mut warnings } = walk::walk(file)?;
+        unread::tell(file, &mut warnings);
+        let asset = asset(file)?;
+        let folder = Path::new(&self.name).parent();
+        let mut images = images::Images::new(folder);
+        let lights = lights::lights(file, &light_instances, asset.unit, &mut warnings)?;
+        let (patches, flawed) =
+            patches::patches(file, &instances, &lights.areas, &mut images, &mut warnings)?;
+        let cameras = camera::cameras(file, &camera_instances, &mut warnings);
+        let (bands, wavelengths) = spectra::bands(file, &patches)?;
+        let lights::ReadLights { lamps, suns, .. } = lights;
+        let scene =
+            Scene { patches, lamps, suns, cameras, bands, wavelengths, warnings, asset, ..Scene::default() };
+        Ok((scene, flawed))
     }
 
     /// The file's text in which the mesh's triangles replace each lit geometry, in the node's coordinates, with `colours` (red,
@@ -145,9 +141,17 @@ impl Collada {
     /// # Errors
     /// As [`Collada::scene`].
     pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<String, FileError> {
-        let repairs = (changes(before, after), dimmed(before, after));
-        let spliced = self.with_file(|file| repaired::repaired(&self.text, file, &repairs))?;
+        let spliced = self.with_file(|file| {
+            let (_, flawed) = self.read(file)?;
+            let repairs = (changes(before, after, &flawed), dimmed(before, after));
+            repaired::repaired(&self.text, file, &repairs)
+        })?;
         Ok(spliced.unwrap_or_else(|| Self::of(after).text))
+    }
+
+    /// The file repaired, see [`Collada::repaired`].
+    pub(super) fn with_repaired(&self, before: &Scene, after: &Scene) -> Result<Self, FileError> {
+        Ok(Self::from_text(self.name.as_str(), self.repaired(before, after)?))
     }
 
     /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte

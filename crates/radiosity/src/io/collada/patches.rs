@@ -13,16 +13,16 @@ use crate::scene::{
 use glam::{DVec2, DVec3};
 use std::{collections::HashMap, collections::hash_map::Entry};
 
-/// The patches of all instances.
+/// The patches of all instances, and where polygons were split or left out.
 pub(super) fn patches<'a>(
     file: &File<'a>,
     instances: &[Instance<'a>],
     areas: &[AreaLamp<'a, '_>],
     images: &mut Images,
     warnings: &mut Vec<Finding>,
-) -> Result<Vec<Patch>, FileError> {
+) -> Result<(Vec<Patch>, Vec<Origin>), FileError> {
     let mut geometries = HashMap::new();
-    let mut surfaces = Surfaces::default();
+    let (mut surfaces, mut flawed) = (Surfaces::default(), Vec::new());
     for (index, instance) in instances.iter().enumerate() {
         let primitives: &mut Vec<Primitive<'a>> = match geometries.entry(instance.geometry) {
             Entry::Occupied(known) => known.into_mut(),
@@ -37,19 +37,21 @@ pub(super) fn patches<'a>(
                 place: &file.place(primitive.element),
                 facets: &facets,
                 world: instance.visit.world,
+                spacing: f64::EPSILON,
                 finish,
                 two_sided: is_double_sided(file, instance, primitive.material)?,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
             };
             let added = surfaces.add(&surface, warnings);
-            added.map_err(|refusal| file.fault(primitive.element, refusal.into()))?;
+            let polygons = added.map_err(|refusal| file.fault(primitive.element, refusal.into()))?;
+            flawed.extend(polygons.into_iter().map(|polygon| Origin { polygon, ..surface.origin }));
         }
     }
     for lamp in areas {
         let added = surfaces.add(&area_surface(lamp, &[facet(&lamp.corners)]), warnings);
         added.map_err(|refusal| file.fault(lamp.instance.light, refusal.into()))?;
     }
-    Ok(surfaces.named())
+    Ok((surfaces.named(), flawed))
 }
 
 /// A lamp's outline as a surface: it shines and reflects nothing.
@@ -59,6 +61,7 @@ fn area_surface<'s>(lamp: &AreaLamp<'s, '_>, facets: &'s [Facet]) -> Surface<'s>
         place: "",
         facets,
         world: lamp.instance.visit.world,
+        spacing: f64::EPSILON,
         finish: Finish {
             material: "".into(),
             reflectance: [0.0; 3],

@@ -87,6 +87,10 @@ fn edits<'a>(
     for (&index, pieces) in changes {
         let primitive = &all[index];
         let Some(layout) = layout(file, primitive.element)? else { return Ok(None) };
+        edits.extend(without(splice.text, file, primitive, &layout, pieces)?);
+        if pieces.all().next().is_none() {
+            continue;
+        }
         if vertices.as_ref().is_some_and(|(known, _)| *known != layout.vertices) {
             return Ok(None);
         }
@@ -95,7 +99,6 @@ fn edits<'a>(
             vertices = Some((layout.vertices, known));
         }
         let Some((_, vertices)) = &mut vertices else { return Ok(None) };
-        edits.extend(without(splice.text, file, primitive, &layout, pieces)?);
         edits.extend(with(splice, primitive, &layout, vertices, pieces));
     }
     let Some((element, vertices)) = vertices else { return Ok(Some(edits)) };
@@ -200,9 +203,6 @@ fn with(
         piece.loops.iter().map(|points| ring(points, piece, vertices, &mut places)).collect::<Vec<_>>()
     };
     let shapes: Vec<Vec<Vec<usize>>> = pieces.all().map(shape).collect();
-    if shapes.is_empty() {
-        return Vec::new();
-    }
     let of_vertices = layout.vertices.attribute("id").unwrap_or_default();
     let mut inputs = input("VERTEX", of_vertices, "offset=\"0\"");
     let mut edits = Vec::new();

@@ -26,7 +26,8 @@ pub use write::glb;
 use super::error::FileError;
 use super::save::bytes_of;
 use super::surface::changes::{changes, dimmed};
-use crate::scene::Scene;
+use crate::scene::{Scene, patch::Origin};
+use read::ReadPrimitive;
 use std::path::{Path, PathBuf};
 
 /// The bytes of a `.glb` or `.gltf` file.
@@ -57,9 +58,19 @@ impl Gltf {
         Self { folder: folder.map(Into::into), ..self }
     }
 
+    /// The file repaired, see [`Gltf::repaired`].
+    pub(super) fn with_repaired(&self, before: &Scene, after: &Scene) -> Result<Self, FileError> {
+        Ok(Self { bytes: self.repaired(before, after)?, ..self.clone() })
+    }
+
     /// The extension of its kind.
     pub(super) fn extension(&self) -> &'static str {
         if self.bytes.starts_with(b"glTF") { "glb" } else { "gltf" }
+    }
+
+    /// The contents of the file.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
     }
 
     /// The scene: patches, cameras and warnings, in metres, y up.
@@ -82,13 +93,18 @@ impl Gltf {
     /// # Errors
     /// As [`Gltf::scene`], and [`FileError::Size`] when the data exceed the format's 4 GiB.
     pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<Vec<u8>, FileError> {
-        let (changes, dimmed) = (changes(before, after), dimmed(before, after));
-        if changes.is_empty() && dimmed.is_empty() {
-            return Ok(self.bytes.clone());
-        }
         let (mut document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
         let file = document::check(&self.name, (document.clone(), blob.clone()))?;
         let (_, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
+        let flawed = |read: &ReadPrimitive| {
+            let origin = read.origin;
+            read.flawed.iter().map(move |&polygon| Origin { polygon, ..origin }).collect::<Vec<_>>()
+        };
+        let flawed: Vec<Origin> = primitives.iter().flat_map(flawed).collect();
+        let (changes, dimmed) = (changes(before, after, &flawed), dimmed(before, after));
+        if changes.is_empty() && dimmed.is_empty() {
+            return Ok(self.bytes.clone());
+        }
         dimmed::dim(&mut document, &primitives, &dimmed);
         repaired::repaired((document, blob), &primitives, &changes)
     }

@@ -2,10 +2,11 @@
 use super::material::{Materials, ReadMaterial, as_written};
 use super::{accessor::Buffers, document::GltfFile, lights, lights::ReadLight};
 use crate::io::error::{Fault, FileError};
+use crate::io::surface::facets;
+use crate::io::surface::finish::{SINGLE_SPACING, Surface};
 use crate::io::surface::lamps::LampPose;
 use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
-use crate::io::{surface::facets, surface::finish::Surface};
 use crate::scene::{
     Scene, camera::Camera, finding::Finding, lamp::Lamp, patch::Origin, sky::Sun, units::Units,
 };
@@ -29,6 +30,8 @@ pub(super) struct ReadPrimitive {
     pub(super) laid: DAffine2,
     /// The indices of each triangle's vertices.
     pub(super) triangles: Vec<[usize; 3]>,
+    /// The polygons, by their first triangles, that were split or left out.
+    pub(super) flawed: Vec<usize>,
     /// The triangles that each polygon was joined from, by its first.
     pub(super) members: BTreeMap<usize, Vec<usize>>,
 }
@@ -163,18 +166,21 @@ impl Reader<'_> {
         }
         let facets = facets(&polygons, true, kind.finish.image.is_some());
         let members = facets.iter().map(|facet| (facet.number, facet.members.clone())).collect();
-        self.primitives.push(ReadPrimitive { node, origin, world, laid: kind.laid, triangles, members });
         let surface = Surface {
             name,
             place: &place,
             facets: &facets,
             world,
+            spacing: SINGLE_SPACING,
             finish: kind.finish,
             two_sided: kind.two_sided,
             origin,
         };
         let added = self.surfaces.add(&surface, &mut self.warnings);
-        added.map_err(|refusal| self.fault(part, refusal.into()))
+        let flawed = added.map_err(|refusal| self.fault(part, refusal.into()))?;
+        let laid = kind.laid;
+        self.primitives.push(ReadPrimitive { node, origin, world, laid, triangles, flawed, members });
+        Ok(())
     }
 
     /// The indices of each triangle's vertices.

@@ -61,6 +61,11 @@ impl Obj {
         Self { folder: folder.map(Into::into), ..self }
     }
 
+    /// The contents of the file.
+    pub(super) fn bytes(&self) -> &[u8] {
+        self.text.as_bytes()
+    }
+
     /// The scene: patches and warnings, in metres, y up.
     ///
     /// # Errors

@@ -53,6 +53,11 @@ impl Ply {
         Self { folder: folder.map(Into::into), ..self }
     }
 
+    /// The contents of the file.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     /// The scene: patches and warnings, in metres, y up.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ pub use write::stl;
 use super::error::{Fault, FileError};
 use super::save::bytes_of;
 use super::surface::finish::{Finish, Surface};
-use super::surface::{facets, place::Surfaces};
+use super::surface::{facets, finish::SINGLE_SPACING, place::Surfaces};
 use crate::scene::{Scene, finding::Finding, patch::Origin};
 use glam::{DMat4, DVec3};
 use solid::Solid;
@@ -50,6 +50,11 @@ impl Stl {
         Self { name: name.into(), bytes: bytes.into() }
     }
 
+    /// The contents of the file.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     /// The scene: patches and warnings, in metres, z up.
     ///
     /// # Errors
@@ -66,7 +71,16 @@ impl Stl {
             let origin = Origin { instance, primitive: 0, polygon: 0 };
             let name = if solid.name.is_empty() { "patch" } else { &solid.name };
             let (place, world) = (solid.place.as_str(), DMat4::IDENTITY);
-            let surface = Surface { name, place, facets: &facets, world, finish, two_sided: false, origin };
+            let surface = Surface {
+                name,
+                place,
+                facets: &facets,
+                world,
+                spacing: SINGLE_SPACING,
+                finish,
+                two_sided: false,
+                origin,
+            };
             surfaces.add(&surface, &mut warnings).map_err(|refusal| {
                 let (file, part) = (self.name.clone(), solid.place.clone());
                 FileError::Part { file, part, fault: Fault::from(refusal) }

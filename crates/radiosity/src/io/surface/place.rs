@@ -3,6 +3,7 @@ use super::finish::{Finish, Spectra, Surface};
 use super::polygon::{Corner, Facet, Polygon, bits};
 use super::{flaws::Flaws, split::split};
 use crate::io::error::Fault;
+use crate::plane::slack;
 use crate::scene::{
     finding::Finding,
     patch::{Origin, Patch},
@@ -54,31 +55,37 @@ struct Draft {
 }
 
 impl Surfaces {
-    /// Adds a surface's patches.
-    pub(crate) fn add(&mut self, surface: &Surface<'_>, warnings: &mut Vec<Finding>) -> Result<(), Refusal> {
+    /// Adds a surface's patches; returns the facets, by their numbers, that were split or left out.
+    pub(crate) fn add(
+        &mut self,
+        surface: &Surface<'_>,
+        warnings: &mut Vec<Finding>,
+    ) -> Result<Vec<usize>, Refusal> {
         let world = &surface.world;
         if !(world.determinant().is_normal() && world.inverse().is_finite()) {
             let place = format!("{}, {}", surface.place, surface.name);
             let what = "a transform flattens its node to nothing; it is left out";
             Finding::note(warnings, place, what, "give the node a scale that is not 0");
-            return Ok(());
+            return Ok(Vec::new());
         }
         let groups = self.smoothing(surface.facets);
-        let mut flaws = Flaws::default();
+        let (mut flaws, mut flawed) = (Flaws::default(), Vec::new());
         for (facet, group) in surface.facets.iter().zip(groups) {
-            self.add_facet(surface, facet, group, &mut flaws)?;
+            let is_whole = self.add_facet(surface, facet, group, &mut flaws)?;
+            flawed.extend((!is_whole).then_some(facet.number));
         }
         warnings.extend(flaws.findings(surface.place));
-        Ok(())
+        Ok(flawed)
     }
 
+    /// Adds the patches of a facet; returns whether it is one patch, of one or two sides.
     fn add_facet(
         &mut self,
         surface: &Surface<'_>,
         facet: &Facet,
         smoothing: Option<usize>,
         flaws: &mut Flaws,
-    ) -> Result<(), Refusal> {
+    ) -> Result<bool, Refusal> {
         if self.drafts.len() >= MAX_PATCHES {
             return Err(Refusal::TooMany);
         }
@@ -88,7 +95,9 @@ impl Surfaces {
         let (polygon, name) = (facet.number, format!("{}.{number}", surface.name));
         let loops = transformed(&facet.loops, &surface.world);
         let pieces = planar(&loops, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
+        let is_whole = matches!(pieces.as_slice(), [(None, _)]);
         let texture = texture(&loops, facet, surface);
+        let rounding = rounding(facet, surface);
         let origin = Origin { polygon, ..surface.origin };
         let draft = |(piece, polygon, is_back)| {
             let patch = finished(polygon, &surface.finish, texture.clone());
@@ -96,7 +105,7 @@ impl Surfaces {
                 base: surface.name.into(),
                 number,
                 piece,
-                patch: Patch { origin, smoothing, is_back, ..patch },
+                patch: Patch { origin, smoothing, is_back, rounding, ..patch },
             }
         };
         for (piece, polygon) in pieces {
@@ -104,7 +113,7 @@ impl Surfaces {
             self.drafts.push(draft((piece, polygon, false)));
             self.drafts.extend(back.map(|polygon| draft((piece, polygon, true))));
         }
-        Ok(())
+        Ok(is_whole)
     }
 
     /// For each facet the number of its smoothing group: facets that share a vertex and the normal there.
@@ -164,6 +173,16 @@ fn finished(polygon: PlanarPolygon, finish: &Finish, texture: Option<Texture>) -
     let reflectance = texture.as_ref().map_or(finish.reflectance, |texture| texture.overall());
     let patch = Patch::new("", polygon, reflectance.into(), finish.emission.into());
     Patch { texture, material, ..patch }
+}
+
+/// How far the file's numbers, and doubles on their way into the world, may leave a facet's vertices from their places.
+fn rounding(facet: &Facet, surface: &Surface<'_>) -> f64 {
+    let DMat4 { x_axis, y_axis, z_axis, w_axis } = surface.world;
+    let [x, y, z, shift] = [x_axis, y_axis, z_axis, w_axis].map(|axis| axis.truncate().abs());
+    let sizes = facet.loops.iter().flatten().map(|corner| corner.point.abs());
+    let moved = sizes.map(|size| x * size.x + y * size.y + z * size.z);
+    let largest = moved.reduce(DVec3::max).unwrap_or(DVec3::ZERO);
+    surface.spacing / 2.0 * largest.length() + slack(&[largest + shift])
 }
 
 /// The picture laid over the polygon, if it has one.

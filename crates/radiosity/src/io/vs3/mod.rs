@@ -53,6 +53,11 @@ impl Vs3 {
         Self { name: name.into(), text: text.into() }
     }
 
+    /// The contents of the file.
+    pub(super) fn bytes(&self) -> &[u8] {
+        self.text.as_bytes()
+    }
+
     /// The scene: one band, z up (the format has no up axis).
     ///
     /// # Errors
