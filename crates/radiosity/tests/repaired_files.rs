@@ -48,8 +48,10 @@ fn block(low: DVec3, high: DVec3) -> Outlines {
     sides.iter().map(|side| side.map(corner).to_vec()).collect()
 }
 
-/// The kinds of dirt, each as the meshes of some nodes.
-const FAMILIES: [(&str, fn(&mut Random) -> Vec<Outlines>); 8] = [
+/// A kind of dirt: its name, and how the meshes of some nodes get it.
+type Family = (&'static str, fn(&mut Random) -> Vec<Outlines>);
+
+const FAMILIES: [Family; 8] = [
     ("overlap", |random| {
         let mut rectangle = || {
             let [x, y] = [random.next(), random.next()];
