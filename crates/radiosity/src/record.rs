@@ -88,8 +88,8 @@ impl Record {
     /// are cut there, so that what is drawn has no cracks.
     #[must_use]
     pub fn new(name: &str, scene: &Scene, solution: &Solution) -> Record {
-        let solution = &*solution.shown();
-        let (shown, bands) = (Conforming::of(&solution.mesh), solution.bands);
+        let fine = solution.shown();
+        let (shown, bands) = (Conforming::of(&fine.mesh), solution.bands);
         let mesh = &shown.mesh;
         let (pictures, numbers) = pictures(scene);
         let irradiance = solution.patch_means(&solution.irradiance, scene.patches.len());
@@ -118,12 +118,12 @@ impl Record {
                 })
                 .collect(),
             vertices: mesh.vertices.clone(),
-            vertex_radiosity: shown.at_vertices(solution.vertex_radiosity(), bands),
-            vertex_irradiance: shown.at_vertices(solution.vertex_irradiance(), bands),
+            vertex_radiosity: shown.at_vertices(fine.vertex_radiosity(), bands),
+            vertex_irradiance: shown.at_vertices(fine.vertex_irradiance(), bands),
             places: if pictures.is_empty() { Vec::new() } else { places(scene, mesh) },
             elements: mesh.elements.iter().map(|element| indices(*element)).collect(),
-            radiosity: shown.on_elements(&solution.radiosity, bands),
-            irradiance: shown.on_elements(&solution.irradiance, bands),
+            radiosity: shown.on_elements(&fine.radiosity, bands),
+            irradiance: shown.on_elements(&fine.irradiance, bands),
             pictures,
             recording: None,
         }

@@ -55,7 +55,7 @@ pub struct Options {
     /// The resolution of hemicubes that replace exact form factors, to compare with; `None` for exact ones.
     pub hemicube: Option<u32>,
     /// Whether to find at the end what vertices receive, exactly past what stands in between, rather than interpolate the light of
-    /// elements. Hemicubes do not.
+    /// elements. Hemicubes do not. On a mesh a [`Record`](crate::Record) then has more vertices where light is not linear.
     pub gather: bool,
     /// Stop when the bound on the error of every radiosity is at most this share of the reflected light's brightness,
     /// ΣAR² / ΣAR with R = B − E, in every band, and what is unshot at most this share of the emitted power.

@@ -171,17 +171,32 @@ impl Bisection {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::scene;
     use std::collections::BTreeSet;
 
-    /// The built-in box, every third element of it cut, twice.
+    /// A floor and a wall that meets it along an edge, each of 7 × 7 stretched cells in two triangles.
+    fn corner() -> Mesh {
+        let mut mesh = Mesh::default();
+        for patch in 0..2 {
+            let first = mesh.vertices.len();
+            for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (i, j))) {
+                let [along, off] = [f64::from(i) * 0.3, f64::from(j * j)];
+                mesh.vertices.push(if patch == 0 { [along, off, 0.0] } else { [along, 0.0, off] }.into());
+            }
+            for at in (0..56).filter(|at| at % 8 < 7).map(|at| first + at) {
+                let halves = [[at, at + 8, at + 9], [at, at + 9, at + 1]];
+                mesh.elements.extend(halves.map(|corners| Element { patch, corners }));
+            }
+        }
+        mesh
+    }
+
+    /// The corner, and every third element of it cut, twice.
     fn cut() -> [Mesh; 2] {
-        let mesh = Mesh::even(&scene("cornell-box").unwrap(), 300).unwrap();
+        let mesh = corner();
         let (mut bisection, mut cuts) = (Bisection::of(&mesh), Cuts::default());
         for _ in 0..2 {
-            (0..bisection.mesh.elements.len())
-                .step_by(3)
-                .for_each(|element| bisection.halve(element, &mut cuts));
+            let count = bisection.mesh.elements.len();
+            (0..count).step_by(3).for_each(|element| bisection.halve(element, &mut cuts));
         }
         assert_eq!(mesh.vertices.len() + cuts.middles.len(), bisection.mesh.vertices.len());
         assert_eq!(mesh.elements.len() + cuts.halved.len(), bisection.mesh.elements.len());
