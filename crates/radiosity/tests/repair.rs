@@ -1,26 +1,14 @@
 //! Scenes with every kind of dirt, made from clean ones by a seed: what `repair` makes of them, and what light they have then.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+mod random;
+
 use radiosity::formfactor::PlanarPolygon;
 use radiosity::glam::DVec3;
 use radiosity::inspect::Kind;
 use radiosity::io::collada::Collada;
 use radiosity::{Error, Method, Options, Patch, Quality, Repaired, Scene, repair, scenes, solve};
+use random::Random;
 use std::ops::ControlFlow;
-
-/// Numbers from 0 to 1 that a seed determines.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        // A linear congruential generator: L'Ecuyer 1999, Table 4.
-        self.0 = self.0.wrapping_mul(2_862_933_555_777_941_757).wrapping_add(3_037_000_493);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
 
 /// A parallelogram with a front, from a corner along two edges.
 #[derive(Clone, Copy)]

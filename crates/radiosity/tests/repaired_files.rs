@@ -1,33 +1,21 @@
 //! Files with every kind of dirt, in nodes of any pose: what is written repaired needs no repair, and is repaired as it is.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+mod random;
+
 use base64::{Engine, engine::general_purpose::STANDARD};
 use radiosity::glam::{DMat4, DQuat, DVec3};
 use radiosity::io::Source;
 use radiosity::{Repaired, Scene, needed_sides, repair};
+use random::Random;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Numbers from 0 to 1 that a seed determines.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        // A linear congruential generator: L'Ecuyer 1999, Table 4.
-        self.0 = self.0.wrapping_mul(2_862_933_555_777_941_757).wrapping_add(3_037_000_493);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn place(&mut self, size: f64) -> DVec3 {
-        size * (DVec3::new(self.next(), self.next(), self.next()) - 0.5)
-    }
-
-    /// Turned in any way, of a size from a millimetre to a kilometre, some sizes away from the origin.
-    fn pose(&mut self) -> DMat4 {
-        let turn = DQuat::from_scaled_axis(self.place(6.0));
-        let size = 10_f64.powf(6.0 * self.next() - 3.0);
-        let way = self.place(8.0 * size);
-        DMat4::from_scale_rotation_translation(DVec3::splat(size), turn, way)
-    }
+/// Turned in any way, of a size from a millimetre to a kilometre, some sizes away from the origin.
+fn pose(random: &mut Random) -> DMat4 {
+    let turn = DQuat::from_scaled_axis(random.place(6.0));
+    let size = 10_f64.powf(random.within(-3.0, 3.0));
+    let way = random.place(8.0 * size);
+    DMat4::from_scale_rotation_translation(DVec3::splat(size), turn, way)
 }
 
 /// Outlines, counter-clockwise seen from the front, of a node's mesh.
@@ -109,7 +97,7 @@ struct Node {
 /// The meshes of a family, somewhere, each in a node of its own.
 fn nodes(random: &mut Random, family: fn(&mut Random) -> Vec<Outlines>) -> Vec<Node> {
     let meshes = family(random);
-    let all = random.pose();
+    let all = pose(random);
     let mut node = |mesh: &Outlines| {
         // About as large as the whole: what is a million times larger holds no such corners.
         let pose = all
@@ -193,8 +181,10 @@ fn area(scene: &Scene) -> f64 {
     scene.patches.iter().map(|patch| patch.polygon.area()).sum()
 }
 
-/// Whether a file, written repaired, needs no repair, and written repaired again has the same bytes. Of doubles, the repaired file is as
-/// large as the repaired scene; single precision may take planes for one that were not.
+/// Whether a file, written repaired, needs no repair, and written repaired again has the same bytes. A repaired file of doubles has the
+/// area of the repaired scene. That of single precision, whose polygons have two sides here, need not: both sides have one outline, so that
+/// where a solid stands on a two-sided ground both are cut; a solid that was cut open has inner sides again; and rounding may make one plane
+/// of two.
 fn stays(name: &str, bytes: Vec<u8>, extension: &str, is_double: bool) -> Result<(), String> {
     let folders = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [once, twice] = folders.each_ref().map(|folder| folder.path().join(format!("repaired.{extension}")));

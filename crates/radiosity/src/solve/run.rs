@@ -198,7 +198,7 @@ impl<'r> Run<'r> {
             state: factors.state,
         });
         let is_late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
-        self.is_stopped = goes_on.is_break() || is_late;
+        self.is_stopped |= goes_on.is_break() || is_late;
         if self.is_stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 

@@ -37,7 +37,6 @@ pub(super) fn patches<'a>(
                 place: &file.place(primitive.element),
                 facets: &facets,
                 world: instance.visit.world,
-                spacing: f64::EPSILON,
                 finish,
                 two_sided: is_double_sided(file, instance, primitive.material)?,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
@@ -61,7 +60,6 @@ fn area_surface<'s>(lamp: &AreaLamp<'s, '_>, facets: &'s [Facet]) -> Surface<'s>
         place: "",
         facets,
         world: lamp.instance.visit.world,
-        spacing: f64::EPSILON,
         finish: Finish {
             material: "".into(),
             reflectance: [0.0; 3],

@@ -3,7 +3,7 @@ use super::material::{Materials, ReadMaterial, as_written};
 use super::{accessor::Buffers, document::GltfFile, lights, lights::ReadLight};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::facets;
-use crate::io::surface::finish::{SINGLE_SPACING, Surface};
+use crate::io::surface::finish::Surface;
 use crate::io::surface::lamps::LampPose;
 use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
@@ -47,7 +47,7 @@ pub(super) fn read(
     let mut reader = Reader {
         file,
         materials: Materials::new(&buffers, folder),
-        surfaces: Surfaces::default(),
+        surfaces: Surfaces::in_single_precision(),
         cameras: Vec::new(),
         lamps: Vec::new(),
         suns: Vec::new(),
@@ -171,7 +171,6 @@ impl Reader<'_> {
             place: &place,
             facets: &facets,
             world,
-            spacing: SINGLE_SPACING,
             finish: kind.finish,
             two_sided: kind.two_sided,
             origin,

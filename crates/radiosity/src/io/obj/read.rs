@@ -174,16 +174,8 @@ impl ObjReader<'_> {
             let name = if group.name.is_empty() { "patch" } else { &group.name };
             let origin = Origin { instance: index, primitive: 0, polygon: 0 };
             let (world, finish) = (DMat4::IDENTITY, material.finish);
-            let surface = Surface {
-                name,
-                place: &place,
-                facets: &facets,
-                world,
-                spacing: f64::EPSILON,
-                finish,
-                two_sided: false,
-                origin,
-            };
+            let surface =
+                Surface { name, place: &place, facets: &facets, world, finish, two_sided: false, origin };
             let added = surfaces.add(&surface, &mut self.warnings);
             added.map_err(|refusal| fault(self.file, (group.line, refusal.into())))?;
         }

@@ -31,16 +31,7 @@ pub(super) fn scene(file: &str, bytes: &[u8], folder: Option<&Path>) -> Result<S
         let facets = facets(&polygons, is_cut(&polygons), image.is_some());
         let origin = Origin { instance: 0, primitive, polygon: 0 };
         let (name, place, world) = ("patch", file, DMat4::IDENTITY);
-        let surface = Surface {
-            name,
-            place,
-            facets: &facets,
-            world,
-            spacing: f64::EPSILON,
-            finish,
-            two_sided: false,
-            origin,
-        };
+        let surface = Surface { name, place, facets: &facets, world, finish, two_sided: false, origin };
         surfaces.add(&surface, &mut warnings).map_err(|refusal| part(file, "faces", refusal.into()))?;
     }
     Ok(Scene { patches: surfaces.named(), bands: 3, warnings, ..Scene::default() })

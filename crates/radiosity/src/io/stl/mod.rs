@@ -22,7 +22,7 @@ pub use write::stl;
 use super::error::{Fault, FileError};
 use super::save::bytes_of;
 use super::surface::finish::{Finish, Surface};
-use super::surface::{facets, finish::SINGLE_SPACING, place::Surfaces};
+use super::surface::{facets, place::Surfaces};
 use crate::scene::{Scene, finding::Finding, patch::Origin};
 use glam::{DMat4, DVec3};
 use solid::Solid;
@@ -60,7 +60,7 @@ impl Stl {
     /// # Errors
     /// [`FileError::Line`] and [`FileError::Part`], with the line or the triangle; [`FileError::Garbled`] for bytes that are neither kind.
     pub fn scene(&self) -> Result<Scene, FileError> {
-        let (mut warnings, mut surfaces) = (Vec::new(), Surfaces::default());
+        let (mut warnings, mut surfaces) = (Vec::new(), Surfaces::in_single_precision());
         let solids = self.solids(&mut warnings)?;
         let what = "the format has no materials; the reflectance is 0.5";
         Finding::note(&mut warnings, self.name.as_str(), what, "use another format where colours matter");
@@ -71,16 +71,7 @@ impl Stl {
             let origin = Origin { instance, primitive: 0, polygon: 0 };
             let name = if solid.name.is_empty() { "patch" } else { &solid.name };
             let (place, world) = (solid.place.as_str(), DMat4::IDENTITY);
-            let surface = Surface {
-                name,
-                place,
-                facets: &facets,
-                world,
-                spacing: SINGLE_SPACING,
-                finish,
-                two_sided: false,
-                origin,
-            };
+            let surface = Surface { name, place, facets: &facets, world, finish, two_sided: false, origin };
             surfaces.add(&surface, &mut warnings).map_err(|refusal| {
                 let (file, part) = (self.name.clone(), solid.place.clone());
                 FileError::Part { file, part, fault: Fault::from(refusal) }

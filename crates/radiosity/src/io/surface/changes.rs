@@ -34,9 +34,9 @@ pub(crate) type Changes<'s> = BTreeMap<usize, BTreeMap<usize, Pieces<'s>>>;
 /// The patches of the two sides of a polygon.
 type TwoSides<'s> = [Vec<&'s Patch>; 2];
 
-/// The polygons that are not what they were, and the `flawed` ones, which were split or left out while they were read. What moved by no
-/// more than rounding stays: the file's numbers may not hold its new place. Where the two sides of a double-sided polygon were cut in different ways, the first counts:
-/// what was cut out of the second lies in its plane and hides it from both sides.
+/// The polygons that are not what they were, and the `flawed` ones, which were split or left out while they were read. What moved by
+/// no more than rounding stays: the file's numbers may not hold its new place. Where the two sides of a double-sided polygon were cut in
+/// different ways, the first counts: what was cut out of the second lies in its plane and hides it from both sides.
 pub(crate) fn changes<'s>(before: &'s Scene, after: &'s Scene, flawed: &[Origin]) -> Changes<'s> {
     let (old, new) = (by_origin(before), by_origin(after));
     let mut changes = Changes::new();

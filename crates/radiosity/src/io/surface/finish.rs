@@ -4,9 +4,6 @@ use crate::scene::{patch::Origin, texture::Image};
 use glam::DMat4;
 use std::sync::Arc;
 
-/// How far apart numbers in single precision are just above 1.
-pub(crate) const SINGLE_SPACING: f64 = f32::EPSILON as f64;
-
 /// What a surface reflects and emits, in red, green and blue.
 #[derive(Clone, Debug)]
 pub(crate) struct Finish {
@@ -39,8 +36,6 @@ pub(crate) struct Surface<'s> {
     pub(crate) facets: &'s [Facet],
     /// From the node to the world.
     pub(crate) world: DMat4,
-    /// How far apart the numbers are, just above 1, in which the file holds coordinates.
-    pub(crate) spacing: f64,
     pub(crate) finish: Finish,
     /// Whether its back is a surface too.
     pub(crate) two_sided: bool,

@@ -43,6 +43,8 @@ pub(crate) struct Surfaces {
     counts: BTreeMap<String, usize>,
     /// How many smoothing groups there are.
     groups: usize,
+    /// Whether the file holds coordinates in single precision.
+    is_single: bool,
 }
 
 /// A patch before it has its name: `base`, the number of its polygon among those of that base, and its piece.
@@ -55,6 +57,11 @@ struct Draft {
 }
 
 impl Surfaces {
+    /// Of a file that holds coordinates in single precision.
+    pub(crate) fn in_single_precision() -> Surfaces {
+        Surfaces { is_single: true, ..Surfaces::default() }
+    }
+
     /// Adds a surface's patches; returns the facets, by their numbers, that were split or left out.
     pub(crate) fn add(
         &mut self,
@@ -97,7 +104,7 @@ impl Surfaces {
         let pieces = planar(&loops, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
         let is_whole = matches!(pieces.as_slice(), [(None, _)]);
         let texture = texture(&loops, facet, surface);
-        let rounding = rounding(facet, surface);
+        let rounding = self.rounding(facet, surface);
         let origin = Origin { polygon, ..surface.origin };
         let draft = |(piece, polygon, is_back)| {
             let patch = finished(polygon, &surface.finish, texture.clone());
@@ -114,6 +121,17 @@ impl Surfaces {
             self.drafts.extend(back.map(|polygon| draft((piece, polygon, true))));
         }
         Ok(is_whole)
+    }
+
+    /// How far the file's numbers, and doubles on their way into the world, may leave a facet's vertices from their places.
+    fn rounding(&self, facet: &Facet, surface: &Surface<'_>) -> f64 {
+        let DMat4 { x_axis, y_axis, z_axis, w_axis } = surface.world;
+        let [x, y, z, shift] = [x_axis, y_axis, z_axis, w_axis].map(|axis| axis.truncate().abs());
+        let sizes = facet.loops.iter().flatten().map(|corner| corner.point.abs());
+        let moved = sizes.map(|size| x * size.x + y * size.y + z * size.z);
+        let largest = moved.reduce(DVec3::max).unwrap_or(DVec3::ZERO);
+        let spacing = if self.is_single { f64::from(f32::EPSILON) } else { f64::EPSILON };
+        spacing / 2.0 * largest.length() + slack(&[largest + shift])
     }
 
     /// For each facet the number of its smoothing group: facets that share a vertex and the normal there.
@@ -173,16 +191,6 @@ fn finished(polygon: PlanarPolygon, finish: &Finish, texture: Option<Texture>) -
     let reflectance = texture.as_ref().map_or(finish.reflectance, |texture| texture.overall());
     let patch = Patch::new("", polygon, reflectance.into(), finish.emission.into());
     Patch { texture, material, ..patch }
-}
-
-/// How far the file's numbers, and doubles on their way into the world, may leave a facet's vertices from their places.
-fn rounding(facet: &Facet, surface: &Surface<'_>) -> f64 {
-    let DMat4 { x_axis, y_axis, z_axis, w_axis } = surface.world;
-    let [x, y, z, shift] = [x_axis, y_axis, z_axis, w_axis].map(|axis| axis.truncate().abs());
-    let sizes = facet.loops.iter().flatten().map(|corner| corner.point.abs());
-    let moved = sizes.map(|size| x * size.x + y * size.y + z * size.z);
-    let largest = moved.reduce(DVec3::max).unwrap_or(DVec3::ZERO);
-    surface.spacing / 2.0 * largest.length() + slack(&[largest + shift])
 }
 
 /// The picture laid over the polygon, if it has one.

@@ -69,7 +69,8 @@ impl Bisection {
             place_count: numbers.len(),
             along: BTreeMap::new(),
         };
-        for element in 0..mesh.elements.len() {
+        // What has no area has edges beside themselves: it is not cut with others.
+        for element in (0..mesh.elements.len()).filter(|element| mesh.area(*element) > 0.0) {
             for edge in bisection.edges(element) {
                 bisection.along.entry(edge).or_default().push(element);
             }
@@ -77,7 +78,7 @@ impl Bisection {
         bisection
     }
 
-    /// Cuts an element across its longest edge.
+    /// Cuts an element that has an area across its longest edge.
     pub(super) fn halve(&mut self, element: usize, cuts: &mut Cuts) {
         let mut way = vec![self.longest(element)];
         while let Some(&edge) = way.last() {
@@ -164,7 +165,7 @@ impl Bisection {
         [[a, b, c], [b, c, a], [c, a, b]]
             .into_iter()
             .find(|[from, to, _]| self.edge(*from, *to) == edge)
-            .unwrap_or([a, b, c])
+            .expect("elements along an edge have it")
     }
 }
 

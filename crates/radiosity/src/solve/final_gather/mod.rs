@@ -21,12 +21,10 @@ use super::{interpolate::Means, run::Run, solution::FineLight};
 use crate::error::Error;
 use crate::scene::Scene;
 use known::Known;
-use outlook::{narrow, outlooks};
+use outlook::{Outlook, narrow, outlooks};
 use shown::Shown;
 
-/// So many vertices are looked from for each one of the mesh, itself included.
-const LOOKS: usize = 2;
-/// In so many rounds.
+/// As many vertices as the mesh has are looked from beside these, in so many rounds.
 const ROUNDS: usize = 8;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
@@ -40,17 +38,16 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     let Some(known) = Known::of(run)? else { return Ok(None) };
     let mesh = &run.factors.subdivision.mesh;
     let mut shown = Shown::of(mesh, corners(scene, run, &known)?, &run.light, &known);
-    let looks = (LOOKS - 1) * mesh.vertices.len();
     for _ in 0..ROUNDS {
-        let middles = shown.cut(looks.div_ceil(ROUNDS));
-        if middles.is_empty() || run.is_stopped {
+        let middles =
+            if run.is_stopped { Vec::new() } else { shown.cut(mesh.vertices.len().div_ceil(ROUNDS)) };
+        if middles.is_empty() {
             break;
         }
         let vertices: Vec<usize> = middles.iter().map(|middle| middle.vertex).collect();
         let bisection = &shown.bisection;
         let outlooks = outlooks(scene, run, (&bisection.mesh, &bisection.whole), &vertices)?;
-        let found = run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some]))?;
-        shown.learn(&middles, &found, &known);
+        shown.learn(&middles, &look(run, &known, &outlooks)?, &known);
     }
     Ok(Some(shown.into_light(scene)))
 }
@@ -62,9 +59,13 @@ fn corners(scene: &Scene, run: &mut Run<'_>, known: &Known) -> Result<Vec<f64>, 
         [mesh.vertices.len(), mesh.elements.len()].map(|count| (0..count).collect::<Vec<_>>());
     let mut outlooks = outlooks(scene, run, (mesh, &whole), &vertices)?;
     narrow(mesh, &mut outlooks);
-    let found = run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some]))?;
-    let mut light = found.concat();
+    let mut light = look(run, known, &outlooks)?.concat();
     let means = Means::of(mesh, run.light.bands).around(&run.light.irradiance);
     light.extend(&means[light.len()..]);
     Ok(light)
+}
+
+/// What vertices receive; of fewer than all when the watcher wants to stop.
+fn look(run: &mut Run<'_>, known: &Known, outlooks: &[Outlook]) -> Result<Vec<Vec<f64>>, Error> {
+    run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some]))
 }

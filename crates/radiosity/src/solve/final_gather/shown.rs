@@ -90,6 +90,7 @@ impl Shown {
             .filter(|element| self.off[*element] > LINEAR)
             .map(|element| (size(element), element))
             .collect();
+        worst.retain(|(size, _)| *size > 0.0);
         worst.sort_by(|a, b| b.0.total_cmp(&a.0));
         worst.into_iter().map(|(_, element)| element).collect()
     }
