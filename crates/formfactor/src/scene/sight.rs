@@ -91,8 +91,8 @@ impl Enclosure {
             return false;
         }
         let line = LineOfSight::between(from.position(), there);
-        let near = self.tree().find(|extent| line.misses_box(extent));
-        !near.into_iter().any(|id| !self.is_edge_on(from, id) && line.is_blocked_by(&self.polygons()[id]))
+        let blocks = |id: usize| line.is_blocked_by(&self.polygons()[id]) && !self.is_edge_on(from, id);
+        !self.tree().has_any(|extent| line.misses_box(extent), blocks)
     }
 }
 

@@ -46,20 +46,40 @@ impl Tree {
             return self.ids.clone();
         }
         let mut found = Vec::new();
+        self.has_any_leaf(outside, |ids| {
+            found.extend_from_slice(ids);
+            false
+        });
+        found
+    }
+
+    /// Whether any polygon of these leaves is what is looked for; the others are not looked at once there is one.
+    pub(crate) fn has_any(&self, outside: impl Fn(&Extent) -> bool, is_it: impl Fn(usize) -> bool) -> bool {
+        self.has_any_leaf(outside, |ids| ids.iter().any(|id| is_it(*id)))
+    }
+
+    /// Whether any leaf that is not in a box that is `outside` is what is looked for.
+    fn has_any_leaf(
+        &self,
+        outside: impl Fn(&Extent) -> bool,
+        mut is_it: impl FnMut(&[usize]) -> bool,
+    ) -> bool {
         let mut open = vec![(0, 0..self.ids.len())];
         while let Some((node, range)) = open.pop() {
             if range.is_empty() || outside(&self.extents[node]) {
                 continue;
             }
             if range.len() <= LEAF {
-                found.extend_from_slice(&self.ids[range]);
+                if is_it(&self.ids[range]) {
+                    return true;
+                }
                 continue;
             }
             let middle = range.start + range.len() / 2;
             open.push((2 * node + 2, middle..range.end));
             open.push((2 * node + 1, range.start..middle));
         }
-        found
+        false
     }
 }
 

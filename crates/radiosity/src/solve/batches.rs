@@ -14,8 +14,7 @@ impl Run<'_> {
         }
         let piece = self.factors.piece(node)?;
         let count = self.factors.receivers.len();
-        let found =
-            self.in_batches(count, |run, some| run.factors.seen(&run.factors.receivers[some], &piece))?;
+        let found = self.in_batches(count, |run, some| run.factors.seen(some, &piece))?;
         Ok((found.len() == count).then(|| self.factors.keep(node, &found)))
     }
 

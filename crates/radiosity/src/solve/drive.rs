@@ -27,6 +27,9 @@ impl Run<'_> {
         if !(self.sample(scene)? && self.shine()?) {
             return Ok(false);
         }
+        if self.shoots_alone(scene) {
+            return Ok(shoot(self, usize::MAX)? == Shooting::Converged);
+        }
         if self.may_be_stiff() && self.options.method == Method::Mesh {
             // Whether a room is closed takes the columns of all its patches: as many shots may do.
             match shoot(self, scene.patches.len())? {
@@ -39,6 +42,20 @@ impl Run<'_> {
             Some(Method::Shoot) => Ok(shoot(self, usize::MAX)? == Shooting::Converged),
             Some(method) => relax(self, method),
         }
+    }
+
+    /// Takes small form factors roughly, where that is asked for and no room's closure is to be found.
+    pub(super) fn take_roughly(&mut self, scene: &Scene) -> Result<(), Error> {
+        let share = self.options.rough;
+        let is_asked = share > 0.0 && self.options.hemicube.is_none();
+        if is_asked && self.shoots_alone(scene) { self.factors.take_roughly(share) } else { Ok(()) }
+    }
+
+    /// Whether shooting solves the scene, whichever rooms it has.
+    fn shoots_alone(&self, scene: &Scene) -> bool {
+        let (asked, largest) = (self.options.method, self.largest_reflectance());
+        let is_quick = asked == Method::Mesh && (largest < STIFF || is_lit_from_beyond(scene));
+        largest < 1.0 && (asked == Method::Shoot || is_quick)
     }
 
     /// Whether a room that reflects so much that shooting takes long may be closed, and not reflect all.
@@ -65,13 +82,7 @@ impl Run<'_> {
     /// Nothing when the watcher wants to stop.
     fn choose(&mut self, scene: &Scene) -> Result<Option<Method>, Error> {
         let asked = self.options.method;
-        let largest = self.largest_reflectance();
         let is_free = asked == Method::Mesh;
-        if largest < 1.0
-            && (asked == Method::Shoot || (is_free && (largest < STIFF || is_lit_from_beyond(scene))))
-        {
-            return Ok(Some(Method::Shoot));
-        }
         let Some(rooms) = follow(scene, self)? else { return Ok(None) };
         rooms.check(scene)?;
         self.gaps = gaps(&self.light, Some(&rooms.sums));
@@ -93,7 +104,7 @@ impl Run<'_> {
     /// The solution; what is shown is gathered for the last mesh only.
     pub(super) fn finish(mut self, scene: &Scene, converged: bool, last: bool) -> Result<Solution, Error> {
         let (mut closure, mut fine) = (None, None);
-        if converged {
+        if converged && self.factors.rough_share() == 0.0 {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }

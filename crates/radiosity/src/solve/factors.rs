@@ -1,11 +1,14 @@
-//! Exact form factors from the elements to the pieces.
+//! Form factors from the elements to the pieces: exact ones, but for such as may be taken roughly.
 use super::state::{Column, State};
-use super::{fingerprint, hemicube::Hemicubes, lights::Lights, occluders::Occluders, workers};
+use super::{
+    ball::Ball, fingerprint, hemicube::Hemicubes, lights::Lights, occluders::Occluders, rough::Rough, workers,
+};
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
-use std::sync::Arc;
+use glam::DVec3;
+use std::{ops::Range, sync::Arc};
 
 /// What a form factor may be off by: far less than what tells a closed room from an open one.
 const ENOUGH: f64 = 1e-11;
@@ -13,7 +16,7 @@ const ENOUGH: f64 = 1e-11;
 /// A piece of a patch, in the plane of the polygon that the enclosure has for the patch.
 #[derive(Debug)]
 pub(super) struct PieceShape {
-    patch: usize,
+    pub(super) patch: usize,
     pub(super) polygon: PlanarPolygon,
 }
 
@@ -27,9 +30,13 @@ pub(super) struct Factors<'s> {
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
     pub(super) receivers: Vec<DifferentialArea>,
+    /// What is taken roughly, and the share of an element's view that it fills at most.
+    rough: Option<(Rough, f64)>,
     /// What takes the place of exact factors, to compare with.
     hemicubes: Option<Hemicubes>,
     /// The mesh in `state`.
+    mesh: u64,
+    /// Its form factors there: those of another way to find them are others.
     fingerprint: u64,
     pub(super) state: &'s mut State,
 }
@@ -41,23 +48,25 @@ impl<'s> Factors<'s> {
         subdivision: &'s Subdivision,
         state: &'s mut State,
     ) -> Result<Factors<'s>, Error> {
-        let mesh = &subdivision.mesh;
+        let (elements, mesh) = (&subdivision.mesh, fingerprint::of_mesh(scene, subdivision));
         let Occluders { polygons, of_patch: surface_of } = Occluders::join(scene);
         let receiver = |(index, element): (usize, &Element)| {
             let patch = &scene.patches[element.patch];
-            DifferentialArea::new(mesh.centroid(index), patch.polygon.normal())
+            DifferentialArea::new(elements.centroid(index), patch.polygon.normal())
                 .map(|area| area.owned_by(surface_of[element.patch]))
                 .map_err(|source| Error::Shape { patch: patch.name.clone(), source })
         };
         Ok(Factors {
-            receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
+            receivers: elements.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
             scene,
             subdivision,
             lights: Lights::new(scene, &polygons),
             enclosure: Enclosure::new(polygons),
             surface_of,
+            rough: None,
             hemicubes: None,
-            fingerprint: fingerprint::of_mesh(scene, subdivision),
+            mesh,
+            fingerprint: mesh,
             state,
         })
     }
@@ -68,9 +77,24 @@ impl<'s> Factors<'s> {
         self.fingerprint ^= u64::from(resolution);
     }
 
+    /// Takes what fills no more than a share of an element's view roughly from now on.
+    pub(super) fn take_roughly(&mut self, share: f64) -> Result<(), Error> {
+        let rough = Rough::find(self.scene, &self.receivers, share)?;
+        self.rough = rough.map(|rough| (rough, share));
+        if self.rough.is_some() {
+            self.fingerprint ^= fingerprint::of_emitters(self.scene, share);
+        }
+        Ok(())
+    }
+
+    /// The share of an element's view that is taken roughly at most.
+    pub(super) fn rough_share(&self) -> f64 {
+        self.rough.as_ref().map_or(0.0, |(_, share)| *share)
+    }
+
     /// Whether the state knows of this scene and mesh.
     pub(super) fn are_known(&self) -> bool {
-        self.state.knows(self.fingerprint)
+        self.state.knows(self.mesh)
     }
 
     /// Whether the column of a piece is known.
@@ -98,6 +122,7 @@ impl<'s> Factors<'s> {
     /// Keeps the form factors from all elements to one piece while memory lasts: they never change.
     pub(super) fn keep(&mut self, node: usize, factors: &[f64]) -> Arc<Column> {
         let column = Arc::new(Column::new(factors));
+        self.state.note(self.mesh);
         self.state.keep(self.fingerprint, node, &column);
         column
     }
@@ -129,9 +154,9 @@ impl<'s> Factors<'s> {
         self.enclosure.form_factor_within(from, surface, &piece.polygon, ENOUGH).value
     }
 
-    /// Whether a piece gives light of its own.
-    pub(super) fn emits(&self, piece: &PieceShape) -> bool {
-        self.scene.patches[piece.patch].emits()
+    /// Whether a patch gives light of its own.
+    pub(super) fn emits(&self, patch: usize) -> bool {
+        self.scene.patches[patch].emits()
     }
 
     /// The shape of an element; nothing for one without area.
@@ -141,13 +166,27 @@ impl<'s> Factors<'s> {
         Some(self.part(mesh.elements[element].patch, &polygon))
     }
 
-    /// The form factors from some points to a piece.
-    pub(super) fn seen(&self, points: &[DifferentialArea], piece: &PieceShape) -> Result<Vec<f64>, Error> {
-        workers::from_all(points, &self.scene.patches[piece.patch].name, |from| {
+    /// The form factors from some elements to a piece.
+    pub(super) fn seen(&self, elements: Range<usize>, piece: &PieceShape) -> Result<Vec<f64>, Error> {
+        let elements: Vec<usize> = elements.collect();
+        let (ball, middle) = (Ball::around(&piece.polygon), middle(&piece.polygon));
+        workers::from_all(&elements, &self.scene.patches[piece.patch].name, |&element| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(piece.patch), "injected");
-            self.factor(from, piece)
+            let from = &self.receivers[element];
+            match &self.rough {
+                Some((rough, _)) if rough.is_small(element, from, piece.patch) => {
+                    self.glance(from, &ball, middle)
+                }
+                _ => self.factor(from, piece),
+            }
         })
+    }
+
+    /// The form factor from a point to a small piece that its middle tells all of.
+    fn glance(&self, from: &DifferentialArea, ball: &Ball, middle: DVec3) -> f64 {
+        let disk = ball.disk(from);
+        if disk > 0.0 && self.enclosure.sees(from, middle) { disk } else { 0.0 }
     }
 
     /// The shape of a piece.
@@ -169,4 +208,10 @@ impl<'s> Factors<'s> {
         let polygon = whole.part(polygon.loops()).unwrap_or_else(|_| polygon.clone());
         PieceShape { patch, polygon }
     }
+}
+
+/// The mean of a polygon's vertices.
+fn middle(polygon: &PlanarPolygon) -> DVec3 {
+    let points = || polygon.loops().flatten();
+    points().sum::<DVec3>() / points().count() as f64
 }

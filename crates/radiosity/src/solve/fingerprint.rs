@@ -41,6 +41,14 @@ pub(super) fn of_mesh(scene: &Scene, subdivision: &Subdivision) -> u64 {
     hasher.finish()
 }
 
+/// The fingerprint of what is taken roughly: a share of the view, but of no patch that emits.
+pub(super) fn of_emitters(scene: &Scene, share: f64) -> u64 {
+    let mut hasher = FnvHasher::default();
+    hasher.write(&share.to_le_bytes());
+    scene.patches.iter().for_each(|patch| hasher.write(&[u8::from(patch.emits())]));
+    hasher.finish()
+}
+
 /// Points, and how many there are.
 fn write_points(hasher: &mut FnvHasher, points: &[DVec3]) {
     write_number(hasher, points.len());

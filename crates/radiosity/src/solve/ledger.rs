@@ -68,14 +68,14 @@ pub(super) fn gaps(light: &Light, sums: Option<&[f64]>) -> Vec<f64> {
 }
 
 /// ‖r‖∞ / (1 − max ρΣF) per band: with B = E + ρFS for what the pieces have shot, S, the residual is ρF(PB − S), at
-/// most max ρ times the largest radiosity still to be shot, as ΣF <= 1 in every row. Infinite where a patch reflects
-/// all light; 0 where nothing emits.
-pub(super) fn bound(light: &Light, shooters: &Shooters<'_>, gaps: &[f64]) -> Vec<f64> {
+/// most max ρ times the largest radiosity still to be shot, `peaks`, as ΣF <= 1 in every row. Infinite where a patch
+/// reflects all light; 0 where nothing emits.
+pub(super) fn bound(light: &Light, peaks: &[f64], gaps: &[f64]) -> Vec<f64> {
     let reflectance =
         |band| light.reflectance.iter().skip(band).step_by(light.bands).copied().fold(0.0, f64::max);
-    let bound = |(band, peak): (usize, f64)| {
+    let bound = |(band, peak): (usize, &f64)| {
         let residual = peak * reflectance(band);
         if residual == 0.0 { 0.0 } else { residual / gaps[band] }
     };
-    shooters.peak().into_iter().enumerate().map(bound).collect()
+    peaks.iter().enumerate().map(bound).collect()
 }

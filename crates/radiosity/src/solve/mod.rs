@@ -13,10 +13,12 @@
 //! batches      form factors and light of many points; the watcher is asked in between
 //! run          what the steps of a run share
 //! progress     the progress of a run, as its caller sees it
-//! factors      columns of exact form factors from every element's centroid to one piece; kept in the state
+//! factors      columns of form factors from every element's centroid to one piece; kept in the state
+//! rough        which of them are so small that they may be taken roughly
 //! hemicube     form factors by hemicubes, to compare with
 //! workers      many form factors at once, by all threads
 //! occluders    patches that continue each other hide as one polygon
+//! ball         bounds on what is seen of polygons
 //! interpolate  from elements to vertices
 //! solution     what comes out
 //! ledger       where the power went, and how far the light is from the solution
@@ -35,6 +37,7 @@
 //! from element i to piece j, and P takes the mean of B over each piece (Barreto, Equations 2.5 and A.15). Conjugate
 //! gradients solve the symmetric system of the pieces' mean factors instead, in which the power adds up in both
 //! directions.
+mod ball;
 mod batches;
 mod check;
 mod drive;
@@ -59,6 +62,7 @@ mod receivers;
 mod refine;
 mod relax;
 mod rooms;
+mod rough;
 mod run;
 mod shoot;
 mod shooters;
@@ -130,6 +134,7 @@ pub fn solve_from(
         let subdivision = Subdivision::new(scene, &plan)?;
         in_time()?;
         let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
+        run.take_roughly(scene)?;
         if passes_left == options.passes {
             run.recognise()?;
         }

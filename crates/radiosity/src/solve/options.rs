@@ -63,6 +63,10 @@ pub struct Options {
     /// What the mean irradiance of a patch may be off by, as a share of itself or, where that is more, of 1 % of the scene's mean. Only
     /// [`Method::Hierarchical`] knows its errors, and it cuts patches by this alone.
     pub error: f64,
+    /// What small patches far away may fill of an element's view, all of them together, for their form factors to be taken roughly where
+    /// shots are exact otherwise: as those of disks, or 0 where something hides their middles. Patches that emit, and closed
+    /// rooms that reflect much, are always exact. The bound on the error counts it.
+    pub rough: f64,
     /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
     /// pieces send.
     pub spread: f64,
@@ -96,6 +100,7 @@ impl Default for Options {
             gather: true,
             tolerance: 1e-3,
             error: 1e-2,
+            rough: 0.0,
             spread: 2e-4,
             record: false,
             max_shots: 1_000_000,

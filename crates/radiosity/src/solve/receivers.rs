@@ -6,16 +6,20 @@ use formfactor::DifferentialArea;
 use glam::DVec3;
 use std::collections::BTreeSet;
 
-/// How far towards the elements around it a vertex is moved: F is discontinuous at the feet of walls, and there the
-/// limit from the vertex's own side is wanted.
-const INWARD: f64 = 1e-3;
+/// The share of the way that changes no light but that of what touches the rim.
+pub(super) const AT_RIM: f64 = 1e-3;
 
-/// A receiver for every vertex, and one of the elements around it; on the rim of a patch, and at the foot of what stands on it, a little
-/// inside these elements.
+/// A receiver for every vertex, and one of the elements around it; on the rim of a patch, and at the foot of what stands on it, that share
+/// of the way to the middle of these elements: F is discontinuous at the feet of walls, and there the limit from the vertex's own side is
+/// wanted.
 ///
 /// # Errors
 /// [`Error::Shape`] where a place is beyond what form factors take.
-pub(super) fn receivers(scene: &Scene, mesh: &Mesh) -> Result<Vec<(usize, DifferentialArea)>, Error> {
+pub(super) fn receivers(
+    scene: &Scene,
+    mesh: &Mesh,
+    inward: f64,
+) -> Result<Vec<(usize, DifferentialArea)>, Error> {
     let rim = rim(mesh);
     let mut around = vec![(DVec3::ZERO, 0.0, 0); mesh.vertices.len()];
     for (index, element) in mesh.elements.iter().enumerate() {
@@ -26,9 +30,9 @@ pub(super) fn receivers(scene: &Scene, mesh: &Mesh) -> Result<Vec<(usize, Differ
         }
     }
     let receiver = |(vertex, (sum, weight, element)): (usize, (DVec3, f64, usize))| {
-        let inward = if weight > 0.0 && rim[vertex] { sum / weight * INWARD } else { DVec3::ZERO };
+        let way = if weight > 0.0 && rim[vertex] { sum / weight * inward } else { DVec3::ZERO };
         let patch = &scene.patches[mesh.elements[element].patch];
-        DifferentialArea::new(mesh.vertices[vertex] + inward, patch.polygon.normal())
+        DifferentialArea::new(mesh.vertices[vertex] + way, patch.polygon.normal())
             .map(|area| (element, area))
             .map_err(|source| Error::Shape { patch: patch.name.clone(), source })
     };

@@ -133,11 +133,23 @@ impl<'r> Run<'r> {
     /// Measures what the pieces have yet to shoot; tells whether light and bound are within the tolerance.
     pub(super) fn measure(&mut self) -> bool {
         self.unshot = self.shooters.measure(&self.light);
-        self.bound = bound(&self.light, &self.shooters, &self.gaps);
+        let peaks = self.shooters.peak();
+        let of_unshot = bound(&self.light, &peaks, &self.gaps);
+        self.bound = bound(&self.light, &self.with_rough(peaks), &self.gaps);
         self.ledger = Ledger::new(&self.light, &self.shooters);
         let brightness = self.light.brightness();
         largest(&self.unshot) <= self.options.tolerance
-            && (0..self.light.bands).all(|band| self.within(self.bound[band], brightness[band]))
+            && (0..self.light.bands).all(|band| self.within(of_unshot[band], brightness[band]))
+    }
+
+    /// What may be missing of radiosities, per band: what is unshot, and of what was shot the share that is taken roughly.
+    fn with_rough(&self, mut peaks: Vec<f64>) -> Vec<f64> {
+        let share = self.factors.rough_share();
+        if share > 0.0 {
+            let brightest = self.shooters.brightest_shot(|patch| !self.factors.emits(patch));
+            peaks.iter_mut().zip(brightest).for_each(|(peak, shot)| *peak += share * shot);
+        }
+        peaks
     }
 
     /// Which piece is to shoot next.

@@ -194,6 +194,13 @@ impl<'s> Shooters<'s> {
             |band: usize| self.front.iter().map(move |shooter| shooter.unshot[band] / shooter.area);
         (0..self.sent.len()).map(|band| radiosity(band).map(f64::abs).fold(0.0, f64::max)).collect()
     }
+
+    /// The largest radiosity that was shot by pieces of those patches, per band.
+    pub(super) fn brightest_shot(&self, patches: impl Fn(usize) -> bool) -> Vec<f64> {
+        let of = || self.front.iter().filter(|shooter| patches(self.nodes[shooter.node].patch));
+        let band = |band: usize| of().map(|shooter| shooter.shot[band].abs()).fold(0.0, f64::max);
+        (0..self.sent.len()).map(band).collect()
+    }
 }
 
 /// The sum of |value| / whole over the bands of which there is any, so that a faint band counts as a strong one.

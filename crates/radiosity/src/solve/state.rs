@@ -159,6 +159,11 @@ impl State {
         is_within.then(|| Arc::clone(column))
     }
 
+    /// Knows a mesh of which nothing is kept under its own fingerprint.
+    pub(super) fn note(&mut self, mesh: u64) {
+        self.meshes.entry(mesh).or_default();
+    }
+
     /// Keeps a column while memory lasts.
     pub(super) fn keep(&mut self, mesh: u64, node: usize, column: &Arc<Column>) {
         if self.count + column.factors.len() <= KEPT {

@@ -1,18 +1,17 @@
 //! Form factors, and light, of many points at once, by all threads.
 use crate::error::Error;
-use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// A factor, or the light, of each point: each by itself, so threads change nothing.
+/// A factor, or the light, of each of many points: each by itself, so threads change nothing.
 ///
 /// # Errors
 /// [`Error::Defect`] when one of them panics: what a run has found until then must not be lost for it.
-pub(super) fn from_all<T: Send>(
-    points: &[DifferentialArea],
+pub(super) fn from_all<P: Sync, T: Send>(
+    points: &[P],
     patch: &str,
-    factor: impl Fn(&DifferentialArea) -> T + Sync,
+    factor: impl Fn(&P) -> T + Sync,
 ) -> Result<Vec<T>, Error> {
     let shared = (points.len() / rayon::current_num_threads()).clamp(1, 8);
     let all = || points.par_iter().with_min_len(shared).map(&factor).collect();

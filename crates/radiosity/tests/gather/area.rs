@@ -2,7 +2,7 @@
 use super::sources::Sources;
 use radiosity::formfactor::Error;
 use radiosity::glam::DVec3;
-use radiosity::{Record, Scene, Solution};
+use radiosity::{Mesh, Record, Scene, Solution};
 use rayon::prelude::*;
 
 /// What is darker than this share of the mean is not lit.
@@ -44,16 +44,16 @@ pub(crate) fn lit_samples(scene: &Scene, solution: &Solution, count: usize) -> R
         let exact = sources.gather(patch, point)?.iter().sum();
         Ok(Sample { patch, point, shown: (0..scene.bands).map(shown).sum(), exact })
     };
-    let places = places(solution, count).into_par_iter().enumerate();
+    let places = places(&record.mesh(), count).into_par_iter().enumerate();
     let mut samples: Vec<Sample> = places.map(look).collect::<Result<_, Error>>()?;
     let mean = samples.iter().map(|sample| sample.exact).sum::<f64>() / samples.len().max(1) as f64;
     samples.retain(|sample| sample.exact > DARK * mean);
     Ok(samples)
 }
 
-/// For each point the element that it is on: each has as many as its area asks for.
-fn places(solution: &Solution, count: usize) -> Vec<usize> {
-    let areas: Vec<f64> = (0..solution.mesh.elements.len()).map(|at| solution.mesh.area(at)).collect();
+/// For each point the element of what is shown that it is on: each has as many as its area asks for.
+fn places(shown: &Mesh, count: usize) -> Vec<usize> {
+    let areas: Vec<f64> = (0..shown.elements.len()).map(|at| shown.area(at)).collect();
     let step = areas.iter().sum::<f64>() / count as f64;
     let (mut places, mut sum) = (Vec::new(), 0.0);
     for (element, area) in areas.iter().enumerate() {

@@ -8,5 +8,6 @@ mod levels;
 mod lights;
 mod recording;
 mod resume;
+mod rough;
 mod sources;
 mod stiff;

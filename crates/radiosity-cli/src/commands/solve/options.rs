@@ -188,6 +188,8 @@ pub(super) fn options(arguments: &Solve) -> Result<Options, Failure> {
         shadows: arguments.shadows.map_or(given.shadows, usize::from),
         tolerance: arguments.tolerance.unwrap_or(given.tolerance),
         error: arguments.error.unwrap_or(given.error),
+        // Whoever says how good the bound is to be gets one as good.
+        rough: if arguments.tolerance.is_some() { 0.0 } else { given.rough },
         spread: arguments.spread.unwrap_or(given.spread),
         hemicube: arguments.hemicube,
         gather: given.gather,

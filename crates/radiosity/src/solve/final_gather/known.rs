@@ -7,8 +7,14 @@ use crate::solve::{factors::Factors, run::Run, workers::attempt};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The share of its light that a point may receive from patches that it does not look at itself.
+/// The share of its light by which a vertex may be wrong for what it receives from patches that it does not look at itself.
 const UNSEEN: f64 = 0.1;
+/// A patch that may be nearer than this share of the way to the elements' centroids is looked at.
+const NEAR: f64 = 0.5;
+/// The mean of elements may be off by so many times what they differ by,
+const UNLIKE: f64 = 2.0;
+/// and by this share of what they receive.
+const ALIKE: f64 = 0.02;
 /// What is darker than this share of the mean counts as that bright.
 const DIM: f64 = 0.01;
 
@@ -91,7 +97,9 @@ impl Known {
             add(&mut rest, *share, &self.received[element * bands..][..bands]);
         }
         for sender in self.seen(outlook, &of) {
-            self.senders[sender].shine(factors, &outlook.point, &of, light);
+            let seen = &self.senders[sender];
+            let from = if seen.emits { &outlook.point } else { &outlook.inside };
+            seen.shine(factors, from, &of, light);
             for SentPiece { radiosity, column } in &self.pieces[sender] {
                 let seen: f64 = around.iter().map(|(element, share)| share * column.factor(*element)).sum();
                 add(&mut rest, -seen, radiosity);
@@ -112,21 +120,44 @@ impl Known {
         (light - other).abs() / light.max(DIM * mean).max(f64::MIN_POSITIVE)
     }
 
-    /// The senders that a vertex looks at: lights, and from wide ones those that may bring the most. All others together bring no more than a
-    /// share of its light.
+    /// The senders that a vertex looks at: lights, and from wide ones those of which the elements around it tell the least. What it receives
+    /// of all others is wrong by no more than a share of its light.
     fn seen(&self, outlook: &Outlook, of: &[f64]) -> Vec<usize> {
-        let most = self.senders.iter().map(|sender| sender.most(&outlook.point, of)).zip(0..);
+        let risk = (0..self.senders.len()).map(|sender| (self.risk(sender, outlook, of), sender));
         let (mut seen, mut others): (Vec<_>, Vec<_>) =
-            most.filter(|(most, _)| *most > 0.0).partition(|(_, sender)| self.senders[*sender].emits);
+            risk.filter(|(risk, _)| *risk > 0.0).partition(|(_, sender)| self.senders[*sender].emits);
         if outlook.is_wide {
             others.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut sum = 0.0;
-            seen.extend(others.into_iter().filter(|(most, _)| {
-                sum += most;
+            seen.extend(others.into_iter().filter(|(risk, _)| {
+                sum += risk;
                 sum > UNSEEN
             }));
         }
         seen.into_iter().map(|(_, sender)| sender).collect()
+    }
+
+    /// How far off the mean of the elements around a vertex may be from what the vertex receives of a sender, as a share of its light: all of
+    /// it for a light, for what is near, and for a single element; else what the elements differ by is a measure.
+    fn risk(&self, sender: usize, Outlook { inside, around, reach, .. }: &Outlook, of: &[f64]) -> f64 {
+        let Sender { emits, .. } = self.senders[sender];
+        let most = self.senders[sender].most(inside, of);
+        if most == 0.0 || emits || around.len() < 2 || self.senders[sender].is_within(NEAR * reach, inside) {
+            return most;
+        }
+        let shares = around.iter().map(|(element, _)| self.share(sender, *element, of));
+        let [low, high] =
+            shares.fold([f64::INFINITY, 0.0], |[low, high], share| [low.min(share), high.max(share)]);
+        most.min(UNLIKE * (high - low) + ALIKE * high)
+    }
+
+    /// What an element receives of a sender, as the largest share of `of` in a band.
+    fn share(&self, sender: usize, element: usize, of: &[f64]) -> f64 {
+        let mut light = vec![0.0; of.len()];
+        for SentPiece { radiosity, column } in &self.pieces[sender] {
+            add(&mut light, column.factor(element), radiosity);
+        }
+        light.iter().zip(of).map(|(light, of)| light / of).fold(0.0, f64::max)
     }
 }
 

@@ -8,9 +8,9 @@
 //! bisection  elements cut in halves
 //! ```
 //!
-//! Lights, and patches that bring much, are looked at from the vertex itself: near patches piece by piece, where these are not equally bright.
-//! Of the others a vertex receives what the elements around it do. Together they bring no more than a tenth of its light, and what is wrong is
-//! a small part of that. From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
+//! Lights are looked at from the vertex itself, and so are patches that bring much, where they are near or the elements around the vertex
+//! receive unlike shares of their light: piece by piece, where these are not equally bright. Of the others a vertex receives what the elements
+//! around it do. From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
 mod bisection;
 mod known;
 mod outlook;

@@ -2,7 +2,8 @@
 use crate::error::Error;
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
-use crate::solve::{receivers::receivers, run::Run};
+use crate::solve::receivers::{AT_RIM, receivers};
+use crate::solve::run::Run;
 use formfactor::DifferentialArea;
 
 /// From vertices that have this share of the area together, only lights are looked at,
@@ -10,14 +11,22 @@ const FEW: f64 = 0.03;
 /// where each has less than this share of the mean.
 const SMALL: f64 = 0.125;
 
+/// On a rim all but lights are looked at from this share of the way into the elements: next to the rim, what touches it changes so fast that
+/// it tells little of them.
+const INSIDE: f64 = 0.03;
+
 /// A vertex that is looked from.
 #[derive(Debug)]
 pub(super) struct Outlook {
     pub(super) point: DifferentialArea,
+    /// Where all but lights are looked at from.
+    pub(super) inside: DifferentialArea,
     /// The elements around it that sent light, with their shares of the area there.
     pub(super) around: Vec<(usize, f64)>,
     /// What they receive on average, per band.
     pub(super) mean: Vec<f64>,
+    /// How far away their centroids are at most.
+    pub(super) reach: f64,
     /// Whether more is looked at than lights.
     pub(super) is_wide: bool,
 }
@@ -35,19 +44,24 @@ pub(super) fn outlooks(
             around[at].push((whole[index], mesh.area(index)));
         }
     }
-    let places = receivers(scene, mesh)?;
+    let [places, inside] = [receivers(scene, mesh, AT_RIM)?, receivers(scene, mesh, INSIDE)?];
     let outlook = |(mut around, &vertex): (Vec<(usize, f64)>, &usize)| {
-        let (element, point) = places[vertex];
+        let [(element, point), (_, inside)] = [places[vertex], inside[vertex]];
+        let patch = mesh.elements[element].patch;
         let area: f64 = around.iter().map(|(_, area)| area).sum();
         around.iter_mut().for_each(|(_, share)| *share /= area.max(f64::MIN_POSITIVE));
+        let centroids = around.iter().map(|(element, _)| run.factors.receivers[*element].position());
+        let reach = centroids.map(|centroid| centroid.distance(point.position())).fold(0.0, f64::max);
         let mean = |band: usize| {
             let received = |at: usize| run.light.irradiance[at * run.light.bands + band];
             around.iter().map(|(element, share)| share * received(*element)).sum()
         };
         Outlook {
-            point: run.factors.on_patch(point, mesh.elements[element].patch),
+            point: run.factors.on_patch(point, patch),
+            inside: run.factors.on_patch(inside, patch),
             mean: (0..run.light.bands).map(mean).collect(),
             around,
+            reach,
             is_wide: true,
         }
     };

@@ -1,10 +1,8 @@
 //! What sends light in the end: patches, their pieces and their elements, each as bright as its elements are on average.
 use crate::error::Error;
 use crate::solve::factors::{Factors, PieceShape};
-use crate::solve::light::Light;
-use formfactor::{DifferentialArea, PlanarPolygon};
-use glam::DVec3;
-use std::f64::consts::PI;
+use crate::solve::{ball::Ball, light::Light};
+use formfactor::DifferentialArea;
 use std::ops::Range;
 
 /// Parts are looked at one by one where that may change more than this share.
@@ -23,15 +21,6 @@ pub(super) struct Sender {
     ball: Ball,
     /// Whether it is a light: then every point looks at it.
     pub(super) emits: bool,
-}
-
-/// A ball around a sender.
-#[derive(Debug)]
-struct Ball {
-    middle: DVec3,
-    radius: f64,
-    normal: DVec3,
-    area: f64,
 }
 
 impl Sender {
@@ -74,7 +63,7 @@ impl Sender {
                 *spread = spread.max(off.abs());
             }
         }
-        let (ball, emits) = (Ball::around(&shape.polygon), factors.emits(&shape));
+        let (ball, emits) = (Ball::around(&shape.polygon), factors.emits(shape.patch));
         Sender { shape, radiosity, spread, parts, ball, emits }
     }
 
@@ -83,6 +72,11 @@ impl Sender {
         let brightest = self.radiosity.iter().zip(&self.spread).zip(of);
         let share = brightest.map(|((mean, spread), of)| (mean + spread) / of).fold(0.0, f64::max);
         self.ball.most_seen(point) * share
+    }
+
+    /// Whether it may be nearer to a point than that.
+    pub(super) fn is_within(&self, distance: f64, point: &DifferentialArea) -> bool {
+        self.ball.least_distance(point) < distance
     }
 
     /// Adds what a point receives, part by part where these differ by more than a share of how bright the point is.
@@ -103,34 +97,5 @@ impl Sender {
             return;
         }
         light.iter_mut().zip(&self.radiosity).for_each(|(light, sent)| *light += factor * sent);
-    }
-}
-
-impl Ball {
-    fn around(polygon: &PlanarPolygon) -> Ball {
-        let points = || polygon.loops().flatten().copied();
-        let low = points().fold(DVec3::INFINITY, DVec3::min);
-        let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let middle = low.midpoint(high);
-        let radius = points().map(|point| point.distance(middle)).fold(0.0, f64::max);
-        Ball { middle, radius, normal: polygon.normal(), area: polygon.area() }
-    }
-
-    /// A bound on the form factor: A cos θ cos θ' / (π d²) for the largest cosines and the least distance, and at most r² / d².
-    fn most_seen(&self, point: &DifferentialArea) -> f64 {
-        let way = self.middle - point.position();
-        let distance = way.length();
-        let near = (distance - self.radius).max(0.0);
-        let least = |height: f64| (height / near).clamp(0.0, 1.0);
-        let rises = way.dot(point.normal()) + self.radius;
-        let stands = self.radius - way.dot(self.normal);
-        if rises <= 0.0 || stands <= 0.0 {
-            return 0.0;
-        }
-        if near == 0.0 {
-            return 1.0;
-        }
-        let far = self.area * least(rises) * least(stands) / (PI * near * near);
-        far.min((self.radius / distance).powi(2)).min(1.0)
     }
 }

@@ -8,7 +8,7 @@ use super::tile::SQUARE;
 use super::tiling::Tiling;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
-use crate::solve::receivers::receivers;
+use crate::solve::receivers::{AT_RIM, receivers};
 use crate::solve::workers::attempt;
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
@@ -111,7 +111,7 @@ impl<'s> Sights<'s> {
             let tile = tile_of(element);
             (tile, point.owned_by(self.tiling.tiles[tile].surface))
         };
-        let points: Vec<_> = receivers(self.tiling.scene, mesh)?.into_iter().map(on_tile).collect();
+        let points: Vec<_> = receivers(self.tiling.scene, mesh, AT_RIM)?.into_iter().map(on_tile).collect();
         self.irradiance(&points, ask)
     }
 
