@@ -34,9 +34,9 @@ pub(super) struct Factors<'s> {
     rough: Option<(Rough, f64)>,
     /// What takes the place of exact factors, to compare with.
     hemicubes: Option<Hemicubes>,
-    /// The mesh in `state`.
-    mesh: u64,
-    /// Its form factors there: those of another way to find them are others.
+    /// The mesh in `state`,
+    of_mesh: u64,
+    /// and its form factors there, which depend on how they are found.
     fingerprint: u64,
     pub(super) state: &'s mut State,
 }
@@ -48,16 +48,16 @@ impl<'s> Factors<'s> {
         subdivision: &'s Subdivision,
         state: &'s mut State,
     ) -> Result<Factors<'s>, Error> {
-        let (elements, mesh) = (&subdivision.mesh, fingerprint::of_mesh(scene, subdivision));
+        let (mesh, of_mesh) = (&subdivision.mesh, fingerprint::of_mesh(scene, subdivision));
         let Occluders { polygons, of_patch: surface_of } = Occluders::join(scene);
         let receiver = |(index, element): (usize, &Element)| {
             let patch = &scene.patches[element.patch];
-            DifferentialArea::new(elements.centroid(index), patch.polygon.normal())
+            DifferentialArea::new(mesh.centroid(index), patch.polygon.normal())
                 .map(|area| area.owned_by(surface_of[element.patch]))
                 .map_err(|source| Error::Shape { patch: patch.name.clone(), source })
         };
         Ok(Factors {
-            receivers: elements.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
+            receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
             scene,
             subdivision,
             lights: Lights::new(scene, &polygons),
@@ -65,8 +65,8 @@ impl<'s> Factors<'s> {
             surface_of,
             rough: None,
             hemicubes: None,
-            mesh,
-            fingerprint: mesh,
+            of_mesh,
+            fingerprint: of_mesh,
             state,
         })
     }
@@ -94,7 +94,7 @@ impl<'s> Factors<'s> {
 
     /// Whether the state knows of this scene and mesh.
     pub(super) fn are_known(&self) -> bool {
-        self.state.knows(self.mesh)
+        self.state.knows(self.of_mesh)
     }
 
     /// Whether the column of a piece is known.
@@ -122,7 +122,7 @@ impl<'s> Factors<'s> {
     /// Keeps the form factors from all elements to one piece while memory lasts: they never change.
     pub(super) fn keep(&mut self, node: usize, factors: &[f64]) -> Arc<Column> {
         let column = Arc::new(Column::new(factors));
-        self.state.note(self.mesh);
+        self.state.note(self.of_mesh);
         self.state.keep(self.fingerprint, node, &column);
         column
     }

@@ -34,9 +34,9 @@
 //! ```
 //!
 //! The discrete system is B = E + ρ F P B: elements i receive at their centroids, F_ij is the exact form factor
-//! from element i to piece j, and P takes the mean of B over each piece (Barreto, Equations 2.5 and A.15). Conjugate
-//! gradients solve the symmetric system of the pieces' mean factors instead, in which the power adds up in both
-//! directions.
+//! from element i to piece j, but for those that [`rough`] says may be taken roughly, and P takes the mean of B over
+//! each piece (Barreto, Equations 2.5 and A.15). Conjugate gradients solve the symmetric system of the pieces' mean
+//! factors instead, in which the power adds up in both directions.
 mod ball;
 mod batches;
 mod check;

@@ -24,8 +24,8 @@ pub struct Solution {
     /// How far the mean irradiance of each patch may be from that of the scene, patches × bands, W/m²: an estimate. Only
     /// [`Method::Hierarchical`](crate::Method::Hierarchical) finds one.
     pub estimate: Option<Vec<f64>>,
-    /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, and
-    /// where computing it would take longer than the solution.
+    /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, where
+    /// form factors were taken [roughly](crate::Options::rough), and where computing it would take longer than the solution.
     pub closure: Option<f64>,
     /// The largest relative change of a form factor by closure scaling; `None` where nothing was scaled.
     pub scaling: Option<f64>,
