@@ -33,6 +33,21 @@ fn a_run_that_was_stopped_anywhere_ends_with_the_same_bits() {
 }
 
 #[test]
+fn a_run_by_hemicubes_resumes_from_its_state() {
+    let scene = lit_room();
+    let options = Options { hemicube: Some(32), ..Options::mesh(100) };
+    let whole = solved(&scene, &options);
+    let (mut state, mut shots) = (State::default(), 0);
+    let stopped = solve_from(&scene, &options, &mut state, |progress| {
+        shots = progress.shots;
+        if shots > 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(stopped.is_ok_and(|solution| !solution.converged) && !state.is_empty());
+    let resumed = solve_from(&scene, &options, &mut state, |_| ControlFlow::Continue(()));
+    assert_eq!(resumed.expect("light").radiosity, whole.radiosity);
+}
+
+#[test]
 fn a_state_of_another_scene_or_mesh_is_refused() {
     let options = Options::mesh(100);
     let mut state = State::default();
