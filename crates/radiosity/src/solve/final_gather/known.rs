@@ -138,11 +138,13 @@ impl Known {
     }
 
     /// How far off the mean of the elements around a vertex may be from what the vertex receives of a sender, as a share of its light: all of
-    /// it for a light, for what is near, and for a single element; else what the elements differ by is a measure.
-    fn risk(&self, sender: usize, Outlook { inside, around, reach, .. }: &Outlook, of: &[f64]) -> f64 {
+    /// it for a light, for what is near, and where there is one element or these were cut; else what the elements differ by is a measure.
+    fn risk(&self, sender: usize, outlook: &Outlook, of: &[f64]) -> f64 {
+        let Outlook { inside, around, reach, is_of_cut, .. } = outlook;
         let Sender { emits, .. } = self.senders[sender];
         let most = self.senders[sender].most(inside, of);
-        if most == 0.0 || emits || around.len() < 2 || self.senders[sender].is_within(NEAR * reach, inside) {
+        let tells_little = emits || *is_of_cut || around.len() < 2;
+        if most == 0.0 || tells_little || self.senders[sender].is_within(NEAR * reach, inside) {
             return most;
         }
         let shares = around.iter().map(|(element, _)| self.share(sender, *element, of));

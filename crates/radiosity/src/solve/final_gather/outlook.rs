@@ -29,6 +29,8 @@ pub(super) struct Outlook {
     pub(super) reach: f64,
     /// Whether more is looked at than lights.
     pub(super) is_wide: bool,
+    /// Whether it is a vertex of cuts: elements that had to be cut tell little of what it receives.
+    pub(super) is_of_cut: bool,
 }
 
 /// The outlooks from some vertices of a mesh, in ascending order. Its elements are parts of those of the run, `whole`.
@@ -63,6 +65,7 @@ pub(super) fn outlooks(
             around,
             reach,
             is_wide: true,
+            is_of_cut: vertex >= run.factors.subdivision.mesh.vertices.len(),
         }
     };
     Ok(around.into_iter().zip(vertices).map(outlook).collect())
