@@ -27,7 +27,7 @@ impl Ball {
         let way = self.middle - point.position();
         let cosines = way.dot(point.normal()).max(0.0) * (-way.dot(self.normal)).max(0.0);
         let square = way.length_squared();
-        (self.area * cosines / (square * (PI * square + self.area))).min(self.most_seen(point))
+        (self.area / (PI * square + self.area) * (cosines / square)).min(self.most_seen(point))
     }
 
     /// How near to a point it may come.

@@ -2,7 +2,7 @@
 use super::{
     final_gather::gather, follow::follow, hemicube::Hemicubes, ledger::gaps, options::Method, relax::relax,
 };
-use super::{run::Run, shoot::Shooting, shoot::shoot, shooters::Shooters, solution::Solution};
+use super::{rough::Rough, run::Run, shoot::Shooting, shoot::shoot, shooters::Shooters, solution::Solution};
 use crate::error::Error;
 use crate::scene::{Scene, patch::Patch};
 
@@ -28,7 +28,7 @@ impl Run<'_> {
             return Ok(false);
         }
         if self.shoots_alone(scene) {
-            return Ok(shoot(self, usize::MAX)? == Shooting::Converged);
+            return Ok(self.take_roughly(scene)? && shoot(self, usize::MAX)? == Shooting::Converged);
         }
         if self.may_be_stiff() && self.options.method == Method::Mesh {
             // Whether a room is closed takes the columns of all its patches: as many shots may do.
@@ -44,11 +44,17 @@ impl Run<'_> {
         }
     }
 
-    /// Takes small form factors roughly, where that is asked for and no room's closure is to be found.
-    pub(super) fn take_roughly(&mut self, scene: &Scene) -> Result<(), Error> {
-        let share = self.options.rough;
+    /// Takes small form factors roughly where that is asked for; false when the watcher wants to stop.
+    fn take_roughly(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let (share, count) = (self.options.rough, self.factors.receivers.len());
         let is_asked = share > 0.0 && self.options.hemicube.is_none();
-        if is_asked && self.shoots_alone(scene) { self.factors.take_roughly(share) } else { Ok(()) }
+        let Some(mut rough) = Rough::among(scene, count, share).filter(|_| is_asked) else { return Ok(true) };
+        rough.limits = self.in_batches(count, |run, some| rough.limits(&run.factors.receivers[some]))?;
+        let goes_on = rough.limits.len() == count;
+        if goes_on {
+            self.factors.take_roughly(rough);
+        }
+        Ok(goes_on)
     }
 
     /// Whether shooting solves the scene, whichever rooms it has.

@@ -30,8 +30,8 @@ pub(super) struct Factors<'s> {
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
     pub(super) receivers: Vec<DifferentialArea>,
-    /// What is taken roughly, and the share of an element's view that it fills at most.
-    rough: Option<(Rough, f64)>,
+    /// What is taken roughly.
+    rough: Option<Rough>,
     /// What takes the place of exact factors, to compare with.
     hemicubes: Option<Hemicubes>,
     /// The mesh in `state`,
@@ -77,19 +77,15 @@ impl<'s> Factors<'s> {
         self.fingerprint ^= u64::from(resolution);
     }
 
-    /// Takes what fills no more than a share of an element's view roughly from now on.
-    pub(super) fn take_roughly(&mut self, share: f64) -> Result<(), Error> {
-        let rough = Rough::find(self.scene, &self.receivers, share)?;
-        self.rough = rough.map(|rough| (rough, share));
-        if self.rough.is_some() {
-            self.fingerprint ^= fingerprint::of_emitters(self.scene, share);
-        }
-        Ok(())
+    /// Takes small form factors roughly from now on.
+    pub(super) fn take_roughly(&mut self, rough: Rough) {
+        self.fingerprint ^= fingerprint::of_emitters(self.scene, rough.share);
+        self.rough = Some(rough);
     }
 
     /// The share of an element's view that is taken roughly at most.
     pub(super) fn rough_share(&self) -> f64 {
-        self.rough.as_ref().map_or(0.0, |(_, share)| *share)
+        self.rough.as_ref().map_or(0.0, |rough| rough.share)
     }
 
     /// Whether the state knows of this scene and mesh.
@@ -175,9 +171,7 @@ impl<'s> Factors<'s> {
             assert_ne!(self.state.trap, Some(piece.patch), "injected");
             let from = &self.receivers[element];
             match &self.rough {
-                Some((rough, _)) if rough.is_small(element, from, piece.patch) => {
-                    self.glance(from, &ball, middle)
-                }
+                Some(rough) if rough.is_small(element, from, piece.patch) => self.glance(from, &ball, middle),
                 _ => self.factor(from, piece),
             }
         })

@@ -134,7 +134,6 @@ pub fn solve_from(
         let subdivision = Subdivision::new(scene, &plan)?;
         in_time()?;
         let mut run = Run::new(scene, options, start, &subdivision, state, &mut watch)?;
-        run.take_roughly(scene)?;
         if passes_left == options.passes {
             run.recognise()?;
         }

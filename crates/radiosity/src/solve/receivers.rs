@@ -1,25 +1,38 @@
 //! Where the light of vertices is gathered.
 use crate::error::Error;
 use crate::mesh::element::Mesh;
-use crate::scene::Scene;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::DifferentialArea;
 use glam::DVec3;
 use std::collections::BTreeSet;
 
-/// The share of the way that changes no light but that of what touches the rim.
+/// The share of the way inside that changes no light but that of what touches the rim.
 pub(super) const AT_RIM: f64 = 1e-3;
 
-/// A receiver for every vertex, and one of the elements around it; on the rim of a patch, and at the foot of what stands on it, that share
-/// of the way to the middle of these elements: F is discontinuous at the feet of walls, and there the limit from the vertex's own side is
-/// wanted.
-///
-/// # Errors
-/// [`Error::Shape`] where a place is beyond what form factors take.
-pub(super) fn receivers(
-    scene: &Scene,
-    mesh: &Mesh,
-    inward: f64,
-) -> Result<Vec<(usize, DifferentialArea)>, Error> {
+/// Where the light of a vertex is gathered.
+#[derive(Debug)]
+pub(super) struct Receiver<'s> {
+    /// One of the elements around the vertex.
+    pub(super) element: usize,
+    patch: &'s Patch,
+    place: DVec3,
+    /// On the rim of a patch, and at the foot of what stands on it: to the middle of the elements around it.
+    way: DVec3,
+}
+
+impl Receiver<'_> {
+    /// At that share of the way inside: F is discontinuous at the feet of walls, and there the limit from the vertex's own side is wanted.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] where a place is beyond what form factors take.
+    pub(super) fn inside(&self, share: f64) -> Result<DifferentialArea, Error> {
+        DifferentialArea::new(self.place + share * self.way, self.patch.polygon.normal())
+            .map_err(|source| Error::Shape { patch: self.patch.name.clone(), source })
+    }
+}
+
+/// A receiver for every vertex.
+pub(super) fn receivers<'s>(scene: &'s Scene, mesh: &Mesh) -> Vec<Receiver<'s>> {
     let rim = rim(mesh);
     let mut around = vec![(DVec3::ZERO, 0.0, 0); mesh.vertices.len()];
     for (index, element) in mesh.elements.iter().enumerate() {
@@ -29,12 +42,11 @@ pub(super) fn receivers(
             around[corner] = (sum + area * (centroid - mesh.vertices[corner]), weight + area, index);
         }
     }
-    let receiver = |(vertex, (sum, weight, element)): (usize, (DVec3, f64, usize))| {
-        let way = if weight > 0.0 && rim[vertex] { sum / weight * inward } else { DVec3::ZERO };
-        let patch = &scene.patches[mesh.elements[element].patch];
-        DifferentialArea::new(mesh.vertices[vertex] + way, patch.polygon.normal())
-            .map(|area| (element, area))
-            .map_err(|source| Error::Shape { patch: patch.name.clone(), source })
+    let receiver = |(vertex, (sum, weight, element)): (usize, (DVec3, f64, usize))| Receiver {
+        element,
+        patch: &scene.patches[mesh.elements[element].patch],
+        place: mesh.vertices[vertex],
+        way: if weight > 0.0 && rim[vertex] { sum / weight } else { DVec3::ZERO },
     };
     around.into_iter().enumerate().map(receiver).collect()
 }

@@ -6,7 +6,7 @@
 use super::ball::Ball;
 use super::workers::from_all;
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::{Scene, patch::Patch};
 use formfactor::DifferentialArea;
 
 /// Among more pairs of patches and elements the small ones are not looked for: it would take longer than a first shot may.
@@ -17,30 +17,25 @@ const MOST: usize = 1 << 25;
 pub(super) struct Rough {
     /// Around each patch; nothing for one that emits.
     balls: Vec<Option<Ball>>,
+    /// The share of an element's view.
+    pub(super) share: f64,
     /// For each element, what bounds on its small form factors are below.
-    limits: Vec<f64>,
+    pub(super) limits: Vec<f64>,
 }
 
 impl Rough {
-    /// From each element, the smallest patches that fill no more than `share` of its view together, whatever hides them. Nothing among very
-    /// many pairs.
+    /// Nothing is small yet; nothing at all among very many patches and elements.
+    pub(super) fn among(scene: &Scene, elements: usize, share: f64) -> Option<Rough> {
+        let ball = |patch: &Patch| (!patch.emits()).then(|| Ball::around(&patch.polygon));
+        let are_few = scene.patches.len().saturating_mul(elements) <= MOST;
+        are_few.then(|| Rough { balls: scene.patches.iter().map(ball).collect(), share, limits: Vec::new() })
+    }
+
+    /// The limits of some elements: from each, the smallest patches fill no more than the share of its view together, whatever hides them.
     ///
     /// Takes O(n log n) for each element among n patches.
-    pub(super) fn find(
-        scene: &Scene,
-        elements: &[DifferentialArea],
-        share: f64,
-    ) -> Result<Option<Rough>, Error> {
-        if scene.patches.len().saturating_mul(elements.len()) > MOST {
-            return Ok(None);
-        }
-        let balls: Vec<_> = scene
-            .patches
-            .iter()
-            .map(|patch| (!patch.emits()).then(|| Ball::around(&patch.polygon)))
-            .collect();
-        let limits = from_all(elements, "what is small", |from| limit(&balls, from, share))?;
-        Ok(Some(Rough { balls, limits }))
+    pub(super) fn limits(&self, elements: &[DifferentialArea]) -> Result<Vec<f64>, Error> {
+        from_all(elements, "what is small", |from| limit(&self.balls, from, self.share))
     }
 
     /// Whether the form factors from an element to a patch, and to all parts of it, may be taken roughly.

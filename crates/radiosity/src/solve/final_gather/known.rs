@@ -153,13 +153,12 @@ impl Known {
         most.min(UNLIKE * (high - low) + ALIKE * high)
     }
 
-    /// What an element receives of a sender, as the largest share of `of` in a band.
+    /// A bound on what an element receives of a sender, as the largest share of `of` in a band.
     fn share(&self, sender: usize, element: usize, of: &[f64]) -> f64 {
-        let mut light = vec![0.0; of.len()];
-        for SentPiece { radiosity, column } in &self.pieces[sender] {
-            add(&mut light, column.factor(element), radiosity);
-        }
-        light.iter().zip(of).map(|(light, of)| light / of).fold(0.0, f64::max)
+        let most = |SentPiece { radiosity, column }: &SentPiece| {
+            column.factor(element) * radiosity.iter().zip(of).map(|(sent, of)| sent / of).fold(0.0, f64::max)
+        };
+        self.pieces[sender].iter().map(most).sum()
     }
 }
 

@@ -46,10 +46,11 @@ pub(super) fn outlooks(
             around[at].push((whole[index], mesh.area(index)));
         }
     }
-    let [places, inside] = [receivers(scene, mesh, AT_RIM)?, receivers(scene, mesh, INSIDE)?];
+    let places = receivers(scene, mesh);
     let outlook = |(mut around, &vertex): (Vec<(usize, f64)>, &usize)| {
-        let [(element, point), (_, inside)] = [places[vertex], inside[vertex]];
-        let patch = mesh.elements[element].patch;
+        let patch = mesh.elements[places[vertex].element].patch;
+        let from = |share: f64| Ok(run.factors.on_patch(places[vertex].inside(share)?, patch));
+        let (point, inside) = (from(AT_RIM)?, from(INSIDE)?);
         let area: f64 = around.iter().map(|(_, area)| area).sum();
         around.iter_mut().for_each(|(_, share)| *share /= area.max(f64::MIN_POSITIVE));
         let centroids = around.iter().map(|(element, _)| run.factors.receivers[*element].position());
@@ -58,17 +59,17 @@ pub(super) fn outlooks(
             let received = |at: usize| run.light.irradiance[at * run.light.bands + band];
             around.iter().map(|(element, share)| share * received(*element)).sum()
         };
-        Outlook {
-            point: run.factors.on_patch(point, patch),
-            inside: run.factors.on_patch(inside, patch),
+        Ok(Outlook {
+            point,
+            inside,
             mean: (0..run.light.bands).map(mean).collect(),
             around,
             reach,
             is_wide: true,
             is_of_cut: vertex >= run.factors.subdivision.mesh.vertices.len(),
-        }
+        })
     };
-    Ok(around.into_iter().zip(vertices).map(outlook).collect())
+    around.into_iter().zip(vertices).map(outlook).collect()
 }
 
 /// From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.

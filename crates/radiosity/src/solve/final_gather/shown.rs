@@ -6,10 +6,8 @@ use crate::scene::Scene;
 use crate::solve::solution::FineLight;
 use crate::solve::{interpolate::welds, light::Light};
 
-/// Elements are cut where the light inside is off a linear one by more than this share,
+/// Elements are cut where the light inside is off a linear one by more than this share.
 const LINEAR: f64 = 0.03;
-/// as long as those of more than this share of the area are.
-const WRONG: f64 = 0.05;
 
 /// A mesh and the light of its vertices.
 #[derive(Debug)]
@@ -85,18 +83,14 @@ impl Shown {
         FineLight { welds: welds(scene, &mesh), mesh, whole, vertices: self.vertices }
     }
 
-    /// The elements that are to be cut, those that are wrong over most area first; none where few are.
+    /// The elements that are to be cut, those that are wrong over most area first.
     fn worst(&self) -> Vec<usize> {
-        let mesh = &self.bisection.mesh;
-        let areas: Vec<f64> = (0..self.off.len()).map(|element| mesh.area(element)).collect();
+        let size = |element: usize| self.bisection.mesh.area(element) * self.off[element].min(1.0);
         let mut worst: Vec<(f64, usize)> = (0..self.off.len())
-            .filter(|element| self.off[*element] > LINEAR && areas[*element] > 0.0)
-            .map(|element| (areas[element] * self.off[element].min(1.0), element))
+            .filter(|element| self.off[*element] > LINEAR)
+            .map(|element| (size(element), element))
             .collect();
-        let wrong: f64 = worst.iter().map(|(_, element)| areas[*element]).sum();
-        if wrong <= WRONG * areas.iter().sum::<f64>() {
-            return Vec::new();
-        }
+        worst.retain(|(size, _)| *size > 0.0);
         worst.sort_by(|a, b| b.0.total_cmp(&a.0));
         worst.into_iter().map(|(_, element)| element).collect()
     }

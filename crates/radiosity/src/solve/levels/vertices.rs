@@ -8,7 +8,7 @@ use super::tile::SQUARE;
 use super::tiling::Tiling;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
-use crate::solve::receivers::{AT_RIM, receivers};
+use crate::solve::receivers::{AT_RIM, Receiver, receivers};
 use crate::solve::workers::attempt;
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
@@ -107,11 +107,11 @@ impl<'s> Sights<'s> {
         tile_of: impl Fn(usize) -> usize,
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
-        let on_tile = |(element, point): (usize, DifferentialArea)| {
-            let tile = tile_of(element);
-            (tile, point.owned_by(self.tiling.tiles[tile].surface))
+        let on_tile = |receiver: &Receiver<'_>| {
+            let tile = tile_of(receiver.element);
+            Ok((tile, receiver.inside(AT_RIM)?.owned_by(self.tiling.tiles[tile].surface)))
         };
-        let points: Vec<_> = receivers(self.tiling.scene, mesh, AT_RIM)?.into_iter().map(on_tile).collect();
+        let points = receivers(self.tiling.scene, mesh).iter().map(on_tile).collect::<Result<Vec<_>, _>>()?;
         self.irradiance(&points, ask)
     }
 
