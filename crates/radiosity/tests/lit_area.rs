@@ -3,8 +3,10 @@
 #[path = "gather/mod.rs"]
 mod gather;
 
-use gather::area::{lit_samples, within};
-use radiosity::{Method, Options, Quality, scenes, solve};
+use gather::area::{Sample, lit_samples, within};
+use radiosity::formfactor::PlanarPolygon;
+use radiosity::glam::DVec3;
+use radiosity::{Method, Options, Patch, Quality, Scene, scenes, solve};
 use std::ops::ControlFlow;
 
 /// The share of the lit area that is shown within 5 %, at draft on a mesh, with and without a final gather.
@@ -41,4 +43,51 @@ fn lit_spots_under_a_panel() {
 #[test]
 fn smooth_light() {
     assert_shown("obstruction", 0.99, 0.0);
+}
+
+/// A level or an upright rectangle of one band, from a corner along two edges.
+fn sheet(name: &str, corner: DVec3, [along, up]: [DVec3; 2], emission: f64) -> Patch {
+    let polygon = PlanarPolygon::new([[corner, corner + along, corner + along + up, corner + up]]);
+    Patch::new(name, polygon.expect("planar"), vec![0.6], vec![emission])
+}
+
+fn scene(patches: Vec<Patch>) -> Scene {
+    Scene { patches, bands: 1, ..Scene::default() }
+}
+
+/// The share of what is lit in a part of the scene that is shown within 5 %.
+fn share_where(scene: &Scene, elements: usize, is_there: impl Fn(&Sample) -> bool) -> f64 {
+    let options = Options { method: Method::Mesh, elements, ..Quality::Draft.options() };
+    let solution = solve(scene, &options, |_| ControlFlow::Continue(())).expect("a solution");
+    let mut samples = lit_samples(scene, &solution, 3000).expect("points");
+    samples.retain(is_there);
+    assert!(samples.len() >= 20, "{}", samples.len());
+    within(&samples, 0.05)
+}
+
+/// Around a plate that hangs before a wall, the wall has elements whose centroids see nothing, and parts of them see the room. The shadow's
+/// edge itself ends a tenth of a metre beside the plate.
+#[test]
+fn what_surrounds_a_plate_before_a_wall() {
+    let [x, y, z] = [4.0 * DVec3::X, 4.0 * DVec3::Y, 3.0 * DVec3::Z];
+    let plate = [2.0 * DVec3::Y, 1.2 * DVec3::Z];
+    let corner = DVec3::new(0.03, 1.0, 1.0);
+    let scene = scene(vec![
+        sheet("wall", DVec3::ZERO, [y, z], 0.0),
+        sheet("front", x, [z, y], 0.0),
+        sheet("left", DVec3::ZERO, [z, x], 0.0),
+        sheet("right", y, [x, z], 0.0),
+        sheet("floor", DVec3::ZERO, [x, y], 0.0),
+        sheet("ceiling", z, [y, x], 0.0),
+        sheet("lamp", DVec3::new(1.5, 1.5, 2.99), [DVec3::Y, DVec3::X], 10.0),
+        sheet("plate", corner, plate, 0.0),
+        sheet("back", corner, [plate[1], plate[0]], 0.0),
+    ]);
+    let is_around = |sample: &Sample| {
+        let [along, up] = [sample.point.y, sample.point.z];
+        let off = (along - 2.0).abs().max((up - 1.6).abs() + 0.4);
+        sample.patch == 0 && (1.1..1.4).contains(&off)
+    };
+    let share = share_where(&scene, 300, is_around);
+    assert!(share >= 0.9, "{share}");
 }

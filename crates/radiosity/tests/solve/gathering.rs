@@ -1,7 +1,8 @@
 //! The final gather on a mesh: what is shown, and the elements that are cut for it.
-use crate::build::{cube, patch, scene, solved};
+use crate::build::{cube, patch, room, scene, solved};
+use radiosity::formfactor::PlanarPolygon;
 use radiosity::glam::DVec3;
-use radiosity::{Mesh, Options, Patch, Record, Scene};
+use radiosity::{Mesh, Options, Patch, Record, Scene, Sky, SkyKind, repair};
 use std::f64::consts::PI;
 
 /// A horizontal square that looks up, or down.
@@ -89,6 +90,27 @@ fn elements_are_cut_where_light_is_not_linear() {
             assert!((sum - before).abs() < 1e-12 * before, "{sum} {before}");
         }
     }
+}
+
+/// The shadows around a block on a ground a thousand times as large are a small part of the area: they are cut all the same.
+#[test]
+fn the_ground_around_a_small_block_is_cut() {
+    let mut patches = room([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0], 1, 0.5, 0.0);
+    patches.iter_mut().for_each(turn);
+    patches.push(square("ground", [0.0; 3], 20.0, true, [0.5, 0.0]));
+    let sky = Some(Sky { radiance: vec![1.0], kind: SkyKind::Uniform });
+    let scene = Scene { sky, ..repair(&scene(patches)).scene };
+    let [gathered, plain] = [true, false].map(|gather| {
+        let solution = solved(&scene, &Options { gather, ..Options::mesh(600) });
+        Record::new("ground", &scene, &solution).elements.len()
+    });
+    assert!(gathered > plain, "{gathered} {plain}");
+}
+
+/// Turns a patch to its other side.
+fn turn(patch: &mut Patch) {
+    let loops = patch.polygon.loops().map(|points| points.iter().rev().copied().collect::<Vec<_>>());
+    patch.polygon = PlanarPolygon::new(loops).expect("planar");
 }
 
 /// For each patch the area of its elements, and the power that they send.

@@ -1,5 +1,6 @@
 //! Form factors that are taken roughly: less work, and no more error than the bound says.
 use crate::build::{patch, room, scene, solved};
+use radiosity::formfactor::PlanarPolygon;
 use radiosity::{Error, Method, Options, Quality, Scene, State, solve_from};
 use std::ops::ControlFlow;
 
@@ -67,4 +68,29 @@ fn a_rough_run_resumes_with_the_same_bits_and_an_exact_one_finds_its_own() {
         let foreign = solve_from(&scene, &finer, &mut state, |_| ControlFlow::Continue(()));
         assert!(matches!(foreign, Err(Error::Foreign)));
     }
+}
+
+#[test]
+fn the_unit_of_length_changes_nothing() {
+    let scene = plates(0.5);
+    let one = solved(&scene, &draft(3e-3));
+    for unit in [2f64.powi(-90), 2f64.powi(90)] {
+        let mut scaled = scene.clone();
+        for patch in &mut scaled.patches {
+            let loops = patch.polygon.loops();
+            let loops = loops.map(|points| points.iter().map(|point| unit * *point).collect::<Vec<_>>());
+            patch.polygon = PlanarPolygon::new(loops).expect("planar");
+        }
+        assert_eq!(solved(&scaled, &draft(3e-3)).radiosity, one.radiosity, "{unit:e}");
+    }
+}
+
+#[test]
+fn threads_change_no_bit() {
+    let scene = plates(0.5);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| solved(&scene, &draft(3e-3)).radiosity)
+    };
+    assert_eq!(with(1), with(3));
 }
