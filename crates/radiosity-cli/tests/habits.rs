@@ -160,6 +160,20 @@ fn what_was_left_out_is_told_in_one_line_and_in_the_json() {
     assert_eq!((0..4).filter_map(places).collect::<Vec<_>>(), [1, 3, 1, 1], "{figures}");
 }
 
+/// At draft small form factors are taken roughly, which leaves the closure open; not for whoever asks for a bound.
+#[test]
+fn a_tolerance_takes_no_form_factor_roughly() {
+    let folder = folder();
+    done(radiosity(folder.path(), &["scene", "cornell-box", "-o", "box.dae"], b""));
+    let closure = |more: &[&str]| {
+        let draft = ["solve", "box.dae", "--quality", "draft", "--elements", "200", "--json"];
+        let figures = done(radiosity(folder.path(), &[&draft, more].concat(), b""));
+        serde_json::from_slice::<Value>(&figures).expect("JSON")["closure"].clone()
+    };
+    assert!(closure(&[]).is_null());
+    assert!(closure(&["--tolerance", "0.01"]).is_number());
+}
+
 #[test]
 fn digits_are_those_of_the_file() {
     let folder = folder();
