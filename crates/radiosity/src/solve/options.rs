@@ -64,8 +64,9 @@ pub struct Options {
     /// [`Method::Hierarchical`] knows its errors, and it cuts patches by this alone.
     pub error: f64,
     /// What small patches far away may fill of an element's view, all of them together, for their form factors to be taken roughly where
-    /// shots are exact otherwise: as those of disks, or 0 where something hides their middles. Patches that emit, and closed
-    /// rooms that reflect much, are always exact. The bound on the error counts it.
+    /// shots are exact otherwise: as those of disks, or 0 where something hides their middles. The bound on the error counts it. Patches
+    /// that emit are always exact, and so are scenes that are lit from within and reflect 0.9 of the light somewhere, unless
+    /// [`Method::Shoot`] is asked for.
     pub rough: f64,
     /// Split a piece while its power deviates from that of a uniform piece by more than this share of the power that all
     /// pieces send.
