@@ -30,9 +30,10 @@ impl Failure {
         Failure::internal(format!("the threads cannot be started: {}; try -j 1", error.to_string()))
     }
 
-    /// The time was up before there was anything to write: exit code 4.
-    pub(crate) fn late() -> Failure {
-        Failure { code: 4, message: radiosity::Error::Time.to_string() }
+    /// The time was up before a scene was read: exit code 4.
+    pub(crate) fn unread() -> Failure {
+        let message = "the time was up before the scene was read; allow more seconds, or take a part of it";
+        Failure { code: 4, message: message.into() }
     }
 
     /// Prints the message on stderr; gives the exit code.

@@ -1,13 +1,11 @@
 //! Scenes and solutions from files, or from standard input.
 use crate::failure::Failure;
+use crate::waiting::wait;
 use clap::Args;
 use radiosity::inspect::{Finding, KindSummary, in_one_line, summary};
-use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair_until};
+use radiosity::{Record, Repaired, Scene, io::Source, needed_sides, one_sided, repair};
 use serde::Deserialize;
 use std::{io::Read, path::Path};
-
-/// So few patches are repaired in less than a second, whatever the time.
-const FEW_PATCHES: usize = 10_000;
 
 /// The name that stands for standard input and output.
 pub(crate) const STREAM: &str = "-";
@@ -38,24 +36,21 @@ pub(crate) struct RepairedInput {
     pub(crate) repairs: Vec<KindSummary>,
 }
 
-/// Reads a scene, lets `light` light it, and repairs it; prints what the reader had to say on stderr, and in a line what was repaired. Where
-/// `is_late`, scenes of very many patches are not repaired.
+/// Reads a scene, lets `light` light it, and repairs it; prints what the reader had to say on stderr, and in a line what was repaired. It is
+/// no longer waited for when it `is_late`.
 pub(crate) fn read_repaired(
     path: &Path,
     reading: Reading,
-    light: impl FnOnce(&mut Scene) -> Result<(), Failure>,
+    light: impl FnOnce(&mut Scene) -> Result<(), Failure> + Send + 'static,
     is_late: impl Fn() -> bool,
 ) -> Result<RepairedInput, Failure> {
-    let in_time = |scene: &Scene| {
-        if scene.patches.len() > FEW_PATCHES && is_late() { Err(Failure::late()) } else { Ok(()) }
+    let file = path.to_owned();
+    let work = move || {
+        let (mut scene, source) = scene_and_source(&file)?;
+        light(&mut scene)?;
+        Ok((repair(&reading.sides.of(&scene)), source))
     };
-    let (mut scene, source) = read_quietly(path)?;
-    light(&mut scene)?;
-    in_time(&scene)?;
-    scene = reading.sides.of(&scene);
-    in_time(&scene)?;
-    let repaired = repair_until(&scene, &|| in_time(&scene).is_err());
-    let Repaired { scene, repairs, .. } = repaired.ok_or_else(Failure::late)?;
+    let (Repaired { scene, repairs, .. }, source) = wait(work, is_late)?;
     if reading.strict && !repairs.is_empty() {
         return Err(refusal(path, &repairs));
     }
@@ -108,15 +103,34 @@ pub(crate) fn counts(repairs: &[KindSummary]) -> String {
     repairs.iter().map(count).collect::<Vec<_>>().join(", ")
 }
 
-/// Reads a scene as it is in its file; prints what the reader had to say on stderr.
-pub(crate) fn read(path: &Path) -> Result<(Scene, Source), Failure> {
-    let (scene, source) = read_quietly(path)?;
-    tell(path, &scene.warnings);
-    Ok((scene, source))
+/// Reads a scene, makes something `more` of it, and prints what the reader had to say on stderr. It is no longer waited for when it `is_late`.
+pub(crate) fn read<T: Send + 'static>(
+    path: &Path,
+    more: impl FnOnce(&Scene) -> T + Send + 'static,
+    is_late: impl Fn() -> bool,
+) -> Result<(Scene, Source, T), Failure> {
+    let read = read_quietly(path, more, is_late)?;
+    tell(path, &read.0.warnings);
+    Ok(read)
 }
 
-/// Reads a scene as it is in its file; what the reader had to say stays in the scene.
-pub(crate) fn read_quietly(path: &Path) -> Result<(Scene, Source), Failure> {
+/// Reads a scene, and makes something `more` of it; what the reader had to say stays in the scene. It is no longer waited for when it
+/// `is_late`.
+pub(crate) fn read_quietly<T: Send + 'static>(
+    path: &Path,
+    more: impl FnOnce(&Scene) -> T + Send + 'static,
+    is_late: impl Fn() -> bool,
+) -> Result<(Scene, Source, T), Failure> {
+    let file = path.to_owned();
+    let work = move || {
+        let (scene, source) = scene_and_source(&file)?;
+        let made = more(&scene);
+        Ok((scene, source, made))
+    };
+    wait(work, is_late)
+}
+
+fn scene_and_source(path: &Path) -> Result<(Scene, Source), Failure> {
     let source = if path == Path::new(STREAM) {
         Source::from_bytes("standard input", bytes(path)?)?
     } else {

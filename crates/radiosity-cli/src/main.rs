@@ -6,6 +6,7 @@
 //! outputs       results to files, by extension, and data to stdout
 //! view_options  how pictures are taken
 //! input         scenes and solutions from files
+//! waiting       for what cannot be stopped
 //! json          what --json prints
 //! parse         numbers on the command line
 //! digits        numbers for people
@@ -22,6 +23,7 @@ mod json;
 mod outputs;
 mod parse;
 mod view_options;
+mod waiting;
 
 fn main() -> ExitCode {
     let arguments = arguments::Arguments::of_this_run();

@@ -197,3 +197,37 @@ fn digits_are_those_of_the_file() {
     std::fs::write(folder.path().join("a.stl"), format!("solid\n{text}endsolid\n")).expect("a file");
     assert!(run(&["inspect", "a.stl"]).contains("[0.1, 0, 0] to [0.4, 0.7, 0]"));
 }
+
+/// A hilly ground of so many squares each way, cut in triangles that no plane joins.
+fn ground(count: usize) -> String {
+    let row = |i: usize| (0..=count).map(move |j| (i, j));
+    let vertex = |(i, j): (usize, usize)| format!("v {i} {j} {}\n", (i * i * 7 + i * j * 5 + j * j * 3) % 11);
+    let number = |i: usize, j: usize| i * (count + 1) + j + 1;
+    let square = |(i, j): (usize, usize)| {
+        let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+        format!("f {a} {b} {c}\nf {a} {c} {d}\n")
+    };
+    let vertices: String = (0..=count).flat_map(row).map(vertex).collect();
+    let inner = (0..count).flat_map(row).filter(|(_, j)| *j < count);
+    vertices + &inner.map(square).collect::<String>()
+}
+
+/// Half a million triangles take more than the moment that any file is given.
+#[test]
+fn a_file_that_takes_longer_to_read_than_there_is_time_is_not_waited_for() {
+    let folder = folder();
+    std::fs::write(folder.path().join("ground.obj"), ground(500)).expect("a file");
+    let commands: [&[&str]; 3] = [
+        &["inspect", "ground.obj"],
+        &["solve", "ground.obj", "-o", "light.json"],
+        &["factors", "ground.obj", "--area", "1e-3", "--row", "patch.1"],
+    ];
+    for command in commands {
+        let late = radiosity(folder.path(), &[command, &["--time", "0.1"]].concat(), b"");
+        let told = String::from_utf8_lossy(&late.stderr).into_owned();
+        assert_eq!(late.status.code(), Some(4), "{command:?}: {told}");
+        assert!(told.contains("the time was up before the scene was read"), "{command:?}: {told}");
+    }
+    let names: Vec<_> = std::fs::read_dir(folder.path()).expect("a folder").collect();
+    assert_eq!(names.len(), 1);
+}

@@ -9,6 +9,7 @@ use crate::stats::Stats;
 use glam::DVec3;
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 /// A set of polygons, each of which is a target and an occluder of the others.
 ///
@@ -35,21 +36,21 @@ pub struct Enclosure {
     /// The largest deviation of a vertex from where it stands.
     deviation: f64,
     pub(super) pool: Pool,
-    /// What form factors between areas need.
-    surfaces: Surfaces,
+    /// What form factors between areas need, once there is one.
+    surfaces: OnceLock<Surfaces>,
 }
 
 impl Enclosure {
     /// An enclosure of these polygons. A polygon's index is its id. The polygons need not enclose anything.
     ///
-    /// Takes O(n log^2 n) for n vertices.
+    /// Takes O(n log^2 n) for n vertices. The first form factor between areas takes as much again, and more where many polygons lie in a plane.
     #[must_use]
     pub fn new(polygons: Vec<PlanarPolygon>) -> Self {
         let adjacency = Adjacency::of(&polygons);
         let deviation = polygons.iter().map(PlanarPolygon::deviation).fold(0.0, f64::max);
         let tree = Tree::over(&polygons);
         Self {
-            surfaces: Surfaces::of(&polygons, &adjacency, &tree),
+            surfaces: OnceLock::new(),
             tree,
             bodies: Bodies::among(&polygons, &adjacency),
             polygons,
@@ -74,8 +75,10 @@ impl Enclosure {
         self.deviation
     }
 
+    /// Found when first asked for: form factors from points need none of it.
     pub(crate) fn surfaces(&self) -> &Surfaces {
-        &self.surfaces
+        let find = || Surfaces::of(&self.polygons, &Adjacency::of(&self.polygons), &self.tree);
+        self.surfaces.get_or_init(find)
     }
 
     /// The form factor from `from` to polygon `id`, with all other polygons as occluders.

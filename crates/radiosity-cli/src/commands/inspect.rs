@@ -41,9 +41,11 @@ pub(crate) struct Inspect {
 
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
 pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
-    let patience = Patience::new(arguments.time)?;
-    let (scene, source) = input::read_quietly(&arguments.scene)?;
-    let scene = arguments.sides.of(&scene);
+    let patience = Patience::new(arguments.time);
+    let sides = arguments.sides;
+    let (_, source, scene) =
+        input::read_quietly(&arguments.scene, move |scene| sides.of(scene), || patience.is_over())?;
+    patience.listen()?;
     let inspection = inspect_until(&scene, &|| patience.is_over());
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if inspection.stopped {

@@ -18,19 +18,25 @@ pub(super) struct Patience {
 }
 
 impl Patience {
-    /// From now on, for so many seconds; takes over Ctrl-C. A second Ctrl-C ends the program at once.
-    pub(super) fn new(seconds: Option<f64>) -> Result<Patience, Failure> {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
+    /// From now on, for so many seconds.
+    pub(super) fn new(seconds: Option<f64>) -> Patience {
+        let limit = seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
+        Patience {
+            deadline: limit.and_then(|limit| Instant::now().checked_add(limit)),
+            interrupted: Arc::default(),
+        }
+    }
+
+    /// Takes over Ctrl-C, which ends the program at once until then. A second one does so afterwards.
+    pub(super) fn listen(&self) -> Result<(), Failure> {
+        let flag = Arc::clone(&self.interrupted);
         let stop = move || {
             if flag.swap(true, Ordering::SeqCst) {
                 std::process::exit(INTERRUPTED.into());
             }
         };
         ctrlc::set_handler(stop)
-            .map_err(|error| Failure::internal(format!("Ctrl-C cannot be handled: {error}")))?;
-        let limit = seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
-        Ok(Patience { deadline: limit.and_then(|limit| Instant::now().checked_add(limit)), interrupted })
+            .map_err(|error| Failure::internal(format!("Ctrl-C cannot be handled: {error}")))
     }
 
     /// Whether to stop; asked by any thread.

@@ -71,10 +71,10 @@ pub fn repair_until(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Repaired> 
 fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>, stop: &dyn Fn() -> bool) -> Option<bool> {
     let known = findings.len();
     let is_moved = weld::weld(scene, findings);
+    findings.extend(slivers::leave_out(scene, stop)?);
     if stop() {
         return None;
     }
-    findings.extend(slivers::leave_out(scene));
     findings.extend(cut::cut(scene));
     (!stop()).then_some(is_moved || findings.len() > known)
 }

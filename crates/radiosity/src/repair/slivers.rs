@@ -10,11 +10,17 @@ use crate::scene::{
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 
-/// Leaves out slivers and spikes, and what could not be divided into elements.
-pub(super) fn leave_out(scene: &mut Scene) -> Vec<Finding> {
+/// So many patches are looked at before `stop` is asked.
+const BATCH: usize = 4096;
+
+/// Leaves out slivers and spikes, and what could not be divided into elements; nothing when `stop` says to stop.
+pub(super) fn leave_out(scene: &mut Scene, stop: &dyn Fn() -> bool) -> Option<Vec<Finding>> {
     let mut findings = Vec::new();
     let mut kept = Vec::with_capacity(scene.patches.len());
-    for mut patch in std::mem::take(&mut scene.patches) {
+    for (index, mut patch) in std::mem::take(&mut scene.patches).into_iter().enumerate() {
+        if index.is_multiple_of(BATCH) && stop() {
+            return None;
+        }
         let found = sliver(&patch).or_else(|| spike(&mut patch));
         let is_lost = found.is_some() && (sliver(&patch).is_some() || !can_be_divided(&patch.polygon));
         findings.extend(found);
@@ -23,7 +29,7 @@ pub(super) fn leave_out(scene: &mut Scene) -> Vec<Finding> {
         }
     }
     scene.patches = kept;
-    findings
+    Some(findings)
 }
 
 /// Takes the spikes off a patch; tells of them, and of a patch that nothing can be made of.

@@ -27,8 +27,9 @@ use crate::parse::positive;
 use clap::{Args, ValueEnum};
 use format::Table;
 use matrix::Found;
-use radiosity::formfactor::{DifferentialArea, Enclosure};
+use radiosity::formfactor::{DifferentialArea, Enclosure, Limits};
 use radiosity::glam::DVec3;
+use radiosity::inspect::Finding;
 use radiosity::io::Source;
 use radiosity::{Scene, inspect, io};
 use row::Row;
@@ -88,15 +89,15 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     let format = if arguments.json { Format::Json } else { arguments.format };
     check(arguments, format)?;
     // Reading counts. Factors from points are quick, and Ctrl-C ends them.
-    let patience = arguments.area.map(|_| Patience::new(arguments.time)).transpose()?;
-    let (scene, source) = input::read(&arguments.scene)?;
+    let patience = arguments.area.map(|_| Patience::new(arguments.time));
+    let is_late = || patience.as_ref().is_some_and(Patience::is_over);
+    let (scene, source, (enclosure, overlaps)) =
+        input::read(&arguments.scene, enclosed(arguments.area), is_late)?;
+    patience.iter().try_for_each(Patience::listen)?;
     let output = arguments.output.as_deref().filter(|path| !is_stream(path));
-    let enclosure = Enclosure::new(scene.patches.iter().map(|patch| patch.polygon.clone()).collect());
-    if arguments.area.is_some() {
-        inspect::coplanar_overlaps(&scene).iter().for_each(|finding| {
-            eprintln!("warning: {}: {finding}", finding.patches.join(" and "));
-        });
-    }
+    overlaps.iter().for_each(|finding| {
+        eprintln!("warning: {}: {finding}", finding.patches.join(" and "));
+    });
     let found = match (arguments.area, &patience) {
         (Some(tolerance), Some(patience)) if is_matrix(arguments) => {
             let request = match &source {
@@ -135,6 +136,20 @@ pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
         pairs::forget(output);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The patches of a scene as they see each other; for factors from area to area with all that these need, and with the overlaps.
+fn enclosed(area: Option<f64>) -> impl FnOnce(&Scene) -> (Enclosure, Vec<Finding>) + Send + 'static {
+    move |scene| {
+        let polygons = scene.patches.iter().map(|patch| patch.polygon.clone()).collect();
+        let enclosure = Enclosure::new(polygons);
+        let Some(tolerance) = area.filter(|_| !scene.patches.is_empty()) else {
+            return (enclosure, Vec::new());
+        };
+        // The first factor finds what all need, before it looks at its limits.
+        let _ = enclosure.exchange_row(0, tolerance, &Limits { stop: &|| true, ..Limits::default() });
+        (enclosure, inspect::coplanar_overlaps(scene))
+    }
 }
 
 /// Whether it is the whole matrix from area to area.

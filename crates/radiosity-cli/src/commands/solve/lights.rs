@@ -10,7 +10,7 @@ use std::{collections::BTreeSet, path::PathBuf, str::FromStr, sync::Arc};
 const NAMES: usize = 12;
 
 /// Options of lights.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(super) struct LightOptions {
     /// The sky: uniform or overcast, with the radiance L of its zenith where that is not 1, or none. A scene without any light gets
     /// `uniform` if this is not given

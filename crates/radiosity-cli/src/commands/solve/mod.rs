@@ -41,15 +41,16 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     }
     let (start, mut options) = (Instant::now(), options(arguments)?);
     let outputs = Output::all(&arguments.output, &arguments.format)?;
-    let lit = |scene: &mut Scene| light(scene, &arguments.lights);
+    let lights = arguments.lights.clone();
+    let lit = move |scene: &mut Scene| light(scene, &lights);
     let is_late = || arguments.time.is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
     let input = input::read_repaired(&arguments.scene, arguments.reading, lit, is_late)?;
-    let scene = &input.scene;
+    let (scene, read) = (&input.scene, start.elapsed());
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
-    // Reading and repair count.
-    options.max_seconds = options.max_seconds.map(|limit| (limit - start.elapsed().as_secs_f64()).max(0.0));
+    // Reading and repair count, and so does writing, which takes about as long.
+    options.max_seconds = options.max_seconds.map(|limit| (limit - 2.0 * read.as_secs_f64()).max(0.0));
     let solution = radiosity::solve_from(scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
