@@ -67,7 +67,7 @@
 //!
 //! **The quick route.** Most form factors never get that far. A route in plain doubles (`quick`) clips each edge against the cones
 //! that dA spans with the other polygons, or with convex pieces of those that are not convex. Every sign comes with a bound on
-//! its error; where one is open, exact turns decide, or the stages above. Of closed convex bodies only the near side is looked at. An
+//! its error; where one is open, exact turns decide, or the stages above. Of bodies only the near side is looked at. An
 //! [`Enclosure`] finds the occluders in a tree of boxes. [`Stats`] counts what was left out.
 //!
 //! **Cancellation.** The terms of the contour sum cancel for small, far and sliver targets. Where an unoccluded target's sum

@@ -101,9 +101,12 @@ fn of_a_closed_body_only_the_near_side_is_looked_at() {
     let (silhouette, near) = polygons(near).form_factor_with_stats(&from, 0);
     assert_eq!(whole, silhouette);
     assert_eq!((stats.looked_at, stats.csg_edges, near.looked_at), (2, 0, 2));
-    // With a hole in it it is no body: the far side counts.
+    // Through a hole that faces dA the far side is seen, so that it counts. One that faces away changes nothing.
     let open = polygons(solid[..5].to_vec()).form_factor_with_stats(&from, 0);
     assert_eq!(open.1.looked_at, 5);
+    let (behind, stats) =
+        polygons(solid[..1].iter().chain(&solid[2..]).cloned().collect()).form_factor_with_stats(&from, 0);
+    assert_eq!((behind, stats.looked_at), (whole, 2));
 }
 
 #[test]
@@ -114,14 +117,14 @@ fn a_face_of_a_closed_body_is_not_looked_for_behind_the_others() {
     let room = |solid: &[PlanarPolygon]| Enclosure::new([solid, std::slice::from_ref(&board)].concat());
     for face in 0..solid.len() {
         let (closed, stats) = room(&solid).form_factor_with_stats(&from, face);
-        // With a hole in it, it is no body, and every other face is looked at.
+        // With a hole in it that faces away, still no more is looked at than what faces dA.
         let mut open = solid.clone();
         open.swap_remove(if face == 5 { 4 } else { 5 });
         let (alone, all) = room(&open).form_factor_with_stats(&from, face.min(4));
         assert_eq!(closed, alone);
         let is_seen = all.looked_at > 0;
         assert_eq!(stats.looked_at, u64::from(is_seen), "the board alone");
-        assert_eq!(all.looked_at, if is_seen { 5 } else { 0 });
+        assert_eq!(all.looked_at, if is_seen { 2 } else { 0 }, "the board and the other side that dA sees");
     }
     // It sees the underside and one side.
     let seen = (0..6).filter(|face| room(&solid).form_factor(&from, *face).value > 0.0).count();

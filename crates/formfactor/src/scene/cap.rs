@@ -45,9 +45,9 @@ const MOST_CORNERS: usize = 128;
 const MOST_LIDS: usize = 16;
 
 /// A corner's bits.
-type Bits = [u64; 3];
+pub(super) type Bits = [u64; 3];
 
-fn bits(p: DVec3) -> Bits {
+pub(super) fn bits(p: DVec3) -> Bits {
     p.to_array().map(f64::to_bits)
 }
 

@@ -1,10 +1,17 @@
 //! Enclosures: many polygons that see and hide each other.
-use super::{body::Bodies, pool::Pool, shaft::Shaft, shell::Adjacency, surfaces::Surfaces, tree::Tree};
+use super::{
+    body::{Around, Bodies},
+    pool::Pool,
+    shaft::Shaft,
+    shell::Adjacency,
+    surfaces::Surfaces,
+    tree::Tree,
+};
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
 use crate::pipeline::{self, Reach};
-use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
+use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
 use std::borrow::Cow;
@@ -188,7 +195,8 @@ impl Enclosure {
         if self.is_edge_on(from, id) || whole.plane().side_of(from.position()) != Ordering::Greater {
             return (FormFactor::default(), part.points()[0]);
         }
-        let occluders: Vec<&PlanarPolygon> = self.others(from, id, among.iter().copied()).collect();
+        let occluders: Vec<&PlanarPolygon> =
+            self.others(from, id, among.iter().copied(), |_| false).collect();
         self.pool.lend(|buffers| with_centroid(from, &self.on_plane(id, part), &occluders, buffers))
     }
 
@@ -226,7 +234,11 @@ impl Enclosure {
             return (unseen(from, whole), unhidden);
         }
         self.pool.lend(|buffers| {
-            let occluders = |reach: &Reach| self.others(from, id, candidates(reach));
+            let occluders = |reach: &Reach| {
+                let found = candidates(reach);
+                let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
+                self.others(from, id, found, outside).collect::<Vec<_>>()
+            };
             (pipeline::past(from, &self.on_plane(id, part), occluders, within, buffers), buffers.stats)
         })
     }
@@ -264,21 +276,22 @@ impl Enclosure {
         self.past_any_of(from, id, &self.polygons[id], |_| near.iter().copied(), None).0
     }
 
-    /// Those of the polygons that can hide polygon `id`.
+    /// Those of the polygons that can hide polygon `id`; nothing in boxes that are `outside` can.
     pub(super) fn others(
         &self,
         from: &DifferentialArea,
         id: usize,
         found: impl IntoIterator<Item = usize>,
+        outside: impl Fn(&Extent) -> bool,
     ) -> impl Iterator<Item = &PlanarPolygon> {
-        let mut last = None;
+        let mut around = Around::default();
         // Left out are polygons seen edge-on, faces of the target's own body, which is behind the target, and the far sides of
         // other bodies, which hide nothing that the near sides do not.
         let can_hide = move |i: &usize| {
             *i != id
                 && !self.bodies.is_one(id, *i)
                 && !self.is_edge_on(from, *i)
-                && !self.bodies.is_far_side(&self.polygons, from, *i, &mut last)
+                && !self.bodies.is_far_side(&self.polygons, from, *i, &outside, &mut around)
         };
         found.into_iter().filter(can_hide).map(|i| &self.polygons[i])
     }

@@ -3,7 +3,7 @@ use super::enclosure::Enclosure;
 use super::line::LineOfSight;
 use crate::numeric::predicates::place;
 use crate::quick::{self, target::Target};
-use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
+use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use crate::visible_part::{VisiblePart, seen_past};
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -19,8 +19,8 @@ impl Enclosure {
         let part = self.on_plane(id, part);
         let deviation = self.deviation() + part.deviation();
         seen_past(from, &part, |pyramid| {
-            let near = self.tree().find(|extent| pyramid.misses_box(extent, deviation));
-            self.others(from, id, near).collect::<Vec<_>>()
+            let outside = |extent: &Extent| pyramid.misses_box(extent, deviation);
+            self.others(from, id, self.tree().find(outside), outside).collect::<Vec<_>>()
         })
     }
 
@@ -57,8 +57,8 @@ impl Enclosure {
             return Vec::new();
         }
         let occluders = |target: &Target| {
-            let found = self.tree().find(|extent| target.misses_box(extent, self.deviation()));
-            self.others(from, id, found)
+            let outside = |extent: &Extent| target.misses_box(extent, self.deviation());
+            self.others(from, id, self.tree().find(outside), outside).collect::<Vec<_>>()
         };
         let quickly = self.pool.lend(|buffers| {
             let found = quick::boundary(from, &self.on_plane(id, part), occluders, &mut buffers.quick);

@@ -16,6 +16,11 @@ impl Extent {
         points.iter().fold(Self::NOTHING, |all, p| all.with(Self { low: *p, high: *p }))
     }
 
+    /// The box, larger by so much on each side.
+    pub(crate) fn grown(self, by: f64) -> Self {
+        Self { low: self.low - by, high: self.high + by }
+    }
+
     /// Whether two boxes have no point in common.
     pub(crate) fn misses(&self, other: &Self) -> bool {
         self.low.cmpgt(other.high).any() || other.low.cmpgt(self.high).any()
