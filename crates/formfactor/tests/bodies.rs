@@ -99,7 +99,9 @@ fn block() -> impl Strategy<Value = Block> {
 }
 
 /// Where dA is: on a polygon, as many eighths along its first two sides, or at a place in eighths that may lie on anything.
-fn place() -> impl Strategy<Value = (Option<(usize, [i32; 2])>, [i32; 3], [i32; 3])> {
+type Place = (Option<(usize, [i32; 2])>, [i32; 3], [i32; 3]);
+
+fn place() -> impl Strategy<Value = Place> {
     let on = prop::option::of((0usize..200, prop::array::uniform2(1i32..=3)));
     (on, prop::array::uniform3(-8i32..=32), prop::array::uniform3(-2i32..=2))
 }
@@ -108,10 +110,7 @@ fn eighths(at: [i32; 3]) -> DVec3 {
     DVec3::from_array(at.map(|eighths| f64::from(eighths) / 8.0))
 }
 
-fn check(
-    block: &Block,
-    (on, at, normal): (Option<(usize, [i32; 2])>, [i32; 3], [i32; 3]),
-) -> Result<(), TestCaseError> {
+fn check(block: &Block, (on, at, normal): Place) -> Result<(), TestCaseError> {
     let polygons = block.polygons();
     prop_assume!(!polygons.is_empty() && normal != [0; 3]);
     let from = match on.map(|(index, at)| (index % polygons.len(), at)) {

@@ -145,8 +145,8 @@ fn convex(polygons: &[PlanarPolygon], adjacency: &Adjacency) -> Vec<Option<usize
 fn face(polygons: &[PlanarPolygon], body: &Body, id: usize, number: usize) -> Option<BodyFace> {
     let polygon = &polygons[id];
     let extent = Extent::around(polygon.points());
-    let near = body.near(polygons, |other| other.misses(&extent));
-    if !near.iter().all(|other| std::ptr::eq(*other, polygon) || is_clear(polygon, other)) {
+    let mut near = body.near(polygons, |other| other.misses(&extent));
+    if !near.all(|other| std::ptr::eq(other, polygon) || is_clear(polygon, other)) {
         return None;
     }
     let is_before = |lid: &PlanarPolygon| {
@@ -165,10 +165,10 @@ fn turns_before(polygons: &[PlanarPolygon], body: &Body, face: &PlanarPolygon) -
     let size = piece.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
     let step = face.normal() * (STEP * size + 8.0 * rounding_of([middle]));
     let line = LineOfSight::between(middle + step, middle - step);
-    let met = body.near(polygons, |extent| line.misses_box(extent));
+    let mut met = body.near(polygons, |extent| line.misses_box(extent));
     let is_level =
         |other: &PlanarPolygon| other.plane().corners.iter().all(|p| face.plane().side_of(*p).is_eq());
-    let is_free = met.iter().all(|other| is_level(other) || !line.is_blocked_by(other));
+    let is_free = met.all(|other| is_level(other) || !line.is_blocked_by(other));
     let turns = || body.turns_around(polygons, middle + step, None);
     (is_free && line.is_blocked_by(face)).then(turns).flatten()
 }
