@@ -290,8 +290,8 @@ impl Enclosure {
         let can_hide = move |i: &usize| {
             *i != id
                 && !self.bodies.is_one(id, *i)
-                && !self.is_edge_on(from, *i)
                 && !self.bodies.is_far_side(&self.polygons, from, *i, &outside, &mut around)
+                && !self.is_edge_on(from, *i)
         };
         found.into_iter().filter(can_hide).map(|i| &self.polygons[i])
     }
