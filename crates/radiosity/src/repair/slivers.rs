@@ -18,7 +18,7 @@ pub(super) fn leave_out(scene: &mut Scene, stop: &dyn Fn() -> bool) -> Option<Ve
     let mut findings = Vec::new();
     let mut kept = Vec::with_capacity(scene.patches.len());
     for (index, mut patch) in std::mem::take(&mut scene.patches).into_iter().enumerate() {
-        if index.is_multiple_of(BATCH) && stop() {
+        if index % BATCH == 0 && stop() {
             return None;
         }
         let found = sliver(&patch).or_else(|| spike(&mut patch));

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::solve::state::{Column, KEPT};
 use crate::solve::{factors::Factors, run::Run, workers::attempt};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The share of its light by which a vertex may be wrong for what it receives from patches that it does not look at itself.
@@ -28,6 +29,20 @@ pub(super) struct Known {
     received: Vec<f64>,
     /// The mean irradiance, per band.
     mean: Vec<f64>,
+}
+
+/// What a vertex receives, and what it was looked at for that.
+#[derive(Debug, Default)]
+pub(super) struct Look {
+    /// Per band, and what of it comes from patches.
+    pub(super) light: Vec<f64>,
+    reflected: Vec<f64>,
+    /// The elements around it, with their shares.
+    around: Vec<(usize, f64)>,
+    /// The senders that it looks at, in ascending order.
+    seen: Vec<usize>,
+    /// What these bring, senders × bands.
+    brought: Vec<f64>,
 }
 
 /// A piece of a patch.
@@ -74,38 +89,71 @@ impl Known {
         self.senders.len() - 1
     }
 
-    /// What vertices receive, for each and each band.
-    pub(super) fn look(&self, run: &Run<'_>, outlooks: &[Outlook]) -> Result<Vec<Vec<f64>>, Error> {
+    /// What vertices receive, and see. Of those between two `looks` these tell.
+    pub(super) fn look(
+        &self,
+        run: &Run<'_>,
+        outlooks: &[Outlook],
+        looks: &BTreeMap<usize, Look>,
+    ) -> Result<Vec<Look>, Error> {
         let factors = &run.factors;
         let points: Vec<_> = outlooks.iter().map(|outlook| outlook.point).collect();
         let straight = factors.straight(&points)?;
         let at = |(outlook, [lamps, beyond]): (&Outlook, &[Vec<f64>; 2])| {
-            let mut light: Vec<f64> =
-                lamps.iter().zip(beyond).map(|(lamps, beyond)| lamps + beyond).collect();
-            self.add_reflected(factors, outlook, &mut light);
-            light
+            let ends = outlook.ends.and_then(|[a, b]| Some([looks.get(&a)?, looks.get(&b)?]));
+            let mut look = self.reflected(factors, outlook, ends);
+            look.light = (0..look.reflected.len())
+                .map(|band| lamps[band] + beyond[band] + look.reflected[band])
+                .collect();
+            look
         };
         attempt("the final gather", || outlooks.par_iter().zip(&straight).map(at).collect())
     }
 
-    /// Adds what a vertex receives of patches: what the elements around it do, but for those that it looks at itself.
-    fn add_reflected(&self, factors: &Factors<'_>, outlook: &Outlook, light: &mut [f64]) {
-        let (bands, around) = (light.len(), &outlook.around);
+    /// What a vertex receives of patches: what the elements around it do, or the ends of what was an edge on average, but for those that it
+    /// looks at itself.
+    fn reflected(&self, factors: &Factors<'_>, outlook: &Outlook, ends: Option<[&Look; 2]>) -> Look {
         let of = self.at_least(&outlook.mean);
-        let mut rest = vec![0.0; bands];
-        for (element, share) in around {
-            add(&mut rest, *share, &self.received[element * bands..][..bands]);
+        let known = Look { around: outlook.around.clone(), ..Look::default() };
+        let from: Vec<(&Look, f64)> = match ends {
+            Some(ends) => ends.map(|end| (end, 0.5)).to_vec(),
+            None => vec![(&known, 1.0)],
+        };
+        let mut rest = vec![0.0; of.len()];
+        match ends {
+            Some(ends) => ends.iter().for_each(|end| add(&mut rest, 0.5, &end.reflected)),
+            None => outlook.around.iter().for_each(|(element, share)| {
+                add(&mut rest, *share, &self.received[element * of.len()..][..of.len()]);
+            }),
         }
-        for sender in self.seen(outlook, &of) {
-            let seen = &self.senders[sender];
-            let from = if seen.emits { &outlook.point } else { &outlook.inside };
-            seen.shine(factors, from, &of, light);
-            for SentPiece { radiosity, column } in &self.pieces[sender] {
-                let seen: f64 = around.iter().map(|(element, share)| share * column.factor(*element)).sum();
-                add(&mut rest, -seen, radiosity);
-            }
+        let (mut seen, mut light) = (self.seen(outlook, ends, &of), Vec::new());
+        seen.sort_unstable();
+        let mut reflected = vec![0.0; of.len()];
+        for &sender in &seen {
+            let looked_at = &self.senders[sender];
+            let point = if looked_at.emits { &outlook.point } else { &outlook.inside };
+            let mut brought = vec![0.0; of.len()];
+            looked_at.shine(factors, point, &of, &mut brought);
+            add(&mut reflected, 1.0, &brought);
+            light.extend(brought);
+            from.iter().for_each(|(look, share)| add(&mut rest, -share, &self.brought(look, sender)));
         }
-        light.iter_mut().zip(rest).for_each(|(light, rest)| *light += rest.max(0.0));
+        reflected.iter_mut().zip(rest).for_each(|(reflected, rest)| *reflected += rest.max(0.0));
+        Look { light: Vec::new(), reflected, around: known.around, seen, brought: light }
+    }
+
+    /// What a sender brings to where it was looked from, or what it brings to the elements around, per band.
+    fn brought(&self, look: &Look, sender: usize) -> Vec<f64> {
+        let bands = self.mean.len();
+        if let Ok(at) = look.seen.binary_search(&sender) {
+            return look.brought[at * bands..][..bands].to_vec();
+        }
+        let mut light = vec![0.0; bands];
+        for SentPiece { radiosity, column } in &self.pieces[sender] {
+            let seen: f64 = look.around.iter().map(|(element, share)| share * column.factor(*element)).sum();
+            add(&mut light, seen, radiosity);
+        }
+        light
     }
 
     /// How bright something is, per band, but no less than what counts.
@@ -122,8 +170,8 @@ impl Known {
 
     /// The senders that a vertex looks at: lights, and from wide ones those of which the elements around it tell the least. What it receives
     /// of all others is wrong by no more than a share of its light.
-    fn seen(&self, outlook: &Outlook, of: &[f64]) -> Vec<usize> {
-        let risk = (0..self.senders.len()).map(|sender| (self.risk(sender, outlook, of), sender));
+    fn seen(&self, outlook: &Outlook, ends: Option<[&Look; 2]>, of: &[f64]) -> Vec<usize> {
+        let risk = (0..self.senders.len()).map(|sender| (self.risk(sender, outlook, ends, of), sender));
         let (mut seen, mut others): (Vec<_>, Vec<_>) =
             risk.filter(|(risk, _)| *risk > 0.0).partition(|(_, sender)| self.senders[*sender].emits);
         if outlook.is_wide {
@@ -137,27 +185,28 @@ impl Known {
         seen.into_iter().map(|(_, sender)| sender).collect()
     }
 
-    /// How far off the mean of the elements around a vertex may be from what the vertex receives of a sender, as a share of its light: all of
-    /// it for a light, for what is near, and where there is one element or these were cut; else what the elements differ by is a measure.
-    fn risk(&self, sender: usize, outlook: &Outlook, of: &[f64]) -> f64 {
-        let Outlook { inside, around, reach, is_of_cut, .. } = outlook;
+    /// How far off what is known may be from what a vertex receives of a sender, as a share of its light: all of it for a light, for what is
+    /// near, and where one element tells it or these were cut; else what the elements, and the ends, differ by is a measure.
+    fn risk(&self, sender: usize, outlook: &Outlook, ends: Option<[&Look; 2]>, of: &[f64]) -> f64 {
+        let Outlook { inside, around, reach, .. } = outlook;
         let Sender { emits, .. } = self.senders[sender];
         let most = self.senders[sender].most(inside, of);
-        let tells_little = emits || *is_of_cut || around.len() < 2;
-        if most == 0.0 || tells_little || self.senders[sender].is_within(NEAR * reach, inside) {
+        let is_told = ends.is_some() || (outlook.ends.is_none() && around.len() > 1);
+        if most == 0.0 || emits || !is_told || self.senders[sender].is_within(NEAR * reach, inside) {
             return most;
         }
-        let shares = around.iter().map(|(element, _)| self.share(sender, *element, of));
-        let [low, high] =
-            shares.fold([f64::INFINITY, 0.0], |[low, high], share| [low.min(share), high.max(share)]);
+        let of_elements = around.iter().map(|(element, _)| self.share(sender, *element, of));
+        let of_ends = ends.into_iter().flatten().map(|end| largest(&self.brought(end, sender), of));
+        let [low, high] = of_elements
+            .chain(of_ends)
+            .fold([f64::INFINITY, 0.0], |[low, high], share| [low.min(share), high.max(share)]);
         most.min(UNLIKE * (high - low) + ALIKE * high)
     }
 
     /// A bound on what an element receives of a sender, as the largest share of `of` in a band.
     fn share(&self, sender: usize, element: usize, of: &[f64]) -> f64 {
-        let most = |SentPiece { radiosity, column }: &SentPiece| {
-            column.factor(element) * radiosity.iter().zip(of).map(|(sent, of)| sent / of).fold(0.0, f64::max)
-        };
+        let most =
+            |SentPiece { radiosity, column }: &SentPiece| column.factor(element) * largest(radiosity, of);
         self.pieces[sender].iter().map(most).sum()
     }
 }
@@ -170,6 +219,11 @@ impl SentPiece {
             add(&mut received[element * bands..][..bands], factor, &self.radiosity);
         }
     }
+}
+
+/// The largest share of a band.
+fn largest(light: &[f64], of: &[f64]) -> f64 {
+    light.iter().zip(of).map(|(light, of)| light / of).fold(0.0, f64::max)
 }
 
 /// Adds a share of the light of each band.

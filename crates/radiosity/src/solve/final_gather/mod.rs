@@ -10,7 +10,7 @@
 //!
 //! Lights are looked at from the vertex itself, and so are patches that bring much, where they are near or the elements around the vertex
 //! receive unlike shares of their light: piece by piece, where these are not equally bright. Of the others a vertex receives what the elements
-//! around it do. From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
+//! around it do. A vertex between two that were looked from looks only at what these and the elements receive unlike shares of. From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
 mod bisection;
 mod known;
 mod outlook;
@@ -20,9 +20,10 @@ mod shown;
 use super::{interpolate::Means, run::Run, solution::FineLight};
 use crate::error::Error;
 use crate::scene::Scene;
-use known::Known;
+use known::{Known, Look};
 use outlook::{Outlook, narrow, outlooks};
 use shown::Shown;
+use std::collections::BTreeMap;
 
 /// As many vertices as the mesh has are looked from beside these, in so many rounds.
 const ROUNDS: usize = 8;
@@ -37,7 +38,8 @@ const ROUNDS: usize = 8;
 pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLight>, Error> {
     let Some(known) = Known::of(run)? else { return Ok(None) };
     let mesh = &run.factors.subdivision.mesh;
-    let mut shown = Shown::of(mesh, corners(scene, run, &known)?, &run.light, &known);
+    let (corners, mut looks) = corners(scene, run, &known)?;
+    let mut shown = Shown::of(mesh, corners, &run.light, &known);
     for _ in 0..ROUNDS {
         let middles =
             if run.is_stopped { Vec::new() } else { shown.cut(mesh.vertices.len().div_ceil(ROUNDS)) };
@@ -46,26 +48,39 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
         }
         let vertices: Vec<usize> = middles.iter().map(|middle| middle.vertex).collect();
         let bisection = &shown.bisection;
-        let outlooks = outlooks(scene, run, (&bisection.mesh, &bisection.whole), &vertices)?;
-        shown.learn(&middles, &look(run, &known, &outlooks)?, &known);
+        let mut outlooks = outlooks(scene, run, (&bisection.mesh, &bisection.whole), &vertices)?;
+        outlooks.iter_mut().zip(&middles).for_each(|(outlook, middle)| outlook.ends = Some(middle.ends));
+        let found = look(run, &known, &outlooks, &looks)?;
+        shown.learn(&middles, &found, &known);
+        looks.extend(vertices.into_iter().zip(found));
     }
     Ok(Some(shown.into_light(scene)))
 }
 
-/// What the vertices of the run's mesh receive.
-fn corners(scene: &Scene, run: &mut Run<'_>, known: &Known) -> Result<Vec<f64>, Error> {
+/// What the vertices of the run's mesh receive, and what they see.
+fn corners(
+    scene: &Scene,
+    run: &mut Run<'_>,
+    known: &Known,
+) -> Result<(Vec<f64>, BTreeMap<usize, Look>), Error> {
     let mesh = &run.factors.subdivision.mesh;
     let [vertices, whole] =
         [mesh.vertices.len(), mesh.elements.len()].map(|count| (0..count).collect::<Vec<_>>());
     let mut outlooks = outlooks(scene, run, (mesh, &whole), &vertices)?;
     narrow(mesh, &mut outlooks);
-    let mut light = look(run, known, &outlooks)?.concat();
+    let looks = look(run, known, &outlooks, &BTreeMap::new())?;
+    let mut light: Vec<f64> = looks.iter().flat_map(|look| look.light.iter().copied()).collect();
     let means = Means::of(mesh, run.light.bands).around(&run.light.irradiance);
     light.extend(&means[light.len()..]);
-    Ok(light)
+    Ok((light, looks.into_iter().enumerate().collect()))
 }
 
-/// What vertices receive; of fewer than all when the watcher wants to stop.
-fn look(run: &mut Run<'_>, known: &Known, outlooks: &[Outlook]) -> Result<Vec<Vec<f64>>, Error> {
-    run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some]))
+/// What vertices receive; of fewer than all when the watcher wants to stop. Of those in between ends that were looked from that is known.
+fn look(
+    run: &mut Run<'_>,
+    known: &Known,
+    outlooks: &[Outlook],
+    looks: &BTreeMap<usize, Look>,
+) -> Result<Vec<Look>, Error> {
+    run.in_batches(outlooks.len(), |run, some| known.look(run, &outlooks[some], looks))
 }

@@ -29,8 +29,8 @@ pub(super) struct Outlook {
     pub(super) reach: f64,
     /// Whether more is looked at than lights.
     pub(super) is_wide: bool,
-    /// Whether it is a vertex of cuts: elements that had to be cut tell little of what it receives.
-    pub(super) is_of_cut: bool,
+    /// For a vertex of cuts the ends of what was an edge: elements that had to be cut tell little of what it receives.
+    pub(super) ends: Option<[usize; 2]>,
 }
 
 /// The outlooks from some vertices of a mesh, in ascending order. Its elements are parts of those of the run, `whole`.
@@ -66,7 +66,7 @@ pub(super) fn outlooks(
             around,
             reach,
             is_wide: true,
-            is_of_cut: vertex >= run.factors.subdivision.mesh.vertices.len(),
+            ends: None,
         })
     };
     around.into_iter().zip(vertices).map(outlook).collect()

@@ -1,6 +1,6 @@
 //! What is shown: linear light between the vertices of elements, which are cut where that is wrong.
 use super::bisection::{Bisection, Cuts, Middle};
-use super::known::Known;
+use super::known::{Known, Look};
 use crate::mesh::element::{Element, Mesh};
 use crate::scene::Scene;
 use crate::solve::solution::FineLight;
@@ -60,13 +60,13 @@ impl Shown {
     }
 
     /// Takes what vertices receive that were looked from.
-    pub(super) fn learn(&mut self, middles: &[Middle], found: &[Vec<f64>], known: &Known) {
+    pub(super) fn learn(&mut self, middles: &[Middle], found: &[Look], known: &Known) {
         let mut off = vec![0.0; self.bisection.mesh.vertices.len()];
-        for (middle, light) in middles.iter().zip(found) {
-            off[middle.vertex] = known.difference(light, &self.mean(&middle.ends)) / 2.0;
+        for (middle, look) in middles.iter().zip(found) {
+            off[middle.vertex] = known.difference(&look.light, &self.mean(&middle.ends)) / 2.0;
         }
-        for (middle, light) in middles.iter().zip(found) {
-            self.vertices[middle.vertex * self.bands..][..self.bands].copy_from_slice(light);
+        for (middle, look) in middles.iter().zip(found) {
+            self.vertices[middle.vertex * self.bands..][..self.bands].copy_from_slice(&look.light);
         }
         for (wrong, element) in self.off.iter_mut().zip(&self.bisection.mesh.elements) {
             *wrong = element.corners.iter().map(|corner| off[*corner]).fold(*wrong, f64::max);
