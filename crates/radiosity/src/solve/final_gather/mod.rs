@@ -25,8 +25,10 @@ use outlook::{Outlook, narrow, outlooks};
 use shown::Shown;
 use std::collections::BTreeMap;
 
-/// As many vertices as the mesh has are looked from beside these, in so many rounds.
-const ROUNDS: usize = 8;
+/// So many times the vertices that the mesh has are looked from beside these,
+const MORE: usize = 2;
+/// in so many rounds.
+const ROUNDS: usize = 16;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
 /// in time. Nothing when the watcher wants to stop before the first.
@@ -41,8 +43,8 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     let (corners, mut looks) = corners(scene, run, &known)?;
     let mut shown = Shown::of(mesh, corners, &run.light, &known);
     for _ in 0..ROUNDS {
-        let middles =
-            if run.is_stopped { Vec::new() } else { shown.cut(mesh.vertices.len().div_ceil(ROUNDS)) };
+        let count = (MORE * mesh.vertices.len()).div_ceil(ROUNDS);
+        let middles = if run.is_stopped { Vec::new() } else { shown.cut(count) };
         if middles.is_empty() {
             break;
         }
