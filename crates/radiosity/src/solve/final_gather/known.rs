@@ -110,36 +110,39 @@ impl Known {
         attempt("the final gather", || outlooks.par_iter().zip(&straight).map(at).collect())
     }
 
-    /// What a vertex receives of patches: what the elements around it do, or the ends of what was an edge on average, but for those that it
-    /// looks at itself.
+    /// What a vertex receives of patches: what is known before it looks, but for those that it looks at itself.
     fn reflected(&self, factors: &Factors<'_>, outlook: &Outlook, ends: Option<[&Look; 2]>) -> Look {
         let of = self.at_least(&outlook.mean);
-        let known = Look { around: outlook.around.clone(), ..Look::default() };
-        let from: Vec<(&Look, f64)> = match ends {
-            Some(ends) => ends.map(|end| (end, 0.5)).to_vec(),
-            None => vec![(&known, 1.0)],
-        };
-        let mut rest = vec![0.0; of.len()];
-        match ends {
-            Some(ends) => ends.iter().for_each(|end| add(&mut rest, 0.5, &end.reflected)),
-            None => outlook.around.iter().for_each(|(element, share)| {
-                add(&mut rest, *share, &self.received[element * of.len()..][..of.len()]);
-            }),
-        }
-        let (mut seen, mut light) = (self.seen(outlook, ends, &of), Vec::new());
-        seen.sort_unstable();
-        let mut reflected = vec![0.0; of.len()];
+        let own = Look { around: outlook.around.clone(), ..Look::default() };
+        let (sources, share) = ends.map_or((vec![&own], 1.0), |ends| (ends.to_vec(), 0.5));
+        let mut rest = self.known_before(outlook, ends);
+        let (mut reflected, mut all) = (vec![0.0; of.len()], Vec::new());
+        let seen = self.seen(outlook, ends, &of);
         for &sender in &seen {
             let looked_at = &self.senders[sender];
             let point = if looked_at.emits { &outlook.point } else { &outlook.inside };
             let mut brought = vec![0.0; of.len()];
             looked_at.shine(factors, point, &of, &mut brought);
             add(&mut reflected, 1.0, &brought);
-            light.extend(brought);
-            from.iter().for_each(|(look, share)| add(&mut rest, -share, &self.brought(look, sender)));
+            all.extend(brought);
+            sources.iter().for_each(|look| add(&mut rest, -share, &self.brought(look, sender)));
         }
         reflected.iter_mut().zip(rest).for_each(|(reflected, rest)| *reflected += rest.max(0.0));
-        Look { light: Vec::new(), reflected, around: known.around, seen, brought: light }
+        Look { light: Vec::new(), reflected, around: own.around, seen, brought: all }
+    }
+
+    /// What a vertex receives of patches as far as that is known before it looks: what the elements around it do, or on average the ends of
+    /// what was an edge.
+    fn known_before(&self, outlook: &Outlook, ends: Option<[&Look; 2]>) -> Vec<f64> {
+        let bands = self.mean.len();
+        let mut light = vec![0.0; bands];
+        match ends {
+            Some(ends) => ends.iter().for_each(|end| add(&mut light, 0.5, &end.reflected)),
+            None => outlook.around.iter().for_each(|(element, share)| {
+                add(&mut light, *share, &self.received[element * bands..][..bands]);
+            }),
+        }
+        light
     }
 
     /// What a sender brings to where it was looked from, or what it brings to the elements around, per band.
@@ -168,8 +171,8 @@ impl Known {
         (light - other).abs() / light.max(DIM * mean).max(f64::MIN_POSITIVE)
     }
 
-    /// The senders that a vertex looks at: lights, and from wide ones those of which the elements around it tell the least. What it receives
-    /// of all others is wrong by no more than a share of its light.
+    /// The senders that a vertex looks at, in ascending order: lights, and from wide ones those of which least is known. What it receives of
+    /// all others is wrong by no more than a share of its light.
     fn seen(&self, outlook: &Outlook, ends: Option<[&Look; 2]>, of: &[f64]) -> Vec<usize> {
         let risk = (0..self.senders.len()).map(|sender| (self.risk(sender, outlook, ends, of), sender));
         let (mut seen, mut others): (Vec<_>, Vec<_>) =
@@ -182,7 +185,9 @@ impl Known {
                 sum > UNSEEN
             }));
         }
-        seen.into_iter().map(|(_, sender)| sender).collect()
+        let mut seen: Vec<usize> = seen.into_iter().map(|(_, sender)| sender).collect();
+        seen.sort_unstable();
+        seen
     }
 
     /// How far off what is known may be from what a vertex receives of a sender, as a share of its light: all of it for a light, for what is
