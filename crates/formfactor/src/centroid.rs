@@ -29,7 +29,7 @@ pub(crate) fn with_centroid(
     buffers: &mut Buffers,
 ) -> (FormFactor, DVec3) {
     let plane = PolarPlane::seen_from(from, to);
-    let others = || occluders.iter().copied();
+    let others = || occluders.iter().copied().enumerate();
     let (factor, moment) = match quick::boundary(from, to, |_| others(), &mut buffers.quick) {
         Some(factor) => (factor, buffers.quick.recorded().iter().map(|edge| plane.moment(*edge)).sum()),
         None => (past(from, to, |_| others(), None, buffers), plane.moment_of_part(from, to, occluders)),

@@ -155,6 +155,7 @@ pub use form_factor::FormFactor;
 pub use hierarchy::by_hierarchy;
 pub use matrix::{Closure, Exchange, ExchangeRow, Factor, FactorMatrix};
 pub use pipeline::{form_factor, unoccluded};
+pub use scene::blockers::Blockers;
 pub use scene::enclosure::Enclosure;
 pub use shapes::differential_area::DifferentialArea;
 pub use shapes::polygon::PlanarPolygon;

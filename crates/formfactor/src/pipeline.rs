@@ -2,7 +2,7 @@
 use crate::buffers::Buffers;
 use crate::exact::{self, pyramid::Pyramid};
 use crate::form_factor::FormFactor;
-use crate::quick::{self, target::Target};
+use crate::quick::{self, QuickBuffers, target::Target};
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use crate::stats::Stats;
 
@@ -23,7 +23,7 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
     if occluders.is_empty() {
         return unoccluded(from, to);
     }
-    past(from, to, |_| occluders, None, &mut Buffers::default())
+    past(from, to, |_| occluders.iter().enumerate(), None, &mut Buffers::default())
 }
 
 /// The form factor from a differential area to the front of a polygon with nothing in between.
@@ -44,8 +44,8 @@ pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
     quick::unoccluded(from, to).unwrap_or_else(|| past(from, to, |_| [], None, &mut Buffers::default()))
 }
 
-/// The form factor past those of the occluders that `occluders` finds within reach of the target: the only way to one.
-/// What was done is counted in the buffers' stats. With `within`, doubles do if they err by no more.
+/// The form factor past those of the occluders that `occluders` finds, with their ids, within reach of the target: the only way to one.
+/// What was done is counted in the buffers' stats, and the buffers know which occluders may hide some of the target. With `within`, doubles do if they err by no more.
 pub(crate) fn past<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
@@ -54,15 +54,20 @@ pub(crate) fn past<'a, I>(
     Buffers { quick, scratch, stats }: &mut Buffers,
 ) -> FormFactor
 where
-    I: IntoIterator<Item = &'a PlanarPolygon>,
+    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
 {
     *stats = Stats::default();
     let near = |target: &Target| occluders(&Reach::Quick(target));
     let quickly = quick::form_factor(from, to, near, within, quick, stats);
     quickly.unwrap_or_else(|| {
         *stats = Stats::default();
-        let reach = |pyramid: &Pyramid| occluders(&Reach::Exact { pyramid, deviation: to.deviation() });
-        let found = exact::form_factor(from, to, reach, scratch, stats);
+        let QuickBuffers { blockers, .. } = quick;
+        blockers.clear();
+        let near = move |pyramid: &Pyramid| {
+            let near = occluders(&Reach::Exact { pyramid, deviation: to.deviation() });
+            near.into_iter().inspect(move |(id, _)| blockers.push(*id)).map(|(_, occluder)| occluder)
+        };
+        let found = exact::form_factor(from, to, near, scratch, stats);
         // Where little rises above the horizon, roundings may leave open more than all of it.
         match quick::most_seen(from, (to, to.points())) {
             Some(most) if most < found.error_bound => {

@@ -173,9 +173,23 @@ impl Boundary {
         }
     }
 
+    /// Loses an edge of the cones, by its number among theirs.
+    pub(super) fn lose_edge(&mut self, edge: usize) {
+        self.rests[self.sides + edge].is_lost = true;
+    }
+
+    /// Whether nothing is left of any edge of a cone.
+    fn is_all_lost(&self, cones: &Cones, index: usize) -> bool {
+        let count = cones.cone(index).edges.len();
+        self.rests[self.sides + cones.first(index)..][..count].iter().all(|rest| rest.is_lost)
+    }
+
     /// Hides the edges of two cones behind each other.
     pub(super) fn hide(&mut self, cones: &Cones, [a, b]: [usize; 2]) {
         if self.is_swallowed(a) || self.is_swallowed(b) {
+            return;
+        }
+        if self.is_all_lost(cones, a) && self.is_all_lost(cones, b) {
             return;
         }
         let [first, second] = [a, b].map(|index| cones.cone(index));

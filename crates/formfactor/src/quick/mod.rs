@@ -23,6 +23,7 @@ mod inside;
 mod interval;
 mod lanes;
 mod neighbours;
+mod seams;
 mod sides;
 mod slopes;
 pub(crate) mod target;
@@ -51,6 +52,8 @@ pub(crate) struct QuickBuffers {
     spread: Spread,
     cones: Cones,
     trace: trace::TraceBuffers,
+    /// The ids of the occluders that may hide some of the last target.
+    pub(crate) blockers: Vec<usize>,
 }
 
 impl QuickBuffers {
@@ -71,7 +74,7 @@ pub(crate) fn boundary<'a, I>(
     buffers: &mut QuickBuffers,
 ) -> Option<FormFactor>
 where
-    I: IntoIterator<Item = &'a PlanarPolygon>,
+    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
 {
     buffers.trace.record.is_kept = true;
     let factor = form_factor(from, to, occluders, Some(ROUGH), buffers, &mut Stats::default());
@@ -93,9 +96,10 @@ pub(crate) fn form_factor<'a, I>(
     stats: &mut Stats,
 ) -> Option<FormFactor>
 where
-    I: IntoIterator<Item = &'a PlanarPolygon>,
+    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
 {
     buffers.trace.record.parts.clear();
+    buffers.blockers.clear();
     let mut pieces = to.convex_pieces();
     let whole = pieces.next()?;
     let count = 1 + pieces.count();
@@ -127,32 +131,74 @@ fn to_piece<'a, I>(
     stats: &mut Stats,
 ) -> Option<FormFactor>
 where
-    I: IntoIterator<Item = &'a PlanarPolygon>,
+    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
 {
-    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace } = buffers;
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace, blockers } = buffers;
     let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread) else {
         let error_bound = most_seen(from, to).filter(|most| *most <= within.unwrap_or(0.0))?;
         stats.none += 1;
         return Some(FormFactor { value: 0.0, error_bound });
     };
+    match hidden(&target, occluders(&target), corners, (cones, blockers), stats)? {
+        Hidden::Whole => Some(FormFactor::default()),
+        Hidden::Part { open } => trace::sum(&target, cones, (open, within), trace, stats),
+    }
+}
+
+/// What occluders hide of a target.
+#[derive(Clone, Copy, Debug)]
+enum Hidden {
+    /// All of it.
+    Whole,
+    /// What is inside the cones, or nothing where there are none; the form factor may be off by `open`.
+    Part { open: f64 },
+}
+
+/// Puts the cones of what may hide some of the target in place of those before, and adds the ids; `None` where doubles do not decide it.
+fn hidden<'a>(
+    target: &Target,
+    occluders: impl IntoIterator<Item = (usize, &'a PlanarPolygon)>,
+    corners: &mut [Vec<Corner>; 2],
+    (cones, blockers): (&mut Cones, &mut Vec<usize>),
+    stats: &mut Stats,
+) -> Option<Hidden> {
     let mut open = 0.0;
     cones.clear();
-    for occluder in occluders(&target) {
+    for (id, occluder) in occluders {
         stats.looked_at += 1;
-        match classify(&target, occluder, corners, cones)? {
+        match classify(target, occluder, corners, cones)? {
             Class::Misses { error } => {
                 stats.culled += 1;
                 open += error;
+                blockers.extend((error > 0.0).then_some(id));
             }
             Class::Blocks { error, is_clipped } => {
                 stats.clipped += u64::from(is_clipped);
                 open += error;
+                blockers.push(id);
             }
             Class::Covers => {
                 stats.total += 1;
-                return Some(FormFactor::default());
+                return Some(Hidden::Whole);
             }
         }
     }
-    trace::sum(&target, cones, (open, within), trace, stats)
+    Some(Hidden::Part { open })
+}
+
+/// Whether occluders may leave anything of a convex target visible; those that may hide some of it are noted in the buffers. `None` where
+/// doubles do not decide it, or the target is not convex.
+pub(crate) fn is_open<'a>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl IntoIterator<Item = (usize, &'a PlanarPolygon)>,
+    buffers: &mut QuickBuffers,
+) -> Option<bool> {
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, blockers, .. } = buffers;
+    let mut pieces = to.convex_pieces();
+    let piece = pieces.next().filter(|_| pieces.next().is_none())?;
+    let target = Target::new(from, (to, piece), corners, (edges, ids), sides, spread)?;
+    blockers.clear();
+    let found = hidden(&target, occluders, corners, (cones, blockers), &mut Stats::default())?;
+    Some(matches!(found, Hidden::Part { .. }))
 }

@@ -30,6 +30,10 @@ impl Neighbours {
         self.found.retain(|(_, cone)| is_kept(*cone));
     }
 
+    pub(super) fn cones(&self) -> impl Iterator<Item = usize> + '_ {
+        self.found.iter().map(|(_, cone)| *cone)
+    }
+
     /// Whether there are so many that it pays to look for those inside of others.
     pub(super) fn are_many(&self) -> bool {
         self.found.len() >= MANY

@@ -5,6 +5,7 @@ use super::cone::{Cones, Edge};
 use super::contour::{Parts, Sum};
 use super::interval::{Interval, for_each_gap};
 use super::neighbours::Neighbours;
+use super::seams::Seams;
 use super::slopes::Frame;
 use super::target::Target;
 use crate::exact::whole::unhidden;
@@ -17,6 +18,7 @@ use glam::DVec3;
 #[derive(Debug, Default)]
 pub(super) struct TraceBuffers {
     neighbours: Neighbours,
+    seams: Seams,
     boundary: Boundary,
     hidden: Vec<Interval>,
     pub(super) record: Record,
@@ -88,7 +90,7 @@ fn enough(target: &Target, sum: &Sum, error: f64, within: Option<f64>) -> Option
 
 /// Clips all edges, and adds what is left of them.
 fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
-    let TraceBuffers { neighbours, boundary, hidden, record } = buffers;
+    let TraceBuffers { neighbours, seams, boundary, hidden, record } = buffers;
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
     boundary.begin(target.from.position(), target.cone, cones);
     neighbours.clear();
@@ -98,6 +100,9 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
         }
     }
     if neighbours.are_many() {
+        seams.clear();
+        neighbours.cones().for_each(|cone| seams.push(cones.cone(cone), cones.first(cone)));
+        seams.for_each(|edge| boundary.lose_edge(edge));
         boundary.watch(cones.len());
         for (around, outer) in neighbours.largest() {
             neighbours.inside(around).for_each(|inner| boundary.swallow(cones, [inner, outer]));

@@ -7,6 +7,7 @@ use super::{
     surfaces::Surfaces,
     tree::Tree,
 };
+use crate::buffers::Buffers;
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
@@ -98,7 +99,7 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor(&self, from: &DifferentialArea, id: usize) -> FormFactor {
-        self.past_found(from, id, &self.polygons[id], None).0
+        self.past_found(from, id, &self.polygons[id], None, |_| ()).0
     }
 
     /// A part of polygon `id` on the plane of that polygon. One that is farther off than roundings are stays where it is.
@@ -116,7 +117,8 @@ impl Enclosure {
     /// When there is no polygon `id`.
     #[must_use]
     pub fn form_factor_with_stats(&self, from: &DifferentialArea, id: usize) -> (FormFactor, Stats) {
-        self.past_found(from, id, &self.polygons[id], None)
+        let (factor, stats) = self.past_found(from, id, &self.polygons[id], None, |buffers| buffers.stats);
+        (factor, stats.unwrap_or(Stats { none: 1, ..Stats::default() }))
     }
 
     /// The form factor from `from` to `part`, a part of polygon `id` in the plane of that polygon, which does not occlude it.
@@ -133,7 +135,7 @@ impl Enclosure {
         id: usize,
         part: &PlanarPolygon,
     ) -> FormFactor {
-        self.past_found(from, id, part, None).0
+        self.past_found(from, id, part, None, |_| ()).0
     }
 
     /// [`Self::form_factor_to_part`] where an error of at most `tolerance` will do: plain doubles know that far more often than all that
@@ -159,7 +161,7 @@ impl Enclosure {
         part: &PlanarPolygon,
         tolerance: f64,
     ) -> FormFactor {
-        self.past_found(from, id, part, Some(tolerance)).0
+        self.past_found(from, id, part, Some(tolerance), |_| ()).0
     }
 
     /// The form factor from `from` to `part`, a convex part of polygon `id` that faces as the polygon does, and the centroid of what is
@@ -195,51 +197,51 @@ impl Enclosure {
         if self.is_edge_on(from, id) || whole.plane().side_of(from.position()) != Ordering::Greater {
             return (FormFactor::default(), part.points()[0]);
         }
-        let occluders: Vec<&PlanarPolygon> =
-            self.others(from, id, among.iter().copied(), |_| false).collect();
+        let others = self.others(from, id, among.iter().copied(), |_| false);
+        let occluders: Vec<&PlanarPolygon> = others.map(|(_, polygon)| polygon).collect();
         self.pool.lend(|buffers| with_centroid(from, &self.on_plane(id, part), &occluders, buffers))
     }
 
-    /// The form factor to a part of polygon `id`, past the occluders that the tree finds.
-    fn past_found(
+    /// The form factor to a part of polygon `id`, past the occluders that the tree finds, and what is taken of how it was found.
+    pub(super) fn past_found<T>(
         &self,
         from: &DifferentialArea,
         id: usize,
         part: &PlanarPolygon,
         within: Option<f64>,
-    ) -> (FormFactor, Stats) {
-        let found = |reach: &Reach| self.tree.find(|extent| reach.misses_box(extent, self.deviation));
-        self.past_any_of(from, id, part, found, within)
+        take: impl FnOnce(&Buffers) -> T,
+    ) -> (FormFactor, Option<T>) {
+        let occluders = |reach: &Reach| {
+            let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
+            self.others(from, id, self.tree.find(outside), outside).collect::<Vec<_>>()
+        };
+        self.past(from, (id, part), occluders, within, take)
     }
 
-    /// The form factor to a part of polygon `id`, past those of `candidates` that can hide it.
-    fn past_any_of<I>(
+    /// The form factor to a part of polygon `id` past occluders with their ids, and what is taken of how it was found; nothing of one that is
+    /// not seen from its front.
+    pub(super) fn past<'p, I, T>(
         &self,
         from: &DifferentialArea,
-        id: usize,
-        part: &PlanarPolygon,
-        candidates: impl Fn(&Reach) -> I,
+        (id, part): (usize, &PlanarPolygon),
+        occluders: impl Fn(&Reach) -> I,
         within: Option<f64>,
-    ) -> (FormFactor, Stats)
+        take: impl FnOnce(&Buffers) -> T,
+    ) -> (FormFactor, Option<T>)
     where
-        I: IntoIterator<Item = usize>,
+        I: IntoIterator<Item = (usize, &'p PlanarPolygon)>,
     {
-        let unhidden = Stats { none: 1, ..Stats::default() };
         if self.is_edge_on(from, id) {
-            return (FormFactor::default(), unhidden);
+            return (FormFactor::default(), None);
         }
         // Rounding may have put the part a last bit off the polygon's plane, which decides.
         let whole = &self.polygons[id];
         if whole.plane().side_of(from.position()) != Ordering::Greater {
-            return (unseen(from, whole), unhidden);
+            return (unseen(from, whole), None);
         }
         self.pool.lend(|buffers| {
-            let occluders = |reach: &Reach| {
-                let found = candidates(reach);
-                let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
-                self.others(from, id, found, outside).collect::<Vec<_>>()
-            };
-            (pipeline::past(from, &self.on_plane(id, part), occluders, within, buffers), buffers.stats)
+            let factor = pipeline::past(from, &self.on_plane(id, part), occluders, within, buffers);
+            (factor, Some(take(buffers)))
         })
     }
 
@@ -254,7 +256,7 @@ impl Enclosure {
     pub fn form_factors(&self, points: &[DifferentialArea], id: usize) -> Vec<FormFactor> {
         let positions: Vec<DVec3> = points.iter().map(DifferentialArea::position).collect();
         let near = self.in_shaft(&positions, id);
-        points.iter().map(|from| self.past(from, id, &near)).collect()
+        points.iter().map(|from| self.past_near(from, id, &near)).collect()
     }
 
     /// The polygons that can stand between points and polygon `id`.
@@ -272,18 +274,22 @@ impl Enclosure {
     }
 
     /// The form factor to polygon `id`, past those of the polygons `near` that can hide it.
-    fn past(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
-        self.past_any_of(from, id, &self.polygons[id], |_| near.iter().copied(), None).0
+    fn past_near(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
+        let occluders = |reach: &Reach| {
+            let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
+            self.others(from, id, near.iter().copied(), outside).collect::<Vec<_>>()
+        };
+        self.past(from, (id, &self.polygons[id]), occluders, None, |_| ()).0
     }
 
-    /// Those of the polygons that can hide polygon `id`; nothing in boxes that are `outside` can.
+    /// Those of the polygons that can hide polygon `id`, with their ids; nothing in boxes that are `outside` can.
     pub(super) fn others(
         &self,
         from: &DifferentialArea,
         id: usize,
         found: impl IntoIterator<Item = usize>,
         outside: impl Fn(&Extent) -> bool,
-    ) -> impl Iterator<Item = &PlanarPolygon> {
+    ) -> impl Iterator<Item = (usize, &PlanarPolygon)> {
         let mut around = Around::default();
         // Left out are polygons seen edge-on, faces of the target's own body, which is behind the target, and the far sides of
         // other bodies, which hide nothing that the near sides do not.
@@ -293,7 +299,7 @@ impl Enclosure {
                 && !self.bodies.is_far_side(&self.polygons, from, *i, &outside, &mut around)
                 && !self.is_edge_on(from, *i)
         };
-        found.into_iter().filter(can_hide).map(|i| &self.polygons[i])
+        found.into_iter().filter(can_hide).map(|i| (i, &self.polygons[i]))
     }
 
     /// Whether polygon `id` owns `from` or lies in the plane of the one that does.

@@ -1,5 +1,6 @@
 //! Many polygons that see and hide each other: which of them can stand before a target.
 pub(crate) mod apart;
+pub(crate) mod blockers;
 pub(crate) mod body;
 pub(crate) mod cap;
 pub(crate) mod coplanar;

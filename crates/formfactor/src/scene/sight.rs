@@ -20,7 +20,8 @@ impl Enclosure {
         let deviation = self.deviation() + part.deviation();
         seen_past(from, &part, |pyramid| {
             let outside = |extent: &Extent| pyramid.misses_box(extent, deviation);
-            self.others(from, id, self.tree().find(outside), outside).collect::<Vec<_>>()
+            let others = self.others(from, id, self.tree().find(outside), outside);
+            others.map(|(_, polygon)| polygon).collect::<Vec<_>>()
         })
     }
 

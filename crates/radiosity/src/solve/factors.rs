@@ -6,7 +6,7 @@ use super::{
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
-use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
+use formfactor::{Blockers, DifferentialArea, Enclosure, PlanarPolygon};
 use glam::DVec3;
 use std::{ops::Range, sync::Arc};
 
@@ -148,6 +148,37 @@ impl<'s> Factors<'s> {
     pub(super) fn factor(&self, from: &DifferentialArea, piece: &PieceShape) -> f64 {
         let surface = self.surface_of[piece.patch];
         self.enclosure.form_factor_within(from, surface, &piece.polygon, ENOUGH).value
+    }
+
+    /// The form factor from a point to a piece, and what may hide some of it.
+    pub(super) fn factor_and_blockers(&self, from: &DifferentialArea, piece: &PieceShape) -> (f64, Blockers) {
+        let surface = self.surface_of[piece.patch];
+        let (factor, blockers) =
+            self.enclosure.form_factor_and_blockers(from, surface, &piece.polygon, ENOUGH);
+        (factor.value, blockers)
+    }
+
+    /// The form factor from a point to a part of a piece past what may hide some of that, and what may hide some of the part.
+    pub(super) fn factor_behind(
+        &self,
+        from: &DifferentialArea,
+        part: &PieceShape,
+        blockers: &Blockers,
+    ) -> (f64, Blockers) {
+        let surface = self.surface_of[part.patch];
+        let (factor, blockers) =
+            self.enclosure.form_factor_behind(from, surface, &part.polygon, blockers, ENOUGH);
+        (factor.value, blockers)
+    }
+
+    /// What may hide some of a part of a piece past what may hide some of that; nothing where all of the part is hidden.
+    pub(super) fn blockers_of_part(
+        &self,
+        from: &DifferentialArea,
+        part: &PieceShape,
+        blockers: &Blockers,
+    ) -> Option<Blockers> {
+        self.enclosure.blockers_of_part(from, self.surface_of[part.patch], &part.polygon, blockers)
     }
 
     /// Whether a patch gives light of its own.

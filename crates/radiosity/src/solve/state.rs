@@ -73,12 +73,6 @@ impl Column {
         self.factors.len()
     }
 
-    /// The factor from one element. O(log elements).
-    pub(super) fn factor(&self, element: usize) -> f64 {
-        let place = self.elements.binary_search_by_key(&element, |element| *element as usize);
-        place.map_or(0.0, |place| self.factors[place])
-    }
-
     /// The same for elements from `start` on.
     pub(super) fn from(&self, start: usize) -> impl Iterator<Item = (usize, f64)> {
         let first = self.elements.partition_point(|element| (*element as usize) < start);

@@ -1,12 +1,11 @@
 //! What elements are known to receive of every patch, and what a point among them receives.
 use super::outlook::Outlook;
-use super::senders::Sender;
+use super::received::{Received, SentPiece};
+use super::senders::{LitPoint, Sender};
 use crate::error::Error;
-use crate::solve::state::{Column, KEPT};
-use crate::solve::{factors::Factors, run::Run, workers::attempt};
+use crate::solve::{factors::Factors, run::Run, state::KEPT, workers::attempt};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// The share of its light by which a vertex may be wrong for what it receives from patches that it does not look at itself.
 const UNSEEN: f64 = 0.1;
@@ -23,9 +22,9 @@ const DIM: f64 = 0.01;
 pub(super) struct Known {
     /// The patches that send light.
     senders: Vec<Sender>,
-    /// For each of them the pieces that shot.
-    pieces: Vec<Vec<SentPiece>>,
-    /// What elements receive of all pieces, elements × bands.
+    /// What elements receive of them,
+    rows: Received,
+    /// and of all together, elements × bands.
     received: Vec<f64>,
     /// The mean irradiance, per band.
     mean: Vec<f64>,
@@ -45,21 +44,20 @@ pub(super) struct Look {
     brought: Vec<f64>,
 }
 
-/// A piece of a patch.
-struct SentPiece {
-    /// What it sends on average, per band.
-    radiosity: Vec<f64>,
-    column: Arc<Column>,
+/// What vertices receive of a sender at least and at most, as a share of what one receives in all.
+#[derive(Clone, Copy, Debug)]
+struct Shares {
+    low: f64,
+    high: f64,
+    /// How many tell.
+    count: usize,
 }
 
 impl Known {
     /// What the elements of a run received; nothing when the watcher wants to stop, or where there are more form factors than are kept.
     pub(super) fn of(run: &mut Run<'_>) -> Result<Option<Known>, Error> {
         let nodes = &run.factors.subdivision.nodes;
-        let area: f64 = run.light.areas.iter().sum();
-        let mean = run.light.total(&run.light.irradiance).iter().map(|power| power / area).collect();
-        let received = vec![0.0; run.light.irradiance.len()];
-        let mut known = Known { senders: Vec::new(), pieces: Vec::new(), received, mean };
+        let (mut senders, mut pieces) = (Vec::new(), Vec::new());
         let (mut of_patch, mut count) = (vec![None; nodes.len()], 0);
         for node in run.shooters.front().collect::<Vec<_>>() {
             if !run.sends(node) {
@@ -72,21 +70,28 @@ impl Known {
             }
             let sender = match of_patch[nodes[node].patch] {
                 Some(sender) => sender,
-                None => known.add(Sender::of_node(&run.factors, &run.light, nodes[node].patch)?),
+                None => {
+                    senders.push(Sender::of_node(&run.factors, &run.light, nodes[node].patch)?);
+                    senders.len() - 1
+                }
             };
             of_patch[nodes[node].patch] = Some(sender);
-            let piece =
-                SentPiece { radiosity: run.light.mean_radiosity(nodes[node].elements.clone()), column };
-            piece.shine(&mut known.received);
-            known.pieces[sender].push(piece);
+            let radiosity = run.light.mean_radiosity(nodes[node].elements.clone());
+            pieces.push(SentPiece { sender, radiosity, column });
         }
-        Ok(Some(known))
+        Ok(Some(Known::from(run, senders, pieces)))
     }
 
-    fn add(&mut self, sender: Sender) -> usize {
-        self.senders.push(sender);
-        self.pieces.push(Vec::new());
-        self.senders.len() - 1
+    fn from(run: &Run<'_>, senders: Vec<Sender>, pieces: Vec<SentPiece>) -> Known {
+        let (elements, bands) = (run.light.areas.len(), run.light.bands);
+        let rows = Received::of(pieces, elements, bands);
+        let mut received = vec![0.0; elements * bands];
+        for (element, received) in received.chunks_exact_mut(bands).enumerate() {
+            rows.for_each(element, |_, light| add(received, 1.0, light));
+        }
+        let area: f64 = run.light.areas.iter().sum();
+        let mean = run.light.total(&run.light.irradiance).iter().map(|power| power / area).collect();
+        Known { senders, rows, received, mean }
     }
 
     /// What vertices receive, and see. Of those between two `looks` these tell.
@@ -116,16 +121,17 @@ impl Known {
         let own = Look { around: outlook.around.clone(), ..Look::default() };
         let (sources, share) = ends.map_or((vec![&own], 1.0), |ends| (ends.to_vec(), 0.5));
         let mut rest = self.known_before(outlook, ends);
+        let before: Vec<Vec<f64>> = sources.iter().map(|look| self.brought(look)).collect();
         let (mut reflected, mut all) = (vec![0.0; of.len()], Vec::new());
-        let seen = self.seen(outlook, ends, &of);
+        let seen = self.seen(outlook, &of, if ends.is_some() { &before } else { &[] });
         for &sender in &seen {
             let looked_at = &self.senders[sender];
             let point = if looked_at.emits { &outlook.point } else { &outlook.inside };
             let mut brought = vec![0.0; of.len()];
-            looked_at.shine(factors, point, &of, &mut brought);
+            looked_at.shine(factors, &LitPoint { point, of: &of }, &mut brought);
             add(&mut reflected, 1.0, &brought);
             all.extend(brought);
-            sources.iter().for_each(|look| add(&mut rest, -share, &self.brought(look, sender)));
+            before.iter().for_each(|before| add(&mut rest, -share, &before[sender * of.len()..]));
         }
         reflected.iter_mut().zip(rest).for_each(|(reflected, rest)| *reflected += rest.max(0.0));
         Look { light: Vec::new(), reflected, around: own.around, seen, brought: all }
@@ -145,18 +151,17 @@ impl Known {
         light
     }
 
-    /// What a sender brings to where it was looked from, or what it brings to the elements around, per band.
-    fn brought(&self, look: &Look, sender: usize) -> Vec<f64> {
+    /// What each sender brings to where it was looked from, or what it brings to the elements around: senders × bands.
+    fn brought(&self, look: &Look) -> Vec<f64> {
         let bands = self.mean.len();
-        if let Ok(at) = look.seen.binary_search(&sender) {
-            return look.brought[at * bands..][..bands].to_vec();
+        let mut all = vec![0.0; self.senders.len() * bands];
+        for (element, share) in &look.around {
+            self.rows.for_each(*element, |sender, light| add(&mut all[sender * bands..], *share, light));
         }
-        let mut light = vec![0.0; bands];
-        for SentPiece { radiosity, column } in &self.pieces[sender] {
-            let seen: f64 = look.around.iter().map(|(element, share)| share * column.factor(*element)).sum();
-            add(&mut light, seen, radiosity);
+        for (sender, light) in look.seen.iter().zip(look.brought.chunks_exact(bands)) {
+            all[sender * bands..][..bands].copy_from_slice(light);
         }
-        light
+        all
     }
 
     /// How bright something is, per band, but no less than what counts.
@@ -173,10 +178,20 @@ impl Known {
 
     /// The senders that a vertex looks at, in ascending order: lights, and from wide ones those of which least is known. What it receives of
     /// all others is wrong by no more than a share of its light.
-    fn seen(&self, outlook: &Outlook, ends: Option<[&Look; 2]>, of: &[f64]) -> Vec<usize> {
-        let risk = (0..self.senders.len()).map(|sender| (self.risk(sender, outlook, ends, of), sender));
-        let (mut seen, mut others): (Vec<_>, Vec<_>) =
-            risk.filter(|(risk, _)| *risk > 0.0).partition(|(_, sender)| self.senders[*sender].emits);
+    fn seen(&self, outlook: &Outlook, of: &[f64], ends: &[Vec<f64>]) -> Vec<usize> {
+        let shares = self.shares(outlook, of, ends);
+        let is_told = !ends.is_empty() || (outlook.ends.is_none() && outlook.around.len() > 1);
+        let risk = |(sender, shares): (usize, &Shares)| {
+            let most = self.senders[sender].most(&outlook.inside, of);
+            let is_open = most == 0.0 || !is_told || self.must_be_seen(sender, outlook);
+            (if is_open { most } else { most.min(shares.risk()) }, sender)
+        };
+        let (mut seen, mut others): (Vec<_>, Vec<_>) = shares
+            .iter()
+            .enumerate()
+            .map(risk)
+            .filter(|(risk, _)| *risk > 0.0)
+            .partition(|(_, sender)| self.senders[*sender].emits);
         if outlook.is_wide {
             others.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut sum = 0.0;
@@ -190,39 +205,37 @@ impl Known {
         seen
     }
 
-    /// How far off what is known may be from what a vertex receives of a sender, as a share of its light: all of it for a light, for what is
-    /// near, and where one element tells it or these were cut; else what the elements, and the ends, differ by is a measure.
-    fn risk(&self, sender: usize, outlook: &Outlook, ends: Option<[&Look; 2]>, of: &[f64]) -> f64 {
-        let Outlook { inside, around, reach, .. } = outlook;
-        let Sender { emits, .. } = self.senders[sender];
-        let most = self.senders[sender].most(inside, of);
-        let is_told = ends.is_some() || (outlook.ends.is_none() && around.len() > 1);
-        if most == 0.0 || emits || !is_told || self.senders[sender].is_within(NEAR * reach, inside) {
-            return most;
-        }
-        let of_elements = around.iter().map(|(element, _)| self.share(sender, *element, of));
-        let of_ends = ends.into_iter().flatten().map(|end| largest(&self.brought(end, sender), of));
-        let [low, high] = of_elements
-            .chain(of_ends)
-            .fold([f64::INFINITY, 0.0], |[low, high], share| [low.min(share), high.max(share)]);
-        most.min(UNLIKE * (high - low) + ALIKE * high)
+    /// Whether what elements receive of a sender tells nothing: it is a light, or near.
+    fn must_be_seen(&self, sender: usize, outlook: &Outlook) -> bool {
+        self.senders[sender].emits || self.senders[sender].is_within(NEAR * outlook.reach, &outlook.inside)
     }
 
-    /// A bound on what an element receives of a sender, as the largest share of `of` in a band.
-    fn share(&self, sender: usize, element: usize, of: &[f64]) -> f64 {
-        let most =
-            |SentPiece { radiosity, column }: &SentPiece| column.factor(element) * largest(radiosity, of);
-        self.pieces[sender].iter().map(most).sum()
+    /// What the elements around a vertex, and the ends of what was an edge, receive of each sender, as shares of `of`.
+    fn shares(&self, outlook: &Outlook, of: &[f64], ends: &[Vec<f64>]) -> Vec<Shares> {
+        let mut shares = vec![Shares { low: f64::INFINITY, high: 0.0, count: 0 }; self.senders.len()];
+        for (element, _) in &outlook.around {
+            self.rows.for_each(*element, |sender, light| shares[sender].add(largest(light, of)));
+        }
+        for brought in ends {
+            let brought = brought.chunks_exact(of.len());
+            shares.iter_mut().zip(brought).for_each(|(shares, light)| shares.add(largest(light, of)));
+        }
+        let all = outlook.around.len() + ends.len();
+        shares.iter_mut().filter(|shares| shares.count < all).for_each(|shares| shares.low = 0.0);
+        shares
     }
 }
 
-impl SentPiece {
-    /// Adds what elements receive of it, elements × bands.
-    fn shine(&self, received: &mut [f64]) {
-        let bands = self.radiosity.len();
-        for (element, factor) in self.column.iter() {
-            add(&mut received[element * bands..][..bands], factor, &self.radiosity);
-        }
+impl Shares {
+    fn add(&mut self, share: f64) {
+        self.low = self.low.min(share);
+        self.high = self.high.max(share);
+        self.count += 1;
+    }
+
+    /// How far off their mean may be: what they differ by is a measure.
+    fn risk(&self) -> f64 {
+        UNLIKE * (self.high - self.low) + ALIKE * self.high
     }
 }
 

@@ -1,7 +1,8 @@
 //! The final gather: what vertices receive, exactly past what stands in between, and more vertices where light is not linear in between.
 //!
 //! ```text
-//! known      what elements are known to receive of every patch, and what a vertex receives
+//! received   what elements received of every patch, row by row
+//! known      what a vertex receives, by what the elements around it did
 //! senders    patches, their pieces and their elements, each as bright as its elements are on average
 //! outlook    where vertices are looked from, and the elements around them
 //! shown      linear light between vertices; which elements are to be cut
@@ -14,6 +15,7 @@
 mod bisection;
 mod known;
 mod outlook;
+mod received;
 mod senders;
 mod shown;
 

@@ -2,11 +2,18 @@
 use crate::error::Error;
 use crate::solve::factors::{Factors, PieceShape};
 use crate::solve::{ball::Ball, light::Light};
-use formfactor::DifferentialArea;
+use formfactor::{Blockers, DifferentialArea};
 use std::ops::Range;
 
 /// Parts are looked at one by one where that may change more than this share.
 const UNEVEN: f64 = 0.005;
+
+/// A point that is looked from, and how bright it is, per band.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LitPoint<'v> {
+    pub(super) point: &'v DifferentialArea,
+    pub(super) of: &'v [f64],
+}
 
 /// A patch, a piece of one, or an element.
 #[derive(Debug)]
@@ -80,22 +87,49 @@ impl Sender {
     }
 
     /// Adds what a point receives, part by part where these differ by more than a share of how bright the point is.
-    pub(super) fn shine(
+    pub(super) fn shine(&self, factors: &Factors<'_>, from: &LitPoint<'_>, light: &mut [f64]) {
+        let seen = factors.factor_and_blockers(from.point, &self.shape);
+        self.add(factors, from, &seen, light);
+    }
+
+    /// Adds what a point receives of a part of what was looked at past some blockers.
+    ///
+    /// It is looked at as a whole only if it is even enough with nothing in between: else its parts are looked at in any case.
+    fn shine_behind(
         &self,
         factors: &Factors<'_>,
-        point: &DifferentialArea,
-        of: &[f64],
+        from: &LitPoint<'_>,
+        blockers: &Blockers,
         light: &mut [f64],
     ) {
-        let factor = factors.factor(point, &self.shape);
-        if factor == 0.0 {
-            return;
+        let unhidden = || factors.factor_behind(from.point, &self.shape, &Blockers::default()).0;
+        if !self.parts.is_empty() && self.is_uneven(unhidden(), from.of) {
+            if let Some(blockers) = factors.blockers_of_part(from.point, &self.shape, blockers) {
+                self.parts.iter().for_each(|part| part.shine_behind(factors, from, &blockers, light));
+            }
+        } else {
+            let seen = factors.factor_behind(from.point, &self.shape, blockers);
+            self.add(factors, from, &seen, light);
         }
-        let uneven = self.spread.iter().zip(of).map(|(spread, of)| factor * spread / of).fold(0.0, f64::max);
-        if uneven > UNEVEN && !self.parts.is_empty() {
-            self.parts.iter().for_each(|part| part.shine(factors, point, of, light));
-            return;
+    }
+
+    fn add(
+        &self,
+        factors: &Factors<'_>,
+        from: &LitPoint<'_>,
+        (factor, blockers): &(f64, Blockers),
+        light: &mut [f64],
+    ) {
+        if *factor == 0.0 {
+        } else if !self.parts.is_empty() && self.is_uneven(*factor, from.of) {
+            self.parts.iter().for_each(|part| part.shine_behind(factors, from, blockers, light));
+        } else {
+            light.iter_mut().zip(&self.radiosity).for_each(|(light, sent)| *light += factor * sent);
         }
-        light.iter_mut().zip(&self.radiosity).for_each(|(light, sent)| *light += factor * sent);
+    }
+
+    /// Whether parts of it bring unlike shares.
+    fn is_uneven(&self, factor: f64, of: &[f64]) -> bool {
+        self.spread.iter().zip(of).any(|(spread, of)| factor * spread / of > UNEVEN)
     }
 }
