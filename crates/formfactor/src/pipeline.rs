@@ -45,7 +45,8 @@ pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
 }
 
 /// The form factor past those of the occluders that `occluders` finds, with their ids, within reach of the target: the only way to one.
-/// What was done is counted in the buffers' stats, and the buffers know which occluders may hide some of the target. With `within`, doubles do if they err by no more.
+/// What was done is counted in the buffers' stats, and the buffers know which occluders may hide some of the target. With `within`, doubles
+/// do if they err by no more.
 pub(crate) fn past<'a, I>(
     from: &DifferentialArea,
     to: &PlanarPolygon,

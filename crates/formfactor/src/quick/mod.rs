@@ -179,6 +179,7 @@ fn hidden<'a>(
             }
             Class::Covers => {
                 stats.total += 1;
+                blockers.push(id);
                 return Some(Hidden::Whole);
             }
         }

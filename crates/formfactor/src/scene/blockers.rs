@@ -82,7 +82,7 @@ impl Enclosure {
     }
 
     /// What may hide some of a part of what [`Self::form_factor_and_blockers`] or [`Self::form_factor_behind`] looked at from the same place;
-    /// nothing where all of the part is hidden.
+    /// nothing where one of these hides all of the part.
     ///
     /// Costs a fraction of what a form factor does. May name more than that would.
     ///

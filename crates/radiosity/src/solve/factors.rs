@@ -171,7 +171,7 @@ impl<'s> Factors<'s> {
         (factor.value, blockers)
     }
 
-    /// What may hide some of a part of a piece past what may hide some of that; nothing where all of the part is hidden.
+    /// What may hide some of a part of a piece past what may hide some of that; nothing where one of these hides all of it.
     pub(super) fn blockers_of_part(
         &self,
         from: &DifferentialArea,
