@@ -5,7 +5,7 @@ mod gather;
 
 use gather::area::{Sample, lit_samples, within};
 use radiosity::formfactor::PlanarPolygon;
-use radiosity::glam::DVec3;
+use radiosity::glam::{DQuat, DVec3};
 use radiosity::{Method, Options, Patch, Quality, Scene, scenes, solve};
 use std::ops::ControlFlow;
 
@@ -90,4 +90,40 @@ fn what_surrounds_a_plate_before_a_wall() {
     };
     let share = share_where(&scene, 300, is_around);
     assert!(share >= 0.9, "{share}");
+}
+
+/// A closed box of six patches, its edges along three directions, two of them in the order in which the third is up.
+fn block(name: &str, middle: DVec3, [x, y, z]: [DVec3; 3]) -> Vec<Patch> {
+    let corner = middle - (x + y + z) / 2.0;
+    let faces = [
+        (corner, [y, x]),
+        (corner + z, [x, y]),
+        (corner, [x, z]),
+        (corner + y, [z, x]),
+        (corner, [z, y]),
+        (corner + x, [y, z]),
+    ];
+    faces.map(|(corner, edges)| sheet(name, corner, edges, 0.0)).to_vec()
+}
+
+/// Blocks that lean against each other and into the floor of a room, as people model them: light jumps where one enters the other.
+#[test]
+fn solids_that_pass_through_each_other() {
+    let [x, y, z] = [4.0 * DVec3::X, 4.0 * DVec3::Y, 3.0 * DVec3::Z];
+    let mut patches = vec![
+        sheet("back", DVec3::ZERO, [y, z], 0.0),
+        sheet("front", x, [z, y], 0.0),
+        sheet("left", DVec3::ZERO, [z, x], 0.0),
+        sheet("right", y, [x, z], 0.0),
+        sheet("floor", DVec3::ZERO, [x, y], 0.0),
+        sheet("ceiling", z, [y, x], 0.0),
+        sheet("lamp", DVec3::new(1.5, 1.5, 2.99), [DVec3::Y, DVec3::X], 10.0),
+    ];
+    for (k, turn) in [0.3, 1.1, 2.0, 2.9].into_iter().enumerate() {
+        let turned = DQuat::from_rotation_z(turn) * DQuat::from_rotation_x(0.2 * turn - 0.3);
+        let edges = [0.7 * DVec3::X, 1.3 * DVec3::Y, 0.9 * DVec3::Z].map(|edge| turned * edge);
+        patches.extend(block("block", DVec3::new(1.2 + 0.5 * k as f64, 1.6 + 0.2 * k as f64, 0.3), edges));
+    }
+    let share = share_where(&scene(patches), 600, |sample| sample.patch > 6 || sample.patch == 4);
+    assert!(share >= 0.77, "{share}");
 }

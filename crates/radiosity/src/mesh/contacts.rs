@@ -1,6 +1,15 @@
-//! Where other patches touch a patch: lines across which its light jumps.
+//! Where other patches touch a patch or pass through it: lines across which its light jumps.
+//!
+//! ```text
+//!        |   /              +----+
+//!   +----+--/--------+      |    | stands on the plane: its edge is a line of contact
+//!   |    | /  pierces|   ---+====+---
+//!   +====+===========+   the other passes through the plane: the line is where both polygons meet that of their planes
+//! ```
 use crate::extent::{BoxTree, Extent};
+use crate::plane::Plane;
 use crate::scene::Scene;
+use formfactor::PlanarPolygon;
 use glam::DVec3;
 
 /// The patches of a scene, to be found by where they are.
@@ -18,28 +27,22 @@ impl<'s> Neighbourhood<'s> {
         Neighbourhood { scene, boxes: BoxTree::new(extents.iter().copied()), extents }
     }
 
-    /// Pieces of other patches' edges that lie on the plane of patch `patch`, each once, sorted. O(log n) for each patch that is near.
+    /// Pieces of other patches' edges that lie on the plane of patch `patch`, and where other patches pass through it, each once, sorted.
+    /// O(log n) for each patch that is near.
     ///
     /// Near enough is nearer than a thousandth of the mesh's finest spacing: a line too many costs a few elements, and one too
     /// few only a blurred shadow at the foot of what stands there.
     pub(crate) fn contacts(&self, patch: usize, spacing: f64) -> Vec<[DVec3; 2]> {
-        let polygon = &self.scene.patches[patch].polygon;
-        let Some(&origin) = polygon.loops().flatten().next() else { return Vec::new() };
-        let reach = spacing * 1e-3;
-        let near = |place: DVec3| (place - origin).dot(polygon.normal()).abs() < reach;
+        let (polygon, reach) = (&self.scene.patches[patch].polygon, spacing * 1e-3);
         // Twice as far, so that no rounding leaves one out.
         let around = self.boxes.meeting(&self.extents[patch].grown(2.0 * reach)).into_iter();
-        let others = around
-            .filter(|&other| other != patch && self.extents[other].is_near(&self.extents[patch], reach));
-        let mut lines: Vec<_> = others
-            .flat_map(|other| self.scene.patches[other].polygon.loops())
-            .flat_map(|points| points.iter().zip(points.iter().cycle().skip(1)))
-            .filter(|(start, end)| near(**start) && near(**end))
-            .map(
-                |(start, end)| {
-                    if start.to_array() < end.to_array() { [*start, *end] } else { [*end, *start] }
-                },
-            )
+        let mut lines: Vec<_> = around
+            .filter(|&other| other != patch && self.extents[other].is_near(&self.extents[patch], reach))
+            .map(|other| &self.scene.patches[other].polygon)
+            .flat_map(|other| {
+                touching(polygon, other, reach).into_iter().chain(crossing(polygon, other, reach))
+            })
+            .map(|[start, end]| if start.to_array() < end.to_array() { [start, end] } else { [end, start] })
             .collect();
         lines.sort_by(|a, b| {
             a.map(|p| p.to_array()).partial_cmp(&b.map(|p| p.to_array())).unwrap_or(std::cmp::Ordering::Equal)
@@ -47,4 +50,57 @@ impl<'s> Neighbourhood<'s> {
         lines.dedup();
         lines
     }
+}
+
+/// The edges of another polygon that lie on the plane of a polygon.
+fn touching(polygon: &PlanarPolygon, other: &PlanarPolygon, reach: f64) -> Vec<[DVec3; 2]> {
+    let plane = Plane::of(polygon);
+    let near = |place: &DVec3| plane.height(*place).abs() < reach;
+    edges(other).filter(|ends| ends.iter().all(near)).collect()
+}
+
+/// Where two polygons pass through each other: pieces of the line that their planes share. What is no farther than near beyond the other's
+/// plane does not pass through it, it touches it.
+fn crossing(polygon: &PlanarPolygon, other: &PlanarPolygon, reach: f64) -> Vec<[DVec3; 2]> {
+    let [own_plane, other_plane] = [polygon, other].map(Plane::of);
+    if !is_on_both_sides(other, &own_plane, reach) || !is_on_both_sides(polygon, &other_plane, reach) {
+        return Vec::new();
+    }
+    let along = own_plane.normal.cross(other_plane.normal);
+    let (own, others) = (passages(polygon, &other_plane, along), passages(other, &own_plane, along));
+    let shared = |(own, other): (&[DVec3], &[DVec3])| {
+        let later = |a: DVec3, b: DVec3| if a.dot(along) > b.dot(along) { a } else { b };
+        let earlier = |a: DVec3, b: DVec3| if a.dot(along) < b.dot(along) { a } else { b };
+        let (from, to) = (later(own[0], other[0]), earlier(own[1], other[1]));
+        (from.dot(along) < to.dot(along)).then_some([from, to])
+    };
+    let pairs = own.chunks_exact(2).flat_map(|own| others.chunks_exact(2).map(move |other| (own, other)));
+    pairs.filter_map(shared).collect()
+}
+
+/// Whether a polygon has vertices farther than `reach` from a plane on both sides.
+fn is_on_both_sides(polygon: &PlanarPolygon, plane: &Plane, reach: f64) -> bool {
+    let heights = || polygon.loops().flatten().map(|&vertex| plane.height(vertex));
+    heights().any(|height| height > reach) && heights().any(|height| height < -reach)
+}
+
+/// Where the edges of a polygon pass through a plane, in the order along the plane's line: inside of the polygon from the first to the second,
+/// from the third to the fourth, and so on.
+fn passages(polygon: &PlanarPolygon, plane: &Plane, along: DVec3) -> Vec<DVec3> {
+    let passage = |[start, end]: [DVec3; 2]| {
+        let (from, to) = (plane.height(start), plane.height(end));
+        ((from >= 0.0) != (to >= 0.0)).then(|| start.lerp(end, from / (from - to)))
+    };
+    let mut passages: Vec<DVec3> = edges(polygon).filter_map(passage).collect();
+    passages.sort_by(|a, b| a.dot(along).total_cmp(&b.dot(along)));
+    passages
+}
+
+/// The edges of all loops.
+fn edges(polygon: &PlanarPolygon) -> impl Iterator<Item = [DVec3; 2]> {
+    let ends = |points: &'_ [DVec3]| {
+        let next = points.iter().cycle().skip(1);
+        points.iter().zip(next).map(|(start, end)| [*start, *end]).collect::<Vec<_>>()
+    };
+    polygon.loops().flat_map(ends)
 }

@@ -81,11 +81,11 @@ pub(super) fn divide(
     let boundary = points.lines(points.boundary.iter().map(|piece| piece.ends));
     let mut lines = InnerLines::new(boundary, &points.flat);
     for &contact in &ground.contacts {
-        let pieces = points.divide_line(contact, &ground, &mut lines);
+        let pieces = points.divide_line(contact, &ground, (&mut lines, |_| 4.0 * ground.near()));
         points.contacts.extend(pieces);
     }
     for shadow in division.shadows.iter().filter_map(|ends| ground.clip(ends.map(|end| frame.flatten(end)))) {
-        let pieces = points.divide_line(shadow, &ground, &mut lines);
+        let pieces = points.divide_line(shadow, &ground, (&mut lines, |point| ground.step(point) / 4.0));
         points.shadows.extend(pieces);
     }
     points.fill_inside(&ground, &lines);
@@ -108,18 +108,18 @@ impl Points {
         }
     }
 
-    /// Appends the points of the part of a line that lies inside the region and keeps a quarter of a step from the
-    /// boundary and from the lines before it, but for the points that it shares with them; gives its pieces.
+    /// Appends the points of the part of a line that lies inside the region and keeps apart from the boundary and from the lines before
+    /// it, by a distance that is told for each point, but for the points that it shares with them; gives its pieces.
     fn divide_line(
         &mut self,
         ends: [DVec2; 2],
         ground: &Ground<'_>,
-        lines: &mut InnerLines,
+        (lines, apart): (&mut InnerLines, impl Fn(DVec2) -> f64),
     ) -> Vec<[usize; 2]> {
         let mut chain: Vec<Option<usize>> = Vec::new();
         for (flat, place) in ground.pieces(ends.map(|end| (end, ground.frame.lift(end)))) {
             chain.push(match lines.known(flat, ground.near()) {
-                None if ground.inside_and_clear(flat, lines, ground.step(flat) / 4.0) => {
+                None if ground.inside_and_clear(flat, lines, apart(flat)) => {
                     let index = self.push(flat, place);
                     lines.push_point(self.flat[index]);
                     Some(index)
@@ -131,7 +131,7 @@ impl Points {
         let middle = |[a, b]: [usize; 2]| self.flat[a].midpoint(self.flat[b]);
         let clear = |pair: &[usize; 2]| {
             let middle = middle(*pair);
-            ground.inside_and_clear(middle, lines, ground.step(middle) / 16.0)
+            ground.inside_and_clear(middle, lines, apart(middle) / 4.0)
         };
         let kept: Vec<_> = whole.filter(|pair| pair[0] != pair[1] && clear(pair)).collect();
         self.lines(kept.iter().copied()).into_iter().for_each(|piece| lines.push_piece(piece));

@@ -250,3 +250,63 @@ fn edges_of_shadows_are_edges_of_elements() {
         "but for the ends nothing lies across: {crossed}"
     );
 }
+
+/// A level square at a height, its front up, turned about the vertical axis.
+fn square(size: f64, height: f64, turn: f64) -> Patch {
+    let corner = |k: u32| {
+        let (y, x) = (turn + f64::from(k) * std::f64::consts::FRAC_PI_2).sin_cos();
+        DVec3::new(size * x, size * y, height)
+    };
+    Patch::new("square", PlanarPolygon::new([[0, 1, 2, 3].map(corner)]).unwrap(), vec![0.5], vec![0.0])
+}
+
+/// An upright sheet over a line between two points of the plane, from one height to another.
+fn upright([from, to]: [DVec3; 2], [low, high]: [f64; 2]) -> Patch {
+    let (down, up) = (low * DVec3::Z, high * DVec3::Z);
+    let polygon = PlanarPolygon::new([[from + down, to + down, to + up, from + up]]).unwrap();
+    Patch::new("sheet", polygon, vec![0.5], vec![0.0])
+}
+
+/// Where a sheet passes through a floor, stands on it, or leaves it, elements end: on each side of the line they have vertices of their own.
+#[test]
+fn elements_end_where_others_pass_through() {
+    let ends = [DVec3::new(-0.31, -0.4, 0.0), DVec3::new(0.27, 0.5, 0.0)];
+    let floor = square(1.0, 0.0, 0.3);
+    for (heights, is_cut) in
+        [([-0.2, 0.7], true), ([0.0, 0.7], true), ([1e-5, 0.7], true), ([0.1, 0.7], false)]
+    {
+        let scene =
+            Scene { patches: vec![floor.clone(), upright(ends, heights)], bands: 1, ..Scene::default() };
+        let mesh = even(&scene, 60).mesh;
+        let side = |place: DVec3| (ends[1] - ends[0]).cross(place - ends[0]).z;
+        let along =
+            |place: DVec3| (place - ends[0]).dot(ends[1] - ends[0]) / (ends[1] - ends[0]).length_squared();
+        let straddles = |element: &usize| {
+            let corners = mesh.triangle(*element);
+            let is_beside = corners.iter().all(|corner| (0.1..0.9).contains(&along(*corner)));
+            let sides = corners.map(side);
+            is_beside && sides.iter().any(|side| *side > 1e-9) && sides.iter().any(|side| *side < -1e-9)
+        };
+        let on_floor = (0..mesh.elements.len()).filter(|element| mesh.elements[*element].patch == 0);
+        assert_eq!(on_floor.filter(straddles).count() == 0, is_cut, "{heights:?}");
+    }
+}
+
+/// What passes through the plane of a patch beside it, and what crosses it in rounding alone, cuts nothing.
+#[test]
+fn what_passes_beside_or_touches_by_rounding_cuts_nothing() {
+    let floor = square(1.0, 0.0, 0.3);
+    let beside = upright([DVec3::new(2.0, -1.0, 0.0), DVec3::new(2.0, 1.0, 0.0)], [-0.5, 0.5]);
+    let corners: Vec<DVec3> =
+        square(3.0, 0.0, 0.8).polygon.loops().flatten().map(|p| *p + 1e-9 * p.x * DVec3::Z).collect();
+    let tilted = Patch { polygon: PlanarPolygon::new([corners]).unwrap(), ..floor.clone() };
+    let count = |patches: Vec<Patch>| {
+        let scene = Scene { patches, bands: 1, ..Scene::default() };
+        let mesh =
+            Subdivision::new(&scene, &Plan { spacings: vec![0.3; scene.patches.len()], ..Plan::default() });
+        mesh.unwrap().mesh.elements.iter().filter(|element| element.patch == 0).count()
+    };
+    let alone = count(vec![floor.clone()]);
+    assert_eq!(count(vec![floor.clone(), beside]), alone);
+    assert_eq!(count(vec![floor, tilted]), alone);
+}

@@ -11,7 +11,8 @@
 //!
 //! Solids that pass through each other stay as they are: a point inside a solid sees nothing but the backs of its faces, so exact form
 //! factors keep the parts inside dark, and what stands outside is lit as if they had been cut. Faces of one plane that face opposite ways
-//! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch.
+//! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where
+//! patches touch or pass through each other.
 mod cut;
 pub(crate) mod findings;
 mod necks;

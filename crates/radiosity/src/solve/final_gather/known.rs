@@ -2,7 +2,10 @@
 use super::outlook::Outlook;
 use super::received::{Received, SentPiece};
 use super::senders::{LitPoint, Sender};
+use super::tears::tear;
 use crate::error::Error;
+use crate::mesh::element::Mesh;
+use crate::solve::light::Light;
 use crate::solve::{factors::Factors, run::Run, state::KEPT, workers::attempt};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -15,6 +18,8 @@ const NEAR: f64 = 0.5;
 const UNLIKE: f64 = 2.0;
 /// and by this share of what they receive.
 const ALIKE: f64 = 0.02;
+/// Light jumps between neighbours of which one is so many times as bright as the other.
+const JUMP: f64 = 3.0;
 /// What is darker than this share of the mean counts as that bright.
 const DIM: f64 = 0.01;
 
@@ -92,6 +97,14 @@ impl Known {
         let area: f64 = run.light.areas.iter().sum();
         let mean = run.light.total(&run.light.irradiance).iter().map(|power| power / area).collect();
         Known { senders, rows, received, mean }
+    }
+
+    /// The run's mesh with vertices apart where the light of the elements around them jumps.
+    pub(super) fn torn(&self, mesh: &Mesh, light: &Light) -> Mesh {
+        let received = |element: usize| &light.irradiance[element * light.bands..][..light.bands];
+        let bright = |element: usize| self.at_least(received(element)).iter().sum::<f64>();
+        let bright: Vec<f64> = (0..mesh.elements.len()).map(bright).collect();
+        tear(mesh, |one, other| bright[one].max(bright[other]) <= JUMP * bright[one].min(bright[other]))
     }
 
     /// What vertices receive, and see. Of those between two `looks` these tell.

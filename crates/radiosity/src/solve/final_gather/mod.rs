@@ -4,6 +4,7 @@
 //! received   what elements received of every patch, row by row
 //! known      what a vertex receives, by what the elements around it did
 //! senders    patches, their pieces and their elements, each as bright as its elements are on average
+//! tears      vertices apart where light jumps
 //! outlook    where vertices are looked from, and the elements around them
 //! shown      linear light between vertices; which elements are to be cut
 //! bisection  elements cut in halves
@@ -18,9 +19,11 @@ mod outlook;
 mod received;
 mod senders;
 mod shown;
+mod tears;
 
 use super::{interpolate::Means, run::Run, solution::FineLight};
 use crate::error::Error;
+use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use known::{Known, Look};
 use outlook::{Outlook, narrow, outlooks};
@@ -41,9 +44,9 @@ const ROUNDS: usize = 16;
 /// [`Error::Shape`] where a place is beyond what form factors take, [`Error::Defect`] when one fails.
 pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLight>, Error> {
     let Some(known) = Known::of(run)? else { return Ok(None) };
-    let mesh = &run.factors.subdivision.mesh;
-    let (corners, mut looks) = corners(scene, run, &known)?;
-    let mut shown = Shown::of(mesh, corners, &run.light, &known);
+    let mesh = known.torn(&run.factors.subdivision.mesh, &run.light);
+    let (corners, mut looks) = corners(scene, run, &known, &mesh)?;
+    let mut shown = Shown::of(&mesh, corners, &run.light, &known);
     for _ in 0..ROUNDS {
         let count = (MORE * mesh.vertices.len()).div_ceil(ROUNDS);
         let middles = if run.is_stopped { Vec::new() } else { shown.cut(count) };
@@ -61,13 +64,13 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     Ok(Some(shown.into_light(scene)))
 }
 
-/// What the vertices of the run's mesh receive, and what they see.
+/// What the vertices of the run's mesh receive, torn apart as they are, and what they see.
 fn corners(
     scene: &Scene,
     run: &mut Run<'_>,
     known: &Known,
+    mesh: &Mesh,
 ) -> Result<(Vec<f64>, BTreeMap<usize, Look>), Error> {
-    let mesh = &run.factors.subdivision.mesh;
     let [vertices, whole] =
         [mesh.vertices.len(), mesh.elements.len()].map(|count| (0..count).collect::<Vec<_>>());
     let mut outlooks = outlooks(scene, run, (mesh, &whole), &vertices)?;
