@@ -55,6 +55,20 @@ fn scene(patches: Vec<Patch>) -> Scene {
     Scene { patches, bands: 1, ..Scene::default() }
 }
 
+/// A room of 4 × 4 × 3 m with a lamp below its ceiling: patch 0 is a wall, patch 4 the floor, 6 the lamp.
+fn room() -> Vec<Patch> {
+    let [x, y, z] = [4.0 * DVec3::X, 4.0 * DVec3::Y, 3.0 * DVec3::Z];
+    vec![
+        sheet("wall", DVec3::ZERO, [y, z], 0.0),
+        sheet("front", x, [z, y], 0.0),
+        sheet("left", DVec3::ZERO, [z, x], 0.0),
+        sheet("right", y, [x, z], 0.0),
+        sheet("floor", DVec3::ZERO, [x, y], 0.0),
+        sheet("ceiling", z, [y, x], 0.0),
+        sheet("lamp", DVec3::new(1.5, 1.5, 2.99), [DVec3::Y, DVec3::X], 10.0),
+    ]
+}
+
 /// The share of what is lit in a part of the scene that is shown within 5 %.
 fn share_where(scene: &Scene, elements: usize, is_there: impl Fn(&Sample) -> bool) -> f64 {
     let options = Options { method: Method::Mesh, elements, ..Quality::Draft.options() };
@@ -69,20 +83,11 @@ fn share_where(scene: &Scene, elements: usize, is_there: impl Fn(&Sample) -> boo
 /// edge itself ends a tenth of a metre beside the plate.
 #[test]
 fn what_surrounds_a_plate_before_a_wall() {
-    let [x, y, z] = [4.0 * DVec3::X, 4.0 * DVec3::Y, 3.0 * DVec3::Z];
     let plate = [2.0 * DVec3::Y, 1.2 * DVec3::Z];
     let corner = DVec3::new(0.03, 1.0, 1.0);
-    let scene = scene(vec![
-        sheet("wall", DVec3::ZERO, [y, z], 0.0),
-        sheet("front", x, [z, y], 0.0),
-        sheet("left", DVec3::ZERO, [z, x], 0.0),
-        sheet("right", y, [x, z], 0.0),
-        sheet("floor", DVec3::ZERO, [x, y], 0.0),
-        sheet("ceiling", z, [y, x], 0.0),
-        sheet("lamp", DVec3::new(1.5, 1.5, 2.99), [DVec3::Y, DVec3::X], 10.0),
-        sheet("plate", corner, plate, 0.0),
-        sheet("back", corner, [plate[1], plate[0]], 0.0),
-    ]);
+    let mut patches = room();
+    patches.extend([sheet("plate", corner, plate, 0.0), sheet("back", corner, [plate[1], plate[0]], 0.0)]);
+    let scene = scene(patches);
     let is_around = |sample: &Sample| {
         let [along, up] = [sample.point.y, sample.point.z];
         let off = (along - 2.0).abs().max((up - 1.6).abs() + 0.4);
@@ -92,7 +97,7 @@ fn what_surrounds_a_plate_before_a_wall() {
     assert!(share >= 0.9, "{share}");
 }
 
-/// A closed box of six patches, its edges along three directions, two of them in the order in which the third is up.
+/// A closed box of six patches, its edges along three directions that are right-handed in this order.
 fn block(name: &str, middle: DVec3, [x, y, z]: [DVec3; 3]) -> Vec<Patch> {
     let corner = middle - (x + y + z) / 2.0;
     let faces = [
@@ -109,16 +114,7 @@ fn block(name: &str, middle: DVec3, [x, y, z]: [DVec3; 3]) -> Vec<Patch> {
 /// Blocks that lean against each other and into the floor of a room, as people model them: light jumps where one enters the other.
 #[test]
 fn solids_that_pass_through_each_other() {
-    let [x, y, z] = [4.0 * DVec3::X, 4.0 * DVec3::Y, 3.0 * DVec3::Z];
-    let mut patches = vec![
-        sheet("back", DVec3::ZERO, [y, z], 0.0),
-        sheet("front", x, [z, y], 0.0),
-        sheet("left", DVec3::ZERO, [z, x], 0.0),
-        sheet("right", y, [x, z], 0.0),
-        sheet("floor", DVec3::ZERO, [x, y], 0.0),
-        sheet("ceiling", z, [y, x], 0.0),
-        sheet("lamp", DVec3::new(1.5, 1.5, 2.99), [DVec3::Y, DVec3::X], 10.0),
-    ];
+    let mut patches = room();
     for (k, turn) in [0.3, 1.1, 2.0, 2.9].into_iter().enumerate() {
         let turned = DQuat::from_rotation_z(turn) * DQuat::from_rotation_x(0.2 * turn - 0.3);
         let edges = [0.7 * DVec3::X, 1.3 * DVec3::Y, 0.9 * DVec3::Z].map(|edge| turned * edge);

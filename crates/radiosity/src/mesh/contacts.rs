@@ -1,10 +1,10 @@
 //! Where other patches touch a patch or pass through it: lines across which its light jumps.
 //!
 //! ```text
-//!        |   /              +----+
-//!   +----+--/--------+      |    | stands on the plane: its edge is a line of contact
-//!   |    | /  pierces|   ---+====+---
-//!   +====+===========+   the other passes through the plane: the line is where both polygons meet that of their planes
+//!   stands on the plane      passes through it
+//!        +----+                   /
+//!   -----+====+-----         ----x----     seen from the side, the planes of both edge on:
+//!                               /          x is a piece of the line that the planes share
 //! ```
 use crate::extent::{BoxTree, Extent};
 use crate::plane::Plane;
@@ -34,14 +34,13 @@ impl<'s> Neighbourhood<'s> {
     /// few only a blurred shadow at the foot of what stands there.
     pub(crate) fn contacts(&self, patch: usize, spacing: f64) -> Vec<[DVec3; 2]> {
         let (polygon, reach) = (&self.scene.patches[patch].polygon, spacing * 1e-3);
+        let plane = Plane::of(polygon);
         // Twice as far, so that no rounding leaves one out.
         let around = self.boxes.meeting(&self.extents[patch].grown(2.0 * reach)).into_iter();
         let mut lines: Vec<_> = around
             .filter(|&other| other != patch && self.extents[other].is_near(&self.extents[patch], reach))
             .map(|other| &self.scene.patches[other].polygon)
-            .flat_map(|other| {
-                touching(polygon, other, reach).into_iter().chain(crossing(polygon, other, reach))
-            })
+            .flat_map(|other| touching(&plane, other, reach).chain(crossing((polygon, &plane), other, reach)))
             .map(|[start, end]| if start.to_array() < end.to_array() { [start, end] } else { [end, start] })
             .collect();
         lines.sort_by(|a, b| {
@@ -52,22 +51,24 @@ impl<'s> Neighbourhood<'s> {
     }
 }
 
-/// The edges of another polygon that lie on the plane of a polygon.
-fn touching(polygon: &PlanarPolygon, other: &PlanarPolygon, reach: f64) -> Vec<[DVec3; 2]> {
-    let plane = Plane::of(polygon);
-    let near = |place: &DVec3| plane.height(*place).abs() < reach;
-    edges(other).filter(|ends| ends.iter().all(near)).collect()
+/// The edges of a polygon that lie on a plane.
+fn touching(plane: &Plane, polygon: &PlanarPolygon, reach: f64) -> impl Iterator<Item = [DVec3; 2]> {
+    edges(polygon).filter(move |ends| ends.iter().all(|end| plane.height(*end).abs() < reach))
 }
 
 /// Where two polygons pass through each other: pieces of the line that their planes share. What is no farther than near beyond the other's
 /// plane does not pass through it, it touches it.
-fn crossing(polygon: &PlanarPolygon, other: &PlanarPolygon, reach: f64) -> Vec<[DVec3; 2]> {
-    let [own_plane, other_plane] = [polygon, other].map(Plane::of);
-    if !is_on_both_sides(other, &own_plane, reach) || !is_on_both_sides(polygon, &other_plane, reach) {
+fn crossing(
+    (polygon, own_plane): (&PlanarPolygon, &Plane),
+    other: &PlanarPolygon,
+    reach: f64,
+) -> Vec<[DVec3; 2]> {
+    let other_plane = Plane::of(other);
+    if !is_on_both_sides(other, own_plane, reach) || !is_on_both_sides(polygon, &other_plane, reach) {
         return Vec::new();
     }
     let along = own_plane.normal.cross(other_plane.normal);
-    let (own, others) = (passages(polygon, &other_plane, along), passages(other, &own_plane, along));
+    let (own, others) = (passages(polygon, &other_plane, along), passages(other, own_plane, along));
     let shared = |(own, other): (&[DVec3], &[DVec3])| {
         let later = |a: DVec3, b: DVec3| if a.dot(along) > b.dot(along) { a } else { b };
         let earlier = |a: DVec3, b: DVec3| if a.dot(along) < b.dot(along) { a } else { b };
@@ -98,9 +99,7 @@ fn passages(polygon: &PlanarPolygon, plane: &Plane, along: DVec3) -> Vec<DVec3> 
 
 /// The edges of all loops.
 fn edges(polygon: &PlanarPolygon) -> impl Iterator<Item = [DVec3; 2]> {
-    let ends = |points: &'_ [DVec3]| {
-        let next = points.iter().cycle().skip(1);
-        points.iter().zip(next).map(|(start, end)| [*start, *end]).collect::<Vec<_>>()
-    };
-    polygon.loops().flat_map(ends)
+    polygon.loops().flat_map(|points| {
+        points.iter().zip(points.iter().cycle().skip(1)).map(|(start, end)| [*start, *end])
+    })
 }

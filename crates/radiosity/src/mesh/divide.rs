@@ -80,6 +80,7 @@ pub(super) fn divide(
     points.divide_boundary(&ground);
     let boundary = points.lines(points.boundary.iter().map(|piece| piece.ends));
     let mut lines = InnerLines::new(boundary, &points.flat);
+    // Light jumps at both sides of what is thin, too: a contact line keeps no farther from others than points must to be told apart.
     for &contact in &ground.contacts {
         let pieces = points.divide_line(contact, &ground, (&mut lines, |_| 4.0 * ground.near()));
         points.contacts.extend(pieces);

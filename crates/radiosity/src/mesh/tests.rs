@@ -1,8 +1,8 @@
 //! Laws of the mesh.
-use super::{plan::Plan, subdivide::Subdivision};
+use super::{plan::Plan, subdivide::Subdivision, tree::Node};
 use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
-use glam::DVec3;
+use glam::{DQuat, DVec3, EulerRot};
 
 /// A scene cut in about so many elements.
 fn even(scene: &Scene, elements: usize) -> Subdivision {
@@ -309,4 +309,55 @@ fn what_passes_beside_or_touches_by_rounding_cuts_nothing() {
     let alone = count(vec![floor.clone()]);
     assert_eq!(count(vec![floor.clone(), beside]), alone);
     assert_eq!(count(vec![floor, tilted]), alone);
+}
+
+/// Polygons with and without holes, of very different sizes, stuck into each other at random.
+fn thicket(seed: u64, count: usize) -> Vec<Patch> {
+    let mut state = seed;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut patch = |index: usize| {
+        let loops = if index % 3 == 0 { l_with_hole() } else { vec![rectangle()] };
+        let turn = DQuat::from_euler(EulerRot::XYZ, 7.0 * random(), 7.0 * random(), 7.0 * random());
+        let (size, at) = (0.02f64.powf(random()), 3.0 * DVec3::new(random(), random(), random()));
+        let place = |point: &[f64; 3]| at + size * (turn * DVec3::from(*point));
+        let loops = loops.iter().map(|points| points.iter().map(place).collect::<Vec<_>>());
+        Patch::new("patch", PlanarPolygon::new(loops).unwrap(), vec![0.5], vec![0.0])
+    };
+    (0..count).map(&mut patch).collect()
+}
+
+/// However others pass through a patch, its elements and the outlines of its pieces cover it once. In the opposite order of patches, and
+/// where all is four times as large, it has as many.
+#[test]
+fn what_others_pass_through_is_covered_once() {
+    for seed in 0..60 {
+        let patches = thicket(seed, 24);
+        let counts = |patches: &[Patch]| {
+            let scene = Scene { patches: patches.to_vec(), bands: 1, ..Scene::default() };
+            let Subdivision { mesh, nodes, flat, .. } = even(&scene, 40 << (seed % 6));
+            let count = |(patch, node): (&Patch, &Node)| {
+                let whole = patch.polygon.area();
+                let areas: Vec<f64> = node.elements.clone().map(|element| mesh.area(element)).collect();
+                assert!(areas.iter().all(|area| *area > 0.0), "seed {seed}");
+                let outlined = flat.outline(&mesh, &mesh.elements[node.elements.clone()]).unwrap().area();
+                for area in [areas.iter().sum(), outlined] {
+                    assert!((area / whole - 1.0).abs() < 1e-10, "seed {seed}: {area} of {whole}");
+                }
+                areas.len()
+            };
+            patches.iter().zip(&nodes).map(count).collect::<Vec<_>>()
+        };
+        let known = counts(&patches);
+        let reversed: Vec<Patch> = patches.iter().rev().cloned().collect();
+        assert!(counts(&reversed).iter().eq(known.iter().rev()), "seed {seed}");
+        let larger = |patch: &Patch| {
+            let loops =
+                patch.polygon.loops().map(|points| points.iter().map(|p| 4.0 * *p).collect::<Vec<_>>());
+            Patch { polygon: PlanarPolygon::new(loops).unwrap(), ..patch.clone() }
+        };
+        assert_eq!(counts(&patches.iter().map(larger).collect::<Vec<_>>()), known, "seed {seed}");
+    }
 }
