@@ -141,6 +141,7 @@ mod form_factor;
 mod hierarchy;
 mod matrix;
 mod numeric;
+mod occluders;
 mod pipeline;
 mod quick;
 mod scene;

@@ -2,9 +2,11 @@
 use crate::buffers::Buffers;
 use crate::exact::{self, pyramid::Pyramid};
 use crate::form_factor::FormFactor;
-use crate::quick::{self, QuickBuffers, target::Target};
-use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
+use crate::occluders::{Reach, Taker, all};
+use crate::quick::{self, QuickBuffers};
+use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
+use std::ops::ControlFlow;
 
 /// The form factor from a differential area to the front of a polygon, with occluders in between.
 ///
@@ -23,7 +25,7 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
     if occluders.is_empty() {
         return unoccluded(from, to);
     }
-    past(from, to, |_| occluders.iter().enumerate(), None, &mut Buffers::default())
+    past(from, to, all(occluders), None, &mut Buffers::default())
 }
 
 /// The form factor from a differential area to the front of a polygon with nothing in between.
@@ -41,32 +43,34 @@ pub fn form_factor(from: &DifferentialArea, to: &PlanarPolygon, occluders: &[Pla
 /// ```
 #[must_use]
 pub fn unoccluded(from: &DifferentialArea, to: &PlanarPolygon) -> FormFactor {
-    quick::unoccluded(from, to).unwrap_or_else(|| past(from, to, |_| [], None, &mut Buffers::default()))
+    quick::unoccluded(from, to).unwrap_or_else(|| past(from, to, |_, _| (), None, &mut Buffers::default()))
 }
 
 /// The form factor past those of the occluders that `occluders` finds, with their ids, within reach of the target: the only way to one.
 /// What was done is counted in the buffers' stats, and the buffers know which occluders may hide some of the target. With `within`, doubles
 /// do if they err by no more.
-pub(crate) fn past<'a, I>(
+pub(crate) fn past<'a>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
-    occluders: impl Fn(&Reach) -> I,
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
     within: Option<f64>,
     Buffers { quick, scratch, stats }: &mut Buffers,
-) -> FormFactor
-where
-    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
-{
+) -> FormFactor {
     *stats = Stats::default();
-    let near = |target: &Target| occluders(&Reach::Quick(target));
-    let quickly = quick::form_factor(from, to, near, within, quick, stats);
+    let quickly = quick::form_factor(from, to, &occluders, within, quick, stats);
     quickly.unwrap_or_else(|| {
         *stats = Stats::default();
-        let QuickBuffers { blockers, .. } = quick;
+        let QuickBuffers { blockers, lost, .. } = quick;
         blockers.clear();
-        let near = move |pyramid: &Pyramid| {
-            let near = occluders(&Reach::Exact { pyramid, deviation: to.deviation() });
-            near.into_iter().inspect(move |(id, _)| blockers.push(*id)).map(|(_, occluder)| occluder)
+        *lost = 0.0;
+        let near = |pyramid: &Pyramid| {
+            let mut near = Vec::new();
+            occluders(&Reach::Exact { pyramid, deviation: to.deviation() }, &mut |id, occluder| {
+                blockers.push(id);
+                near.push(occluder);
+                ControlFlow::Continue(())
+            });
+            near
         };
         let found = exact::form_factor(from, to, near, scratch, stats);
         // Where little rises above the horizon, roundings may leave open more than all of it.
@@ -79,21 +83,43 @@ where
     })
 }
 
-/// Where an occluder must be to hide anything of a target, as each route knows it.
-#[derive(Debug)]
-pub(crate) enum Reach<'r> {
-    Quick(&'r Target<'r>),
-    Exact { pyramid: &'r Pyramid, deviation: f64 },
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DQuat, DVec3};
+    use proptest::prelude::*;
 
-impl Reach<'_> {
-    /// Whether nothing in a box can hide anything, for certain. Polygons in it may lie off their vertices by `deviation`.
-    pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
-        match self {
-            Reach::Quick(target) => target.misses_box(extent, deviation),
-            Reach::Exact { pyramid, deviation: of_target } => {
-                pyramid.misses_box(extent, deviation + of_target)
-            }
+    /// A rectangle in a turned room: how it is turned, a corner, and two ways.
+    fn rectangle(turn: DQuat, corner: DVec3, ways: [DVec3; 2]) -> PlanarPolygon {
+        let corners = [DVec3::ZERO, ways[0], ways[0] + ways[1], ways[1]];
+        PlanarPolygon::new([corners.map(|way| turn * (corner + way))]).expect("a rectangle")
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// Boards stand on the four sides of the target and lie along two of its edges: in a turned room all but for roundings.
+        #[test]
+        fn what_runs_along_the_target_but_for_roundings_is_no_question(
+            axis in prop::array::uniform3(-1.0..1.0), angle in 0.1..6.0, at in prop::array::uniform2(0.2..3.8),
+            from in 0.5..1.5, tall in 0.1..2.0, wide in 0.1..2.0, tolerance in prop_oneof![Just(1e-7), Just(1e-9)],
+        ) {
+            let turn = DQuat::from_scaled_axis(DVec3::from(axis).normalize_or(DVec3::X) * angle);
+            let target = rectangle(turn, DVec3::new(0.0, 0.0, 0.0), [DVec3::X * 4.0, DVec3::Y * 4.0]);
+            let boards = [
+                rectangle(turn, DVec3::new(from, 0.0, -0.5), [DVec3::X, DVec3::Z * (tall + 0.5)]),
+                rectangle(turn, DVec3::new(from, 4.0, -0.5), [DVec3::X, DVec3::Z * (tall + 0.5)]),
+                rectangle(turn, DVec3::new(0.0, from, 0.0), [DVec3::Y, DVec3::Z * tall]),
+                rectangle(turn, DVec3::new(0.0, 0.0, 1.0), [DVec3::X * wide, DVec3::Y * 4.0]),
+            ];
+            let spot = DifferentialArea::new(turn * DVec3::new(at[0], at[1], 3.0), turn * DVec3::NEG_Z).expect("a place");
+            let mut buffers = Buffers::default();
+            let quickly =
+                quick::form_factor(&spot, &target, all(&boards), Some(tolerance), &mut buffers.quick, &mut buffers.stats);
+            let exact = past(&spot, &target, all(&boards), None, &mut buffers);
+            let quickly = quickly.expect("doubles decide it");
+            prop_assert!(quickly.error_bound <= tolerance);
+            prop_assert!((quickly.value - exact.value).abs() <= quickly.error_bound + exact.error_bound);
         }
     }
 }

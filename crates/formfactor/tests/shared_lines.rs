@@ -92,8 +92,8 @@ fn agree(
     let exact = by_hierarchy(from, target, others);
     let scene = Enclosure::new([std::slice::from_ref(target), others].concat());
     let (found, stats) = scene.form_factor_with_stats(from, 0);
-    let rough = scene.form_factor_within(from, 0, target, ROUGH);
-    for found in [found, rough] {
+    let [rough, fine] = [ROUGH, FINE].map(|within| scene.form_factor_within(from, 0, target, within));
+    for found in [found, rough, fine] {
         let off = (found.value - exact.value).abs();
         prop_assert!(
             off <= found.error_bound + exact.error_bound,
@@ -162,8 +162,9 @@ fn compare_slanted(
     Ok(())
 }
 
-/// What will do for some.
+/// What will do for some, and for others.
 const ROUGH: f64 = 1e-9;
+const FINE: f64 = 1e-11;
 
 /// On the grid.
 const ON: [f64; 3] = [0.0; 3];

@@ -1,16 +1,14 @@
 //! What is left of each edge: that of an occluder is clipped to the target, and each is hidden by the cones that it meets.
 use super::cone::{Cones, OneCone};
+use super::exact_side::Span;
 use super::inside::{Inside, inside};
 use super::interval::Interval;
 use super::lanes::MOST;
 use super::sides::{Sides, Standing};
-use glam::DVec3;
 
 /// What is left of every edge so far: those of the target, and then those of the cones.
 #[derive(Debug, Default)]
 pub(super) struct Boundary {
-    /// dA.
-    origin: DVec3,
     rests: Vec<Rest>,
     /// How many edges the target has.
     sides: usize,
@@ -54,7 +52,7 @@ enum Relation {
 /// Two cones that cross, and on which sides of the planes of each the corners of the other one are.
 struct Meeting<'m> {
     cones: [&'m OneCone<'m>; 2],
-    origin: DVec3,
+    span: Span<'m>,
     sides: [&'m Sides; 2],
     relation: Relation,
 }
@@ -75,7 +73,7 @@ impl Meeting<'_> {
             }
             let part = match self.relation {
                 Relation::Crossing => there.part(edge, index, second.edges, back),
-                _ => inside(self.origin, (first, index), second),
+                _ => inside(self.span, (first, index), second),
             };
             found(rest, part);
         }
@@ -116,8 +114,7 @@ impl Rest {
 }
 
 impl Boundary {
-    pub(super) fn begin(&mut self, origin: DVec3, target: OneCone, cones: &Cones) {
-        self.origin = origin;
+    pub(super) fn begin(&mut self, target: OneCone, cones: &Cones) {
         self.sides = target.edges.len();
         self.rests.clear();
         self.rests.resize(self.sides + cones.edges().len(), Rest::WHOLE);
@@ -126,17 +123,16 @@ impl Boundary {
     }
 
     /// Clips a cone's edges to the target, and hides the target's behind it. Returns whether they meet.
-    pub(super) fn clip(&mut self, target: OneCone, cones: &Cones, index: usize) -> bool {
+    pub(super) fn clip(&mut self, span: Span, target: OneCone, cones: &Cones, index: usize) -> bool {
         let (cone, first) = (cones.cone(index), self.sides + cones.first(index));
         let relation = self.compare(&cone, &target, false);
         let is_apart = matches!(relation, Relation::Apart | Relation::Beside(_));
         match relation {
             Relation::Apart | Relation::Beside(_) => self.lose(first, cone),
             Relation::Crossing | Relation::Open => {
-                let Self { origin, rests, parts, within: [there, back], .. } = self;
+                let Self { rests, parts, within: [there, back], .. } = self;
                 let (of_target, of_cones) = rests.split_at_mut(first);
-                let crossing =
-                    Meeting { cones: [&cone, &target], origin: *origin, sides: [there, back], relation };
+                let crossing = Meeting { cones: [&cone, &target], span, sides: [there, back], relation };
                 crossing.for_each_part(of_cones, Rest::clip);
                 // The same way, both are on one side of the edge, and it is hidden.
                 let hide = |rest: &mut Rest, part| rest.hide(part, |is_same_way| is_same_way, parts);
@@ -185,7 +181,7 @@ impl Boundary {
     }
 
     /// Hides the edges of two cones behind each other.
-    pub(super) fn hide(&mut self, cones: &Cones, [a, b]: [usize; 2]) {
+    pub(super) fn hide(&mut self, span: Span, cones: &Cones, [a, b]: [usize; 2]) {
         if self.is_swallowed(a) || self.is_swallowed(b) {
             return;
         }
@@ -204,9 +200,8 @@ impl Boundary {
             Relation::FirstInside => self.lose_all(cones, a),
             Relation::SecondInside => self.lose_all(cones, b),
             Relation::Crossing | Relation::Open => {
-                let Self { origin, rests, parts, within: [there, back], .. } = self;
-                let meeting =
-                    Meeting { cones: [&first, &second], origin: *origin, sides: [there, back], relation };
+                let Self { rests, parts, within: [there, back], .. } = self;
+                let meeting = Meeting { cones: [&first, &second], span, sides: [there, back], relation };
                 // Edges that both have the same way are on the boundary of their union: the first of the two keeps it. The other
                 // way, the cones are on either side: the edge is inside the union, and both lose it.
                 meeting.for_each_part(&mut rests[at_first..], |rest, part| {

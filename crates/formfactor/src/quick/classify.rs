@@ -133,7 +133,7 @@ fn push<'c>(
         if is_clipped {
             clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
         }
-        cones.push(corners)
+        cones.push(corners, deviation == 0.0)
     } else {
         corners.clear();
         let given = piece.iter().copied();

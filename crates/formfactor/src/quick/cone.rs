@@ -79,10 +79,9 @@ impl Corner {
 
     /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
     fn along(&self, end: &Self) -> DVec3 {
-        if self.rounding + end.rounding > 0.0 {
-            end.at - self.at
-        } else {
-            end.id.between[0] - self.id.between[0]
+        match [self.id, end.id].map(CornerId::given) {
+            [Some(start), Some(end)] => end - start,
+            _ => end.at - self.at,
         }
     }
 }
@@ -213,11 +212,30 @@ pub(super) struct OneCone<'c> {
     pub(super) edges: &'c [Edge],
     pub(super) ids: &'c [CornerId],
     pub(super) spread: &'c Spread,
+    /// Where corners are that are no vertices as given.
+    pub(super) cut: Cut,
+}
+
+/// Where corners are that are no vertices as given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// Of an occluder: where it passes through the target's plane.
+    AtTarget,
+    /// Of a target: hardly above the horizon.
+    AtHorizon,
+    /// Of a target: a hair inside of its corners.
+    Inset,
 }
 
 impl<'c> OneCone<'c> {
-    pub(super) fn new(edges: &'c [Edge], ids: &'c [CornerId], spread: &'c Spread) -> Self {
-        Self { edges, ids, spread }
+    /// That of a target.
+    pub(super) fn of_target(
+        edges: &'c [Edge],
+        ids: &'c [CornerId],
+        spread: &'c Spread,
+        is_inset: bool,
+    ) -> Self {
+        Self { edges, ids, spread, cut: if is_inset { Cut::Inset } else { Cut::AtHorizon } }
     }
 
     /// Two vertices as given on the line of an edge, in its order; none where a plane made the edge.
@@ -243,15 +261,23 @@ pub(super) struct Spread {
     cuts: f64,
     /// Which of all edges are its own: from `first` on.
     first: usize,
+    /// Whether its vertices as given lie in a plane.
+    pub(super) is_flat: bool,
 }
 
 impl Spread {
     /// Of the cone of those edges that come last, from `first` on, whose cut corners may be so far off.
-    pub(super) fn of(edges: &[Edge], first: usize, rounding: f64) -> Self {
+    pub(super) fn of(edges: &[Edge], first: usize, rounding: f64, is_flat: bool) -> Self {
         let edges = &edges[first..];
         let reach = edges.iter().fold(0.0, |reach, edge| greater(reach, size(edge.start)));
         let cuts = rounding / ERROR;
-        Self { corners: Corners::of(edges.iter().map(|edge| edge.start)), reach: reach + cuts, cuts, first }
+        Self {
+            corners: Corners::of(edges.iter().map(|edge| edge.start)),
+            reach: reach + cuts,
+            cuts,
+            first,
+            is_flat,
+        }
     }
 
     /// A bound on the error of how far inside a plane a corner is: coarse, but it costs little.
@@ -280,11 +306,12 @@ impl Cones {
         self.spreads.clear();
     }
 
-    /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
-    pub(super) fn push(&mut self, corners: &[Corner]) -> &[Edge] {
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges. Those of a flat one come
+    /// from vertices in a plane.
+    pub(super) fn push(&mut self, corners: &[Corner], is_flat: bool) -> &[Edge] {
         let first = self.edges.len();
         faces(corners, &mut self.edges, &mut self.ids);
-        self.spreads.push(Spread::of(&self.edges, first, rounding(corners)));
+        self.spreads.push(Spread::of(&self.edges, first, rounding(corners), is_flat));
         &self.edges[first..]
     }
 
@@ -296,7 +323,7 @@ impl Cones {
     ) -> &[Edge] {
         let first = self.edges.len();
         given_faces(vertices, origin, &mut self.edges, &mut self.ids);
-        self.spreads.push(Spread::of(&self.edges, first, 0.0));
+        self.spreads.push(Spread::of(&self.edges, first, 0.0, true));
         &self.edges[first..]
     }
 
@@ -319,6 +346,6 @@ impl Cones {
     pub(super) fn cone(&self, cone: usize) -> OneCone<'_> {
         let spread = &self.spreads[cone];
         let own = spread.first..spread.first + spread.corners.count;
-        OneCone { edges: &self.edges[own.clone()], ids: &self.ids[own], spread }
+        OneCone { edges: &self.edges[own.clone()], ids: &self.ids[own], spread, cut: Cut::AtTarget }
     }
 }

@@ -1,8 +1,8 @@
 //! The part of an edge inside a cone: what an occluder hides of it, or what the target's cone leaves of it.
-use super::cone::{CornerId, Edge, OneCone, UNDERFLOW};
+use super::cone::{Edge, OneCone, UNDERFLOW};
+use super::exact_side::{Span, exact_side};
 use super::interval::{Interval, Parameter, greater};
-use crate::numeric::{predicates::turn, rounding::ROUNDING};
-use glam::DVec3;
+use crate::numeric::rounding::ROUNDING;
 use std::cmp::Ordering;
 
 /// What of an edge is inside a cone.
@@ -23,8 +23,8 @@ pub(super) const CLEAR: f64 = 16.0;
 /// By how much the error of a parameter exceeds that of the depths by their difference: 16/15, and roundings.
 const SHARE: f64 = 1.07;
 
-/// What of edge `index` of a cone is inside another one, by clipping it against one plane after the other. `origin` is dA.
-pub(super) fn inside(origin: DVec3, (own, index): (&OneCone<'_>, usize), other: &OneCone<'_>) -> Inside {
+/// What of edge `index` of a cone is inside another one, by clipping it against one plane after the other.
+pub(super) fn inside(span: Span, (own, index): (&OneCone<'_>, usize), other: &OneCone<'_>) -> Inside {
     let edge = &own.edges[index];
     let mut left = Interval::WHOLE;
     // Whether it may lie in a plane; whether it lies in planes of edges that run the other way, and the same way.
@@ -43,7 +43,7 @@ pub(super) fn inside(origin: DVec3, (own, index): (&OneCone<'_>, usize), other: 
         let side = |end: usize, depth: f64| match depth {
             depth if depth > error => Some(Ordering::Greater),
             depth if depth < -error => Some(Ordering::Less),
-            _ => exact_side(origin, own.ends(index)[end], (other, number)),
+            _ => exact_side(span, (own, own.ends(index)[end]), (other, number)),
         };
         match [side(0, start), side(1, end)] {
             [Some(Ordering::Equal), Some(Ordering::Equal)] if leads(edge) && leads(plane) => {
@@ -65,19 +65,6 @@ pub(super) fn inside(origin: DVec3, (own, index): (&OneCone<'_>, usize), other: 
         // A cone that has it both ways has no width.
         [true, true] => Inside::Open,
         [_, is_same_way] => Inside::Along { part: left, is_same_way },
-    }
-}
-
-/// On which side of the plane of an edge a corner of another cone is, as far as vertices as given decide it. A cut is strictly between two.
-#[cold]
-fn exact_side(origin: DVec3, corner: CornerId, (other, edge): (&OneCone<'_>, usize)) -> Option<Ordering> {
-    if other.ends(edge).contains(&corner) {
-        return Some(Ordering::Equal);
-    }
-    let [a, b] = other.line(edge)?;
-    match corner.between().map(|p| turn(origin, b, a, p)) {
-        [one, other] if one == other || other.is_eq() => Some(one),
-        [one, other] => one.is_eq().then_some(other),
     }
 }
 

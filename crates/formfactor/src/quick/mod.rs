@@ -18,7 +18,9 @@ mod clip;
 mod cone;
 mod contour;
 mod corners;
+mod exact_side;
 mod horizon;
+mod inset;
 mod inside;
 mod interval;
 mod lanes;
@@ -34,12 +36,14 @@ pub(crate) use horizon::most_seen;
 
 use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
+use crate::occluders::{Reach, Taker, each};
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use classify::{Class, classify};
 use cone::{Cones, Corner, CornerId, Edge, Spread};
 use glam::DVec3;
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 use target::{HalfSpace, Target};
 
 /// The quick route's buffers, to be used again.
@@ -52,8 +56,10 @@ pub(crate) struct QuickBuffers {
     spread: Spread,
     cones: Cones,
     trace: trace::TraceBuffers,
-    /// The ids of the occluders that may hide some of the last target.
+    /// The ids of the occluders that may hide some of the last target,
     pub(crate) blockers: Vec<usize>,
+    /// and a bound on the form factor of what others may hide.
+    pub(crate) lost: f64,
 }
 
 impl QuickBuffers {
@@ -67,15 +73,12 @@ impl QuickBuffers {
 const ROUGH: f64 = 1e-9;
 
 /// The form factor of a target whose visible boundary is kept, to be read off the buffers; `None` where doubles do not decide it.
-pub(crate) fn boundary<'a, I>(
+pub(crate) fn boundary<'a>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
-    occluders: impl Fn(&Target) -> I,
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
     buffers: &mut QuickBuffers,
-) -> Option<FormFactor>
-where
-    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
-{
+) -> Option<FormFactor> {
     buffers.trace.record.is_kept = true;
     let factor = form_factor(from, to, occluders, Some(ROUGH), buffers, &mut Stats::default());
     buffers.trace.record.is_kept = false;
@@ -87,19 +90,17 @@ const MANY: usize = 16;
 
 /// The form factor past the occluders that `occluders` finds for each convex piece of the target; `None` where doubles do not decide it, or
 /// leave more open than is good enough: `within` or, where that is not given, little.
-pub(crate) fn form_factor<'a, I>(
+pub(crate) fn form_factor<'a>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
-    occluders: impl Fn(&Target) -> I,
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
     within: Option<f64>,
     buffers: &mut QuickBuffers,
     stats: &mut Stats,
-) -> Option<FormFactor>
-where
-    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
-{
+) -> Option<FormFactor> {
     buffers.trace.record.parts.clear();
     buffers.blockers.clear();
+    buffers.lost = 0.0;
     let mut pieces = to.convex_pieces();
     let whole = pieces.next()?;
     let count = 1 + pieces.count();
@@ -122,25 +123,36 @@ where
 }
 
 /// The form factor of a convex piece of a polygon.
-fn to_piece<'a, I>(
+fn to_piece<'a>(
     from: &DifferentialArea,
     to: (&PlanarPolygon, &[DVec3]),
-    occluders: impl Fn(&Target) -> I,
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
     within: Option<f64>,
     buffers: &mut QuickBuffers,
     stats: &mut Stats,
-) -> Option<FormFactor>
-where
-    I: IntoIterator<Item = (usize, &'a PlanarPolygon)>,
-{
-    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace, blockers } = buffers;
-    let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread) else {
+) -> Option<FormFactor> {
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace, blockers, lost } = buffers;
+    // Some of what may be lost, if anything may; a boundary is wanted where it is.
+    let may_lose = within.filter(|_| !trace.record.is_kept).map(|within| within / 2.0);
+    let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread, may_lose) else {
         let error_bound = most_seen(from, to).filter(|most| *most <= within.unwrap_or(0.0))?;
         stats.none += 1;
         return Some(FormFactor { value: 0.0, error_bound });
     };
-    match hidden(&target, occluders(&target), corners, (cones, blockers), stats)? {
-        Hidden::Whole => Some(FormFactor::default()),
+    *lost += target.lost;
+    match hidden(
+        &target,
+        |taker| occluders(&Reach::Quick(&target), taker),
+        corners,
+        (cones, blockers),
+        stats,
+    )? {
+        Hidden::Whole => Some(FormFactor { value: 0.0, error_bound: target.lost }),
+        Hidden::Part { open } if target.lost > 0.0 && cones.len() == 0 => {
+            let open = open + target.lost;
+            let target = Target::new(from, to, corners, (edges, ids), sides, spread, None)?;
+            trace::sum(&target, cones, (open, within), trace, stats)
+        }
         Hidden::Part { open } => trace::sum(&target, cones, (open, within), trace, stats),
     }
 }
@@ -157,34 +169,41 @@ enum Hidden {
 /// Puts the cones of what may hide some of the target in place of those before, and adds the ids; `None` where doubles do not decide it.
 fn hidden<'a>(
     target: &Target,
-    occluders: impl IntoIterator<Item = (usize, &'a PlanarPolygon)>,
+    occluders: impl FnOnce(Taker<'_, 'a>),
     corners: &mut [Vec<Corner>; 2],
     (cones, blockers): (&mut Cones, &mut Vec<usize>),
     stats: &mut Stats,
 ) -> Option<Hidden> {
-    let mut open = 0.0;
+    let (mut open, mut hidden) = (0.0, None);
+    let mut is_decided = true;
     cones.clear();
-    for (id, occluder) in occluders {
+    occluders(&mut |id, occluder| {
         stats.looked_at += 1;
-        match classify(target, occluder, corners, cones)? {
-            Class::Misses { error } => {
+        match classify(target, occluder, corners, cones) {
+            Some(Class::Misses { error }) => {
                 stats.culled += 1;
                 open += error;
                 blockers.extend((error > 0.0).then_some(id));
             }
-            Class::Blocks { error, is_clipped } => {
+            Some(Class::Blocks { error, is_clipped }) => {
                 stats.clipped += u64::from(is_clipped);
                 open += error;
                 blockers.push(id);
             }
-            Class::Covers => {
+            Some(Class::Covers) => {
                 stats.total += 1;
                 blockers.push(id);
-                return Some(Hidden::Whole);
+                hidden = Some(Hidden::Whole);
+                return ControlFlow::Break(());
+            }
+            None => {
+                is_decided = false;
+                return ControlFlow::Break(());
             }
         }
-    }
-    Some(Hidden::Part { open })
+        ControlFlow::Continue(())
+    });
+    is_decided.then_some(hidden.unwrap_or(Hidden::Part { open }))
 }
 
 /// Whether occluders may leave anything of a convex target visible; those that may hide some of it are noted in the buffers. `None` where
@@ -195,11 +214,13 @@ pub(crate) fn is_open<'a>(
     occluders: impl IntoIterator<Item = (usize, &'a PlanarPolygon)>,
     buffers: &mut QuickBuffers,
 ) -> Option<bool> {
-    let QuickBuffers { corners, edges, ids, sides, spread, cones, blockers, .. } = buffers;
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, blockers, lost, .. } = buffers;
     let mut pieces = to.convex_pieces();
     let piece = pieces.next().filter(|_| pieces.next().is_none())?;
-    let target = Target::new(from, (to, piece), corners, (edges, ids), sides, spread)?;
+    let target = Target::new(from, (to, piece), corners, (edges, ids), sides, spread, None)?;
     blockers.clear();
-    let found = hidden(&target, occluders, corners, (cones, blockers), &mut Stats::default())?;
+    *lost = 0.0;
+    let found =
+        hidden(&target, |taker| each(occluders, taker), corners, (cones, blockers), &mut Stats::default())?;
     Some(matches!(found, Hidden::Part { .. }))
 }

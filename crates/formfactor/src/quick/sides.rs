@@ -167,8 +167,9 @@ fn shared(depths: &Lanes, clear: f64, corners: &[CornerId], ends: [CornerId; 2])
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::predicates::Plane;
     use crate::quick::cone::{Cones, Corner};
-    use crate::quick::inside::inside;
+    use crate::quick::{exact_side::Span, inside::inside};
     use glam::{DVec2, DVec3};
     use proptest::prelude::*;
     use std::f64::consts::TAU;
@@ -220,6 +221,12 @@ mod tests {
         }
     }
 
+    /// Some plane beyond all polygons.
+    fn beyond() -> Plane {
+        let corners = [[1e3, 0.0, 1e3], [0.0, 1e3, 1e3], [0.0, 0.0, 1e3]];
+        Plane::through(corners.map(DVec3::from)).expect("three points that span a plane")
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
@@ -227,13 +234,13 @@ mod tests {
         fn shared_corners_move_no_boundary(polygons in prop::array::uniform2(of_places()), is_smaller in any::<bool>()) {
             let mut cones = Cones::default();
             for polygon in &polygons {
-                cones.push(polygon);
+                cones.push(polygon, true);
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
             let standings = [there.find(&b, &a, is_smaller), back.find(&a, &b, !is_smaller)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(DVec3::ZERO, (&a, index), &b);
+                let clipped = inside(Span { origin: DVec3::ZERO, plane: &beyond() }, (&a, index), &b);
                 let found = match standings {
                     [Standing::Beside([own, _]), _] | [_, Standing::Beside([_, own])] if own == index => {
                         Inside::Along { part: Interval::WHOLE, is_same_way: false }
@@ -256,13 +263,13 @@ mod tests {
         fn signs_find_the_parts_that_clipping_finds(polygons in prop::array::uniform2(polygon())) {
             let mut cones = Cones::default();
             for polygon in polygons {
-                cones.push(&corners(polygon));
+                cones.push(&corners(polygon), true);
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
             let standings = [there.find(&b, &a, false), back.find(&a, &b, true)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(DVec3::ZERO, (&a, index), &b);
+                let clipped = inside(Span { origin: DVec3::ZERO, plane: &beyond() }, (&a, index), &b);
                 let found = match standings {
                     [Standing::Apart, _] | [_, Standing::Apart] => Inside::Nothing,
                     [Standing::Contained, _] => Inside::Part(Interval::WHOLE),

@@ -3,6 +3,7 @@
 use super::boundary::Boundary;
 use super::cone::{Cones, Edge};
 use super::contour::{Parts, Sum};
+use super::exact_side::Span;
 use super::interval::{Interval, for_each_gap};
 use super::neighbours::Neighbours;
 use super::seams::Seams;
@@ -92,10 +93,11 @@ fn enough(target: &Target, sum: &Sum, error: f64, within: Option<f64>) -> Option
 fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut Sum) -> Option<()> {
     let TraceBuffers { neighbours, seams, boundary, hidden, record } = buffers;
     let frame = Frame::new(-target.to.plane().rounded(), target.to.axes()[2]);
-    boundary.begin(target.from.position(), target.cone, cones);
+    let span = Span { origin: target.from.position(), plane: target.to.plane() };
+    boundary.begin(target.cone, cones);
     neighbours.clear();
     for cone in 0..cones.len() {
-        if boundary.clip(target.cone, cones, cone) {
+        if boundary.clip(span, target.cone, cones, cone) {
             neighbours.push(frame.around(cones.cone(cone).edges), cone);
         }
     }
@@ -109,7 +111,7 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
         }
         neighbours.retain(|cone| !boundary.is_swallowed(cone));
     }
-    neighbours.for_each_pair(|pair| boundary.hide(cones, pair));
+    neighbours.for_each_pair(|pair| boundary.hide(span, cones, pair));
     let (of_target, of_cones) = boundary.rests();
     let of_target = target.cone.edges.iter().zip(of_target).map(|(edge, rest)| (edge, rest, 1.0));
     // An occluder's edge has the visible part on its other side.

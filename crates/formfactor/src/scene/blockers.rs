@@ -2,23 +2,25 @@
 use super::enclosure::Enclosure;
 use crate::buffers::Buffers;
 use crate::form_factor::FormFactor;
-use crate::pipeline::Reach;
+use crate::occluders::{Reach, Taker, each};
 use crate::quick;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
 
 /// The polygons of an [`Enclosure`] that may hide some of a polygon, or of a part of one, from a differential area.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Blockers {
     ids: Vec<usize>,
+    /// A bound on the form factor of what others may hide.
+    others: f64,
 }
 
 impl Blockers {
-    /// Those of the last target.
-    fn of(buffers: &Buffers) -> Self {
+    /// Those of the last target, behind which others may hide so little.
+    fn of(buffers: &Buffers, others: f64) -> Self {
         let mut ids = buffers.quick.blockers.clone();
         ids.sort_unstable();
         ids.dedup();
-        Self { ids }
+        Self { ids, others: others + buffers.quick.lost }
     }
 
     /// Their ids, in ascending order.
@@ -56,7 +58,8 @@ impl Enclosure {
         part: &PlanarPolygon,
         tolerance: f64,
     ) -> (FormFactor, Blockers) {
-        let (factor, blockers) = self.past_found(from, id, part, Some(tolerance), Blockers::of);
+        let (factor, blockers) =
+            self.past_found(from, id, part, Some(tolerance), |found| Blockers::of(found, 0.0));
         (factor, blockers.unwrap_or_default())
     }
 
@@ -76,9 +79,11 @@ impl Enclosure {
         blockers: &Blockers,
         tolerance: f64,
     ) -> (FormFactor, Blockers) {
-        let occluders = |_: &Reach| self.with_ids(blockers);
-        let (factor, blockers) = self.past(from, (id, part), occluders, Some(tolerance), Blockers::of);
-        (factor, blockers.unwrap_or_default())
+        let of_part = |found: &Buffers| Blockers::of(found, blockers.others);
+        let (mut factor, of_part) =
+            self.past(from, (id, part), self.behind(blockers), Some(tolerance), of_part);
+        factor.error_bound += blockers.others;
+        (factor, of_part.unwrap_or_default())
     }
 
     /// What may hide some of a part of what [`Self::form_factor_and_blockers`] or [`Self::form_factor_behind`] looked at from the same place;
@@ -99,11 +104,15 @@ impl Enclosure {
         self.pool.lend(|buffers| {
             let part = self.on_plane(id, part);
             match quick::is_open(from, &part, self.with_ids(blockers), &mut buffers.quick) {
-                Some(true) => Some(Blockers::of(buffers)),
+                Some(true) => Some(Blockers::of(buffers, blockers.others)),
                 Some(false) => None,
                 None => Some(blockers.clone()),
             }
         })
+    }
+
+    fn behind<'p>(&'p self, blockers: &Blockers) -> impl Fn(&Reach, Taker<'_, 'p>) {
+        move |_: &Reach, taker: Taker<'_, 'p>| each(self.with_ids(blockers), taker)
     }
 
     fn with_ids(&self, blockers: &Blockers) -> impl Iterator<Item = (usize, &PlanarPolygon)> {

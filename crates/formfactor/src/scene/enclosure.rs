@@ -1,6 +1,7 @@
 //! Enclosures: many polygons that see and hide each other.
 use super::{
     body::{Around, Bodies},
+    looks::Looks,
     pool::Pool,
     shaft::Shaft,
     shell::Adjacency,
@@ -11,7 +12,8 @@ use crate::buffers::Buffers;
 use crate::centroid::with_centroid;
 use crate::exact::deviation::unseen;
 use crate::form_factor::FormFactor;
-use crate::pipeline::{self, Reach};
+use crate::occluders::{Reach, Taker, each};
+use crate::pipeline;
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use crate::stats::Stats;
 use glam::DVec3;
@@ -41,6 +43,7 @@ pub struct Enclosure {
     polygons: Vec<PlanarPolygon>,
     tree: Tree,
     bodies: Bodies,
+    looks: Looks,
     /// The largest deviation of a vertex from where it stands.
     deviation: f64,
     pub(super) pool: Pool,
@@ -61,6 +64,7 @@ impl Enclosure {
             surfaces: OnceLock::new(),
             tree,
             bodies: Bodies::among(&polygons, &adjacency),
+            looks: Looks::of(&polygons),
             polygons,
             deviation,
             pool: Pool::default(),
@@ -211,32 +215,41 @@ impl Enclosure {
         within: Option<f64>,
         take: impl FnOnce(&Buffers) -> T,
     ) -> (FormFactor, Option<T>) {
-        let occluders = |reach: &Reach| {
+        self.past(from, (id, part), self.within_reach(from, id), within, take)
+    }
+
+    /// The polygons within reach that can hide polygon `id`, those first that look largest: they may hide all of it.
+    pub(super) fn within_reach<'p>(
+        &'p self,
+        from: &DifferentialArea,
+        id: usize,
+    ) -> impl Fn(&Reach, Taker<'_, 'p>) {
+        move |reach: &Reach, taker: Taker<'_, 'p>| {
             let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
-            self.others(from, id, self.tree.find(outside), outside).collect::<Vec<_>>()
-        };
-        self.past(from, (id, part), occluders, within, take)
+            let mut near = self.tree.find(outside);
+            self.looks.sort(from.position(), &mut near);
+            let near = near.into_iter().filter(|i| !reach.misses(&self.polygons[*i]));
+            each(self.others(from, id, near, outside), taker);
+        }
     }
 
     /// The form factor to a part of polygon `id` past occluders with their ids, and what is taken of how it was found; nothing of one that is
     /// not seen from its front.
-    pub(super) fn past<'p, I, T>(
-        &self,
+    pub(super) fn past<'p, T>(
+        &'p self,
         from: &DifferentialArea,
         (id, part): (usize, &PlanarPolygon),
-        occluders: impl Fn(&Reach) -> I,
+        occluders: impl Fn(&Reach, Taker<'_, 'p>),
         within: Option<f64>,
         take: impl FnOnce(&Buffers) -> T,
-    ) -> (FormFactor, Option<T>)
-    where
-        I: IntoIterator<Item = (usize, &'p PlanarPolygon)>,
-    {
-        if self.is_edge_on(from, id) {
-            return (FormFactor::default(), None);
-        }
+    ) -> (FormFactor, Option<T>) {
         // Rounding may have put the part a last bit off the polygon's plane, which decides.
         let whole = &self.polygons[id];
-        if whole.plane().side_of(from.position()) != Ordering::Greater {
+        let is_before = whole.plane().side_of(from.position()) == Ordering::Greater;
+        if (!is_before && whole.deviation() == 0.0) || self.is_edge_on(from, id) {
+            return (FormFactor::default(), None);
+        }
+        if !is_before {
             return (unseen(from, whole), None);
         }
         self.pool.lend(|buffers| {
@@ -274,10 +287,10 @@ impl Enclosure {
     }
 
     /// The form factor to polygon `id`, past those of the polygons `near` that can hide it.
-    fn past_near(&self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
-        let occluders = |reach: &Reach| {
+    fn past_near<'p>(&'p self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
+        let occluders = |reach: &Reach, taker: Taker<'_, 'p>| {
             let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
-            self.others(from, id, near.iter().copied(), outside).collect::<Vec<_>>()
+            each(self.others(from, id, near.iter().copied(), outside), taker);
         };
         self.past(from, (id, &self.polygons[id]), occluders, None, |_| ()).0
     }

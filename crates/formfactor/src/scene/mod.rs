@@ -7,6 +7,7 @@ pub(crate) mod coplanar;
 pub(crate) mod enclosure;
 pub(crate) mod inside;
 pub(crate) mod line;
+mod looks;
 pub(crate) mod occluder;
 pub(crate) mod plates;
 pub(crate) mod pool;

@@ -2,7 +2,7 @@
 use super::enclosure::Enclosure;
 use super::line::LineOfSight;
 use crate::numeric::predicates::place;
-use crate::quick::{self, target::Target};
+use crate::quick;
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
 use crate::visible_part::{VisiblePart, seen_past};
 use glam::DVec3;
@@ -57,12 +57,9 @@ impl Enclosure {
         if self.is_edge_on(from, id) || whole.plane().side_of(from.position()) != Ordering::Greater {
             return Vec::new();
         }
-        let occluders = |target: &Target| {
-            let outside = |extent: &Extent| target.misses_box(extent, self.deviation());
-            self.others(from, id, self.tree().find(outside), outside).collect::<Vec<_>>()
-        };
         let quickly = self.pool.lend(|buffers| {
-            let found = quick::boundary(from, &self.on_plane(id, part), occluders, &mut buffers.quick);
+            let near = self.within_reach(from, id);
+            let found = quick::boundary(from, &self.on_plane(id, part), near, &mut buffers.quick);
             found.map(|_| buffers.quick.recorded().to_vec())
         });
         quickly.unwrap_or_else(|| {

@@ -10,8 +10,10 @@ use formfactor::{Blockers, DifferentialArea, Enclosure, PlanarPolygon};
 use glam::DVec3;
 use std::{ops::Range, sync::Arc};
 
-/// What a form factor may be off by: far less than what tells a closed room from an open one.
+/// What a form factor may be off by: far less than what tells a closed room from an open one,
 const ENOUGH: f64 = 1e-11;
+/// or far less than what is shown, or what is taken roughly, of all together.
+const SHOWN: f64 = 1e-8;
 
 /// A piece of a patch, in the plane of the polygon that the enclosure has for the patch.
 #[derive(Debug)]
@@ -147,14 +149,15 @@ impl<'s> Factors<'s> {
     /// The form factor from a point to a piece.
     pub(super) fn factor(&self, from: &DifferentialArea, piece: &PieceShape) -> f64 {
         let surface = self.surface_of[piece.patch];
-        self.enclosure.form_factor_within(from, surface, &piece.polygon, ENOUGH).value
+        let enough = if self.rough.is_some() { SHOWN } else { ENOUGH };
+        self.enclosure.form_factor_within(from, surface, &piece.polygon, enough).value
     }
 
     /// The form factor from a point to a piece, and what may hide some of it.
     pub(super) fn factor_and_blockers(&self, from: &DifferentialArea, piece: &PieceShape) -> (f64, Blockers) {
         let surface = self.surface_of[piece.patch];
         let (factor, blockers) =
-            self.enclosure.form_factor_and_blockers(from, surface, &piece.polygon, ENOUGH);
+            self.enclosure.form_factor_and_blockers(from, surface, &piece.polygon, SHOWN);
         (factor.value, blockers)
     }
 
@@ -167,7 +170,7 @@ impl<'s> Factors<'s> {
     ) -> (f64, Blockers) {
         let surface = self.surface_of[part.patch];
         let (factor, blockers) =
-            self.enclosure.form_factor_behind(from, surface, &part.polygon, blockers, ENOUGH);
+            self.enclosure.form_factor_behind(from, surface, &part.polygon, blockers, SHOWN);
         (factor.value, blockers)
     }
 

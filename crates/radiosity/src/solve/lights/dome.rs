@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 /// What a form factor to a side may be off by.
-const ENOUGH: f64 = 1e-11;
+const ENOUGH: f64 = 1e-9;
 
 /// The sky as a level ceiling above the scene and four walls around it, which go down to the level of whoever looks: of the sky every point
 /// sees what it sees of these past the scene's polygons.

@@ -1,13 +1,11 @@
-//! The only place that decides signs. Results are of type `Ordering`; there is no tolerance.
-//!
-//! Every decision in space is the sign of one polynomial of degree 3 in the input's doubles: the height
+//! Heights over planes, and their signs: almost every decision in space is the sign of one polynomial of degree 3 in the input's doubles: the height
 //! (b - a) x (c - a) . (x - y). It is computed in up to three ways:
 //!
 //! 1. in doubles, with an error below [`QUICK`] times the sum of its terms' magnitudes;
-//! 2. in double-doubles, with an error below 2^-96 of that sum ([`super::offset::size`] accounts for underflow);
+//! 2. in double-doubles, with an error below 2^-96 of that sum ([`crate::numeric::offset::size`] accounts for underflow);
 //! 3. in integers, where nothing is rounded.
-use super::offset::{Offset, sizes};
-use super::rounding::ROUNDING;
+use crate::numeric::offset::{Offset, sizes};
+use crate::numeric::rounding::ROUNDING;
 use exactfloat::{DoubleDouble, Integer, integers, orient2d, sign};
 use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
@@ -167,10 +165,16 @@ pub(crate) fn turn(origin: DVec3, a: DVec3, b: DVec3, d: DVec3) -> Ordering {
     if [a, b].contains(&d) || (0..3).filter(|&axis| a[axis] == b[axis] && b[axis] == d[axis]).count() > 1 {
         return Ordering::Equal;
     }
-    let (normal, terms) = Offset::between(origin, a).cross(Offset::between(origin, b));
-    let offset = Offset::between(origin, d);
+    height_over(&[origin, a, b], d).sign
+}
+
+/// The height of `d` over the plane through three points: (b - a) x (c - a) . (d - a).
+pub(super) fn height_over(plane: &[DVec3; 3], d: DVec3) -> Height {
+    let [a, b, c] = *plane;
+    let (normal, terms) = Offset::between(a, b).cross(Offset::between(a, c));
+    let offset = Offset::between(a, d);
     let terms = terms.dot(offset.sizes());
-    decide(normal.dot(offset), terms, || exact_height(&[origin, a, b], origin, d)).sign
+    decide(normal.dot(offset), terms, || exact_height(plane, a, d))
 }
 
 fn decide(value: DoubleDouble, terms: f64, exact: impl FnOnce() -> Ordering) -> Height {
@@ -211,15 +215,15 @@ fn spans_a_plane(corners: [DVec3; 3]) -> bool {
     cross(&minus(&b, &a), &minus(&c, &a)).iter().any(|component| sign(component).is_ne())
 }
 
-fn minus(a: &[Integer; 3], b: &[Integer; 3]) -> [Integer; 3] {
+pub(super) fn minus(a: &[Integer; 3], b: &[Integer; 3]) -> [Integer; 3] {
     [0, 1, 2].map(|i| &a[i] - &b[i])
 }
 
-fn cross(a: &[Integer; 3], b: &[Integer; 3]) -> [Integer; 3] {
+pub(super) fn cross(a: &[Integer; 3], b: &[Integer; 3]) -> [Integer; 3] {
     [(1, 2), (2, 0), (0, 1)].map(|(j, k)| &a[j] * &b[k] - &a[k] * &b[j])
 }
 
-fn dot(a: &[Integer; 3], b: &[Integer; 3]) -> Integer {
+pub(super) fn dot(a: &[Integer; 3], b: &[Integer; 3]) -> Integer {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
