@@ -267,6 +267,23 @@ fn a_target_of_which_almost_nothing_rises() {
     }
 }
 
+/// The board is cut at the target's plane, where its place is rounded by 5e-6 of dA's height over it.
+#[test]
+fn a_board_that_is_cut_where_da_is_close_to_the_target() {
+    let nudge = [-9.109473673732843e-11, 9.52018747843351e-11, 7.067630970427351e-11];
+    let things = vec![((1, 2, [3, 1], [1, 5]), 0, nudge), ((2, 3, [0, 0], [2, 4]), 2, [0.0; 3])];
+    compare(((0.0, [0.0, 0.0, 1.0], [0.0; 3]), things, [0, 4, 0], 2, true)).unwrap();
+}
+
+#[test]
+fn a_board_with_a_corner_cut_out_that_ends_at_the_targets_plane() {
+    let things = vec![
+        ((1, -3, [0, 0], [1, 3]), 0, [0.0; 3]),
+        ((0, 2, [-3, 0], [4, 2]), 1, [0.0, -6.0506946833738205e-16, 0.0]),
+    ];
+    compare(((0.0, [0.0, 0.0, 1.0], [0.0; 3]), things, [0, 0, -4], 2, false)).unwrap();
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(5_000))]
 

@@ -30,6 +30,13 @@ impl CornerId {
         Self { between }
     }
 
+    /// One of several that are rounded to one place: unlike all others, itself too.
+    const UNKNOWN: Self = Self { between: [DVec3::NAN; 2] };
+
+    pub(super) fn is_known(self) -> bool {
+        !self.between[0].is_nan()
+    }
+
     /// The vertex as given; none where the polygon was cut.
     pub(super) fn given(self) -> Option<DVec3> {
         let [a, b] = self.between;
@@ -124,9 +131,11 @@ impl Edge {
         Self { start, end, along, inward: along.cross(start), errors, error: errors.element_sum() }
     }
 
-    /// Counts how far off the line through two vertices as given the cuts at its ends may be.
-    fn count_cuts(&mut self, [start, end]: [&Corner; 2]) {
-        if start.rounding + end.rounding > 0.0 && start.id.line(end.id).is_some() {
+    /// Counts how far off its line the cuts at its ends may be: that through two vertices as given, or where a plane makes the edge exactly.
+    /// Otherwise such an edge is where it is rounded to.
+    fn count_cuts(&mut self, [start, end]: [&Corner; 2], is_cut_exactly: bool) {
+        let has_line = is_cut_exactly || start.id.line(end.id).is_some();
+        if start.rounding + end.rounding > 0.0 && has_line {
             self.errors += (start.rounding + end.rounding) * (size(self.along) + size(self.start));
             self.error = self.errors.element_sum();
         }
@@ -171,17 +180,25 @@ pub(super) fn size(v: DVec3) -> f64 {
 }
 
 /// Adds the edges of a convex polygon whose corners are counter-clockwise as dA sees them. Each starts where the one before it
-/// ends, and comes with what its start is. Of corners that coincide the first is taken.
-pub(super) fn faces(corners: &[Corner], edges: &mut Vec<Edge>, ids: &mut Vec<CornerId>) {
-    let Some(mut before) = corners.last() else { return };
+/// ends, and comes with what its start is. Of corners that coincide the first is taken,
+/// and what it is counts as unknown.
+pub(super) fn faces(
+    corners: &[Corner],
+    is_cut_exactly: bool,
+    edges: &mut Vec<Edge>,
+    ids: &mut Vec<CornerId>,
+) {
+    let Some(mut before) = corners.last().copied() else { return };
     for corner in corners {
         let along = before.along(corner);
         if along != DVec3::ZERO {
             let mut edge = Edge::new(before.at, corner.at, along);
-            edge.count_cuts([before, corner]);
+            edge.count_cuts([&before, corner], is_cut_exactly);
             edges.push(edge);
             ids.push(before.id);
-            before = corner;
+            before = *corner;
+        } else if before.id != corner.id {
+            before.id = CornerId::UNKNOWN;
         }
     }
 }
@@ -310,7 +327,7 @@ impl Cones {
     /// from vertices in a plane.
     pub(super) fn push(&mut self, corners: &[Corner], is_flat: bool) -> &[Edge] {
         let first = self.edges.len();
-        faces(corners, &mut self.edges, &mut self.ids);
+        faces(corners, is_flat, &mut self.edges, &mut self.ids);
         self.spreads.push(Spread::of(&self.edges, first, rounding(corners), is_flat));
         &self.edges[first..]
     }

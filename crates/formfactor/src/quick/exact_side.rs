@@ -27,17 +27,17 @@ pub(super) fn exact_side(
     (cone, corner): (&OneCone, CornerId),
     (other, edge): (&OneCone, usize),
 ) -> Option<Ordering> {
-    if [cone.cut, other.cut].contains(&Cut::Inset) {
+    let ends = other.ends(edge);
+    let are_known = corner.is_known() && ends.iter().all(|end| end.is_known());
+    if !are_known || [cone.cut, other.cut].contains(&Cut::Inset) {
         return None;
     }
-    if other.ends(edge).contains(&corner) {
+    if ends.contains(&corner) {
         return Some(Ordering::Equal);
     }
     match other.line(edge) {
         Some([a, b]) => side_of([span.origin, b, a], span, (cone, corner)),
-        None if other.spread.is_flat && other.cut == Cut::AtTarget => {
-            behind(span, (cone, corner), other.ends(edge))
-        }
+        None if other.spread.is_flat && other.cut == Cut::AtTarget => behind(span, (cone, corner), ends),
         None => None,
     }
 }

@@ -122,7 +122,7 @@ pub(crate) fn form_factor<'a>(
     Some(FormFactor { value: value.min(1.0), error_bound })
 }
 
-/// The form factor of a convex piece of a polygon.
+/// The form factor of a convex piece of a polygon, or of a hair less of it where so much may be off and doubles decide that.
 fn to_piece<'a>(
     from: &DifferentialArea,
     to: (&PlanarPolygon, &[DVec3]),
@@ -131,22 +131,35 @@ fn to_piece<'a>(
     buffers: &mut QuickBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
+    // A boundary is wanted where it is.
+    let may_lose = within.filter(|_| !buffers.trace.record.is_kept).map(|within| within / 2.0);
+    let before = buffers.lost;
+    let found = of_piece(from, to, &occluders, (within, may_lose), buffers, stats);
+    if found.is_some() || buffers.lost == before {
+        return found;
+    }
+    buffers.lost = before;
+    of_piece(from, to, &occluders, (within, None), buffers, stats)
+}
+
+/// That of the piece less what may be lost.
+fn of_piece<'a>(
+    from: &DifferentialArea,
+    to: (&PlanarPolygon, &[DVec3]),
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
+    (within, may_lose): (Option<f64>, Option<f64>),
+    buffers: &mut QuickBuffers,
+    stats: &mut Stats,
+) -> Option<FormFactor> {
     let QuickBuffers { corners, edges, ids, sides, spread, cones, trace, blockers, lost } = buffers;
-    // Some of what may be lost, if anything may; a boundary is wanted where it is.
-    let may_lose = within.filter(|_| !trace.record.is_kept).map(|within| within / 2.0);
     let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread, may_lose) else {
         let error_bound = most_seen(from, to).filter(|most| *most <= within.unwrap_or(0.0))?;
         stats.none += 1;
         return Some(FormFactor { value: 0.0, error_bound });
     };
     *lost += target.lost;
-    match hidden(
-        &target,
-        |taker| occluders(&Reach::Quick(&target), taker),
-        corners,
-        (cones, blockers),
-        stats,
-    )? {
+    let near = |taker: Taker<'_, 'a>| occluders(&Reach::Quick(&target), taker);
+    match hidden(&target, near, corners, (cones, blockers), stats)? {
         Hidden::Whole => Some(FormFactor { value: 0.0, error_bound: target.lost }),
         Hidden::Part { open } if target.lost > 0.0 && cones.len() == 0 => {
             let open = open + target.lost;

@@ -94,7 +94,7 @@ fn add_faces(
     }
     copy(piece, to.deviation(), from.position(), false, corners);
     let left_out = if is_cut { cut_off(from, to, corners, spare) } else { 0.0 };
-    faces(corners, edges, ids);
+    faces(corners, false, edges, ids);
     left_out
 }
 
@@ -163,7 +163,7 @@ impl<'a> Target<'a> {
         if lost.is_some() {
             edges.clear();
             ids.clear();
-            faces(corners, edges, ids);
+            faces(corners, false, edges, ids);
         }
         *spread = Spread::of(edges, 0, rounding(corners), to.deviation() == 0.0);
         sides.clear();
