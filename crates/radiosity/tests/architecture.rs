@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 242] = [
+const ORDER: [&str; 246] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -17,11 +17,11 @@ const ORDER: [&str; 242] = [
     "io/gltf/material", "io/gltf/accessor", "io/gltf/document", "io/gltf/prepare", "io/gltf/container", "io/gltf/buffer",
     "io/obj", "io/obj/write", "io/obj/read", "io/obj/material", "io/obj/statements",
     "io/ply", "io/ply/write", "io/ply/read", "io/ply/body", "io/ply/header", "io/stl", "io/stl/write", "io/stl/binary", "io/stl/text", "io/stl/solid",
-    "io/collada", "io/collada/repaired", "io/collada/dimmed", "io/collada/vertices", "io/collada/write", "io/collada/splice", "io/collada/exposed", "io/collada/compose", "io/collada/light_text", "io/collada/model",
+    "io/collada", "io/collada/repaired", "io/collada/kept", "io/collada/pieces", "io/collada/outlines", "io/collada/dimmed", "io/collada/vertices", "io/collada/write", "io/collada/splice", "io/collada/exposed", "io/collada/compose", "io/collada/light_text", "io/collada/model",
     "io/collada/patches", "io/collada/unread", "io/collada/material", "io/collada/images", "io/collada/lights", "io/collada/spectra",
     "io/collada/primitive", "io/collada/camera", "io/collada/walk", "io/collada/transform",
     "io/collada/file", "io/collada/lit_mesh", "io/collada/encoding", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
-    "io/surface/changes", "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
+    "io/surface/changes", "io/surface/sidedness", "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
     "io/surface/polygon", "io/photometry", "io/photometry/ies", "io/photometry/ldt", "io/photometry/angles", "io/words", "io/save", "io/error",
     "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",

@@ -69,6 +69,13 @@ pub fn needed_sides(scene: &Scene) -> Scene {
     Scene { patches, ..scene.clone() }
 }
 
+/// For each patch the number of the closed body that it is a part of, if it is of one.
+pub(crate) fn closed_bodies(scene: &Scene) -> Vec<Option<usize>> {
+    let bodies = Bodies::collect(scene, &Welds::of(scene));
+    let is_closed = |patch: usize| bodies.of(patch).turned_in.is_some();
+    (0..scene.patches.len()).map(|patch| is_closed(patch).then(|| bodies.of_patch[patch])).collect()
+}
+
 /// Whether a patch is one of two sides.
 fn is_pair(scene: &Scene, index: usize) -> bool {
     scene.patches[index].is_back || scene.patches.get(index + 1).is_some_and(|next| next.is_back)

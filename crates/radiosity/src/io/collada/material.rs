@@ -79,20 +79,27 @@ pub(super) fn dimmable<'a>(
     })
 }
 
-/// Whether an `<extra>` of the effect or of the geometry says that the surface has two sides, as exporters say it.
+/// Whether an `<extra>` says that a primitive has two sides: its own, or else that of its effect or of the geometry, as exporters say it.
 pub(super) fn is_double_sided<'a>(
     file: &File<'a>,
     instance: &Instance<'a>,
-    symbol: Option<&str>,
+    primitive: XmlNode<'a>,
 ) -> Result<bool, FileError> {
+    if let Some(flag) = children(primitive, "extra").find_map(|extra| flags(extra).next()) {
+        return Ok(flag);
+    }
+    let symbol = primitive.attribute("material");
     let material = symbol.map_or(Ok(None), |symbol| bound(file, instance.element, symbol))?;
     let effect = material.and_then(|material| child(material, "instance_effect"));
     let effect = effect.and_then(|effect| file.target(effect, "url", "effect").ok());
-    let told = effect.into_iter().flat_map(|effect| effect.descendants());
-    let told = told.chain(children(instance.geometry, "extra").flat_map(|extra| extra.descendants()));
-    let mut flags =
-        told.filter(|node| node.tag_name().name() == "double_sided").filter_map(|node| node.text());
-    Ok(flags.any(|flag| matches!(flag.trim(), "1" | "true")))
+    let told = effect.into_iter().chain(children(instance.geometry, "extra"));
+    Ok(told.flat_map(flags).any(|flag| flag))
+}
+
+/// What is said within an element about having two sides.
+fn flags<'a>(element: XmlNode<'a>) -> impl Iterator<Item = bool> {
+    let told = element.descendants().filter(|node| node.tag_name().name() == "double_sided");
+    told.filter_map(|node| node.text()).map(|flag| matches!(flag.trim(), "1" | "true"))
 }
 
 /// The `<instance_material>` of that symbol, or, since some exporters bind nothing, the material of that id.

@@ -15,12 +15,15 @@ mod encoding;
 mod exposed;
 mod file;
 mod images;
+mod kept;
 mod light_text;
 mod lights;
 mod lit_mesh;
 mod material;
 pub(crate) mod model;
+mod outlines;
 mod patches;
+mod pieces;
 mod primitive;
 mod repaired;
 mod spectra;
@@ -133,6 +136,8 @@ impl Collada {
 
     /// The file's text with the polygons of a repaired scene: those that were cut give way to their pieces, and everything else stays byte
     /// for byte, but for diffuse colours whose reflectance was limited. Polygons behind which nothing changed keep their vertices bit for bit.
+    /// Polygons of bodies that are closed no longer are said not to be double-sided, so that the sides stay hidden that were; those whose two
+    /// sides were cut in different ways become two.
     ///
     /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). A file that has no room for more vertices is
     /// written anew, as by [`Collada::of`], and so is one whose limited reflectances are spectra. A picture that reflects all light
@@ -142,8 +147,8 @@ impl Collada {
     /// As [`Collada::scene`].
     pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<String, FileError> {
         let spliced = self.with_file(|file| {
-            let (_, flawed) = self.read(file)?;
-            let repairs = (changes(before, after, &flawed), dimmed(before, after));
+            let (scene, flawed) = self.read(file)?;
+            let repairs = (changes([&scene, before, after], &flawed), dimmed(before, after));
             repaired::repaired(&self.text, file, &repairs)
         })?;
         Ok(spliced.unwrap_or_else(|| Self::of(after).text))

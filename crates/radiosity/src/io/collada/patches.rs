@@ -38,7 +38,7 @@ pub(super) fn patches<'a>(
                 facets: &facets,
                 world: instance.visit.world,
                 finish,
-                two_sided: is_double_sided(file, instance, primitive.material)?,
+                two_sided: is_double_sided(file, instance, primitive.element)?,
                 origin: Origin { instance: index, primitive: number, polygon: 0 },
             };
             let added = surfaces.add(&surface, warnings);

@@ -99,7 +99,7 @@ pub(super) struct Layout<'a> {
     pub(super) vertices: XmlNode<'a>,
     pub(super) source: XmlNode<'a>,
     places: Option<(XmlNode<'a>, usize)>,
-    normals: Option<(XmlNode<'a>, usize)>,
+    pub(super) normals: Option<(XmlNode<'a>, usize)>,
 }
 
 /// `None` for a primitive without any input: it has no polygons either.

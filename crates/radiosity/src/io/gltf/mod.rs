@@ -86,7 +86,8 @@ impl Gltf {
 
     /// The bytes of this file with the polygons of a repaired scene: triangles of polygons that were cut give way to those of their pieces,
     /// which are added behind the file's data; base colours whose reflectance was limited are lowered; everything else stays. Text stays
-    /// text, and binary stays binary.
+    /// text, and binary stays binary. Triangles of bodies that are closed no longer get a copy of their material that is not double-sided, so
+    /// that the sides stay hidden that were; those whose two sides were cut in different ways become two.
     ///
     /// `before` must be this file's scene, and `after` that scene [repaired](crate::repair()). Positions are in single precision.
     ///
@@ -95,13 +96,13 @@ impl Gltf {
     pub fn repaired(&self, before: &Scene, after: &Scene) -> Result<Vec<u8>, FileError> {
         let (mut document, blob) = document::prepared(&self.name, &self.bytes, &mut Vec::new())?;
         let file = document::check(&self.name, (document.clone(), blob.clone()))?;
-        let (_, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
+        let (scene, primitives) = read::read(&self.name, &file, self.folder.as_deref(), Vec::new())?;
         let flawed = |read: &ReadPrimitive| {
             let origin = read.origin;
             read.flawed.iter().map(move |&polygon| Origin { polygon, ..origin }).collect::<Vec<_>>()
         };
         let flawed: Vec<Origin> = primitives.iter().flat_map(flawed).collect();
-        let (changes, dimmed) = (changes(before, after, &flawed), dimmed(before, after));
+        let (changes, dimmed) = (changes([&scene, before, after], &flawed), dimmed(before, after));
         if changes.is_empty() && dimmed.is_empty() {
             return Ok(self.bytes.clone());
         }

@@ -10,7 +10,7 @@ use crate::io::surface::polygon::{Corner, Polygon};
 use crate::scene::{
     Scene, camera::Camera, finding::Finding, lamp::Lamp, patch::Origin, sky::Sun, units::Units,
 };
-use glam::{DAffine2, DMat4, DQuat, DVec2, DVec3};
+use glam::{DAffine2, DMat4, DQuat, DVec2, DVec3, Vec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 use std::{collections::BTreeMap, path::Path};
@@ -30,6 +30,8 @@ pub(super) struct ReadPrimitive {
     pub(super) laid: DAffine2,
     /// The indices of each triangle's vertices.
     pub(super) triangles: Vec<[usize; 3]>,
+    /// The shading normal of each vertex, zero where there is none.
+    pub(super) normals: Vec<Vec3>,
     /// The polygons, by their first triangles, that were split or left out.
     pub(super) flawed: Vec<usize>,
     /// The triangles that each polygon was joined from, by its first.
@@ -177,8 +179,9 @@ impl Reader<'_> {
         };
         let added = self.surfaces.add(&surface, &mut self.warnings);
         let flawed = added.map_err(|refusal| self.fault(part, refusal.into()))?;
-        let laid = kind.laid;
-        self.primitives.push(ReadPrimitive { node, origin, world, laid, triangles, flawed, members });
+        let (laid, normals) = (kind.laid, corners.iter().map(|corner| corner.normal.as_vec3()).collect());
+        let read = ReadPrimitive { node, origin, world, laid, triangles, normals, flawed, members };
+        self.primitives.push(read);
         Ok(())
     }
 

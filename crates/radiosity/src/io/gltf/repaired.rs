@@ -1,9 +1,10 @@
-//! The file with its polygons repaired: primitives without the triangles that were cut, and primitives of the pieces.
+//! The file with its polygons repaired: primitives without the triangles that were cut, and primitives of the pieces. Those of one side have
+//! a material that is not double-sided.
 use super::buffer::{Buffer, container};
 use super::document::Prepared;
 use super::read::ReadPrimitive;
 use crate::io::error::FileError;
-use crate::io::surface::changes::{Changes, CutPiece, Pieces};
+use crate::io::surface::changes::{Changes, CutPiece, Pieces, Side};
 use crate::io::surface::{polygon::Corner, split::split};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use glam::DVec2;
@@ -23,21 +24,43 @@ pub(super) fn repaired(
         let Some(pieces) = changed else { continue };
         let mesh = own_mesh(&mut document, read.node);
         let old = document["meshes"][mesh]["primitives"][origin.primitive].clone();
+        let one_sided = one_sided(&mut document, &old, pieces);
         let rest = added.rest(&old, read, pieces);
-        let new = added.pieces(&old, read, pieces);
+        let mut new: Vec<Value> = rest.into_iter().collect();
+        new.extend(added.whole(&one_sided, read, pieces, Side::Front));
+        new.extend(added.whole(&one_sided, read, pieces, Side::Back));
+        new.extend(added.pieces(&old, read, pieces, Side::OfMaterial));
+        new.extend(added.pieces(&one_sided, read, pieces, Side::Front));
+        new.extend(added.pieces(&one_sided, read, pieces, Side::Back));
         let Some(list) = document["meshes"][mesh]["primitives"].as_array_mut() else { continue };
-        match (rest, new) {
-            (Some(rest), new) => {
-                list[origin.primitive] = rest;
-                list.extend(new);
-            }
-            (None, Some(new)) => list[origin.primitive] = new,
-            (None, None) => {
-                list[origin.primitive]["indices"] = added.buffer.indices(std::iter::empty()).into()
-            }
+        let mut new = new.into_iter();
+        match new.next() {
+            Some(first) => list[origin.primitive] = first,
+            None => list[origin.primitive]["indices"] = added.buffer.indices(std::iter::empty()).into(),
         }
+        list.extend(new);
     }
     added.close(document)
+}
+
+/// The primitive with a copy of its material that is not double-sided, where some of its polygons are to have one side.
+fn one_sided(document: &mut Value, old: &Value, pieces: &Pieces<'_>) -> Value {
+    let mut new = old.clone();
+    let is_asked =
+        pieces.of_polygon.values().any(|new| new.whole.is_some() || new.pieces.iter().any(is_one_sided));
+    let material = old["material"].as_u64().and_then(|index| usize::try_from(index).ok());
+    if let (true, Some(index), Some(materials)) = (is_asked, material, document["materials"].as_array_mut()) {
+        let mut copy = materials[index].clone();
+        copy["doubleSided"] = false.into();
+        let known = materials.iter().position(|other| *other == copy);
+        new["material"] = known.unwrap_or(materials.len()).into();
+        materials.extend(known.is_none().then_some(copy));
+    }
+    new
+}
+
+fn is_one_sided(piece: &CutPiece<'_>) -> bool {
+    piece.side != Side::OfMaterial
 }
 
 /// The mesh of a node, which no other node has: a copy where another one does.
@@ -79,31 +102,54 @@ impl Added {
         Added { buffer: Buffer { bytes, views, accessors }, views: count, is_binary, is_chunk, chunk }
     }
 
-    /// The primitive without the triangles that were cut; `None` where none is left.
+    /// The primitive without the triangles that were cut or that have one side; `None` where none is left.
     fn rest(&mut self, old: &Value, read: &ReadPrimitive, pieces: &Pieces<'_>) -> Option<Value> {
-        let gone: BTreeSet<usize> = pieces
-            .of_polygon
-            .keys()
-            .filter_map(|number| read.members.get(number))
-            .flatten()
-            .copied()
-            .collect();
+        let gone: BTreeSet<usize> = members(read, pieces.of_polygon.keys().copied()).collect();
         let kept = read.triangles.iter().enumerate().filter(|(index, _)| !gone.contains(index));
-        let kept: Vec<usize> = kept.flat_map(|(_, triangle)| *triangle).collect();
-        if kept.is_empty() {
-            return None;
-        }
-        let mut rest = old.clone();
-        rest["indices"] = self.buffer.indices(kept.into_iter()).into();
-        rest["mode"] = 4.into();
-        Some(rest)
+        self.indexed(old, kept.flat_map(|(_, triangle)| *triangle).collect())
     }
 
-    /// A primitive of the pieces' triangles, with the material of the old one.
-    fn pieces(&mut self, old: &Value, read: &ReadPrimitive, pieces: &Pieces<'_>) -> Option<Value> {
+    /// A primitive of the triangles of which one side is left, seen from there.
+    fn whole(
+        &mut self,
+        one_sided: &Value,
+        read: &ReadPrimitive,
+        pieces: &Pieces<'_>,
+        side: Side,
+    ) -> Option<Value> {
+        let is_back = side == Side::Back;
+        let turn = |[a, b, c]: [usize; 3]| if is_back { [c, b, a] } else { [a, b, c] };
+        let triangles = members(read, pieces.whole(side)).map(|index| turn(read.triangles[index]));
+        let mut whole = self.indexed(one_sided, triangles.flatten().collect())?;
+        if is_back && !whole["attributes"]["NORMAL"].is_null() {
+            let turned = read.normals.iter().map(|normal| (-normal.as_dvec3()).to_array());
+            whole["attributes"]["NORMAL"] = self.buffer.rows(turned).into();
+        }
+        Some(whole)
+    }
+
+    /// The primitive with other triangles of its vertices; `None` for none.
+    fn indexed(&mut self, old: &Value, indices: Vec<usize>) -> Option<Value> {
+        if indices.is_empty() {
+            return None;
+        }
+        let mut new = old.clone();
+        new["indices"] = self.buffer.indices(indices.into_iter()).into();
+        new["mode"] = 4.into();
+        Some(new)
+    }
+
+    /// A primitive of the triangles of the pieces with these sides, with the material of `old`.
+    fn pieces(
+        &mut self,
+        old: &Value,
+        read: &ReadPrimitive,
+        pieces: &Pieces<'_>,
+        side: Side,
+    ) -> Option<Value> {
         let (inverse, mirrored) = (read.world.inverse(), read.world.determinant() < 0.0);
         let (mut points, mut normals, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        for piece in pieces.all() {
+        for piece in pieces.of_side(side) {
             let normal = read.world.transpose().transform_vector3(piece.normal).normalize_or_zero();
             for mut triangle in triangles(piece) {
                 if mirrored {
@@ -161,6 +207,11 @@ impl Added {
             Ok(document.to_string().into_bytes())
         }
     }
+}
+
+/// The triangles of some polygons, given by their first ones.
+fn members(read: &ReadPrimitive, polygons: impl Iterator<Item = usize>) -> impl Iterator<Item = usize> {
+    polygons.filter_map(|polygon| read.members.get(&polygon)).flatten().copied()
 }
 
 /// A piece cut into triangles, with places in its picture.

@@ -9,6 +9,7 @@
 //! finish    what a surface reflects and emits
 //! polygon   polygons as a file gives them
 //! changes   what became of them when the scene was repaired
+//! sidedness which of them keep two sides then
 //! ```
 pub(super) mod changes;
 pub(super) mod finish;
@@ -17,6 +18,7 @@ pub(super) mod lamps;
 mod merge;
 pub(super) mod place;
 pub(super) mod polygon;
+mod sidedness;
 pub(super) mod split;
 
 use crate::scene::patch::Patch;

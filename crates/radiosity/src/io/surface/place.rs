@@ -177,7 +177,7 @@ impl Surfaces {
 }
 
 /// The same points seen from the other side.
-fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
+pub(super) fn turned(polygon: &PlanarPolygon) -> Option<PlanarPolygon> {
     let loops = polygon.loops().map(|points| points.iter().rev().copied().collect::<Vec<_>>());
     PlanarPolygon::new(loops).ok()
 }
