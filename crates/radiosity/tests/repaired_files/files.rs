@@ -92,11 +92,13 @@ pub(crate) fn gltf(nodes: &[Node], two_sided: bool) -> Vec<u8> {
     }
     let each = |value: &dyn Fn(usize) -> Value| (0..nodes.len()).map(value).collect::<Vec<_>>();
     let primitive = |k: usize| json!({"attributes": {"POSITION": 3 * k, "NORMAL": 3 * k + 1}, "indices": 3 * k + 2, "material": k});
+    // What reflects all light is dimmed.
+    let grey = |k: usize| if k == 2 { [1.0; 4] } else { [0.5, 0.5, 0.5, 1.0] };
     let document = json!({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": each(&|k| k.into())}],
         "nodes": each(&|k| json!({"name": format!("n{k}"), "mesh": k, "matrix": nodes[k].pose.to_cols_array()})),
         "meshes": each(&|k| json!({"primitives": [primitive(k)]})),
-        "materials": each(&|k| json!({"name": format!("m{k}"), "doubleSided": two_sided})),
+        "materials": each(&|k| json!({"name": format!("m{k}"), "doubleSided": two_sided, "pbrMetallicRoughness": {"baseColorFactor": grey(k)}})),
         "accessors": accessors, "bufferViews": views,
         "buffers": [{"byteLength": bytes.len(), "uri": format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes))}],
     });
