@@ -1,6 +1,7 @@
 //! Which sides of double-sided surfaces are kept, in glTF as exporters write it.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 use radiosity::glam::DVec3;
+use radiosity::io::collada::Collada;
 use radiosity::io::gltf::Gltf;
 use radiosity::{Camera, Quality, Scene, needed_sides, one_sided, repair, solve};
 use serde_json::{Value, json};
@@ -133,6 +134,30 @@ fn a_body_that_stands_in_a_cut_stays_closed() {
 fn area_of(scene: &Scene, body: &str) -> f64 {
     let of_body = scene.patches.iter().filter(|patch| patch.name.starts_with(body));
     of_body.map(|patch| patch.polygon.area()).sum()
+}
+
+/// COLLADA: what is said of a primitive counts before what is said of its geometry, as repaired files have it.
+#[test]
+fn a_primitive_says_for_itself_whether_it_has_two_sides() {
+    let flag = |value: u8| {
+        format!("<extra><technique profile=\"any\"><double_sided>{value}</double_sided></technique></extra>")
+    };
+    for (of_primitive, of_geometry, sides) in [
+        (String::new(), flag(1), 2),
+        (flag(0), flag(1), 1),
+        (flag(1), flag(0), 2),
+        (String::new(), flag(0), 1),
+    ] {
+        let text = format!(
+            r##"<COLLADA version="1.4.1"><library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p>{of_primitive}</triangles></mesh>{of_geometry}</geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>"##
+        );
+        assert_eq!(Collada::from_text("sides.dae", text).scene().unwrap().patches.len(), sides);
+    }
 }
 
 #[test]

@@ -8,13 +8,14 @@ use std::f64::consts::TAU;
 pub(crate) fn solids(random: &mut Random) -> Vec<Outlines> {
     let count = if random.next() < 0.5 { 2 } else { 3 };
     let mut solids: Vec<Outlines> = (0..count).map(|_| solid(random)).collect();
-    if random.next() < 0.2 {
-        solids[1] = solids[0].clone();
-    }
     for solid in &mut solids {
         if random.next() < 0.25 {
             solid.iter_mut().for_each(|outline| outline.reverse());
         }
+    }
+    // Turned the same way: with its double inside out it is closed only when that is gone.
+    if random.next() < 0.2 {
+        solids[1] = solids[0].clone();
     }
     if random.next() < 0.25 { vec![solids.concat()] } else { solids }
 }
@@ -28,8 +29,8 @@ fn solid(random: &mut Random) -> Outlines {
         return block(DVec3::from(low), DVec3::from(high).max(DVec3::from(low) + 1.0));
     }
     let middle = DVec3::new(3.0 * random.next(), 3.0 * random.next(), 0.0);
-    let (corners, turn, size) =
-        (3 + (4.0 * random.next()) as u32, TAU * random.next(), 0.3 + 1.5 * random.next());
+    let corners = [3_u32, 4, 5, 6].into_iter().find(|_| random.next() < 0.4).unwrap_or(3);
+    let (turn, size) = (TAU * random.next(), 0.3 + 1.5 * random.next());
     let corner = |k| {
         let angle = turn + TAU * f64::from(k) / f64::from(corners);
         middle + size * DVec3::new(angle.cos(), angle.sin(), 0.0)
