@@ -60,9 +60,9 @@ pub(crate) fn past<'a>(
     let quickly = quick::form_factor(from, to, &occluders, within, quick, stats);
     quickly.unwrap_or_else(|| {
         *stats = Stats::default();
-        let QuickBuffers { blockers, lost, .. } = quick;
+        let QuickBuffers { blockers, others, .. } = quick;
         blockers.clear();
-        *lost = 0.0;
+        *others = 0.0;
         let near = |pyramid: &Pyramid| {
             let mut near = Vec::new();
             occluders(&Reach::Exact { pyramid, deviation: to.deviation() }, &mut |id, occluder| {
@@ -109,7 +109,7 @@ mod tests {
             let boards = [
                 rectangle(turn, DVec3::new(from, 0.0, -0.5), [DVec3::X, DVec3::Z * (tall + 0.5)]),
                 rectangle(turn, DVec3::new(from, 4.0, -0.5), [DVec3::X, DVec3::Z * (tall + 0.5)]),
-                rectangle(turn, DVec3::new(0.0, from, 0.0), [DVec3::Y, DVec3::Z * tall]),
+                rectangle(turn, DVec3::new(0.0, from, -0.5), [DVec3::Y, DVec3::Z * (tall + 0.5)]),
                 rectangle(turn, DVec3::new(0.0, 0.0, 1.0), [DVec3::X * wide, DVec3::Y * 4.0]),
             ];
             let spot = DifferentialArea::new(turn * DVec3::new(at[0], at[1], 3.0), turn * DVec3::NEG_Z).expect("a place");

@@ -21,7 +21,7 @@ const ORDER: [&str; 142] = [
     "scene", "scene/blockers", "scene/sight", "scene/enclosure", "scene/surfaces", "scene/plates", "scene/coplanar", "scene/occluder", "scene/inside", "scene/apart", "scene/pool", "scene/looks", "scene/shaft",
     "scene/body", "scene/body/clearance", "scene/body/winding", "scene/body/lids", "scene/body/components", "scene/line", "scene/cap", "scene/shell", "scene/slab", "scene/tree",
     "complement", "hierarchy", "centroid", "visible_part", "pipeline", "buffers",
-    "quick", "occluders", "quick/trace", "quick/boundary", "quick/neighbours", "quick/seams", "quick/sides", "quick/inside", "quick/exact_side", "quick/contour", "quick/classify", "quick/target", "quick/inset",
+    "quick", "occluders", "quick/trace", "quick/uncovered", "quick/boundary", "quick/neighbours", "quick/seams", "quick/sides", "quick/inside", "quick/exact_side", "quick/contour", "quick/classify", "quick/target",
     "quick/clip", "quick/corners", "quick/horizon", "quick/slopes", "quick/cone", "quick/lanes", "quick/interval",
     "exact", "exact/whole", "exact/cubature", "exact/visible", "exact/shadows", "exact/project", "exact/cull",
     "exact/planarity", "exact/view", "exact/pyramid", "exact/projected_vertex", "exact/deviation", "exact/halves", "exact/horizon",

@@ -124,7 +124,7 @@ pub(super) enum Place {
 }
 
 impl Edge {
-    fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
+    pub(super) fn new(start: DVec3, end: DVec3, along: DVec3) -> Self {
         let (a, b) = (along.abs(), start.abs());
         let terms = DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
         let errors = ERROR * terms;
@@ -240,19 +240,12 @@ pub(super) enum Cut {
     AtTarget,
     /// Of a target: hardly above the horizon.
     AtHorizon,
-    /// Of a target: a hair inside of its corners.
-    Inset,
 }
 
 impl<'c> OneCone<'c> {
     /// That of a target.
-    pub(super) fn of_target(
-        edges: &'c [Edge],
-        ids: &'c [CornerId],
-        spread: &'c Spread,
-        is_inset: bool,
-    ) -> Self {
-        Self { edges, ids, spread, cut: if is_inset { Cut::Inset } else { Cut::AtHorizon } }
+    pub(super) fn of_target(edges: &'c [Edge], ids: &'c [CornerId], spread: &'c Spread) -> Self {
+        Self { edges, ids, spread, cut: Cut::AtHorizon }
     }
 
     /// Two vertices as given on the line of an edge, in its order; none where a plane made the edge.

@@ -29,7 +29,7 @@ pub(super) fn exact_side(
 ) -> Option<Ordering> {
     let ends = other.ends(edge);
     let are_known = corner.is_known() && ends.iter().all(|end| end.is_known());
-    if !are_known || [cone.cut, other.cut].contains(&Cut::Inset) {
+    if !are_known {
         return None;
     }
     if ends.contains(&corner) {

@@ -20,7 +20,6 @@ mod contour;
 mod corners;
 mod exact_side;
 mod horizon;
-mod inset;
 mod inside;
 mod interval;
 mod lanes;
@@ -30,6 +29,7 @@ mod sides;
 mod slopes;
 pub(crate) mod target;
 mod trace;
+mod uncovered;
 
 pub(crate) use contour::unoccluded;
 pub(crate) use horizon::most_seen;
@@ -45,6 +45,7 @@ use glam::DVec3;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use target::{HalfSpace, Target};
+use uncovered::Uncovered;
 
 /// The quick route's buffers, to be used again.
 #[derive(Debug, Default)]
@@ -56,10 +57,11 @@ pub(crate) struct QuickBuffers {
     spread: Spread,
     cones: Cones,
     trace: trace::TraceBuffers,
+    uncovered: Uncovered,
     /// The ids of the occluders that may hide some of the last target,
     pub(crate) blockers: Vec<usize>,
     /// and a bound on the form factor of what others may hide.
-    pub(crate) lost: f64,
+    pub(crate) others: f64,
 }
 
 impl QuickBuffers {
@@ -100,7 +102,7 @@ pub(crate) fn form_factor<'a>(
 ) -> Option<FormFactor> {
     buffers.trace.record.parts.clear();
     buffers.blockers.clear();
-    buffers.lost = 0.0;
+    buffers.others = 0.0;
     let mut pieces = to.convex_pieces();
     let whole = pieces.next()?;
     let count = 1 + pieces.count();
@@ -122,7 +124,7 @@ pub(crate) fn form_factor<'a>(
     Some(FormFactor { value: value.min(1.0), error_bound })
 }
 
-/// The form factor of a convex piece of a polygon, or of a hair less of it where so much may be off and doubles decide that.
+/// The form factor of a convex piece of a polygon.
 fn to_piece<'a>(
     from: &DifferentialArea,
     to: (&PlanarPolygon, &[DVec3]),
@@ -131,40 +133,28 @@ fn to_piece<'a>(
     buffers: &mut QuickBuffers,
     stats: &mut Stats,
 ) -> Option<FormFactor> {
-    // A boundary is wanted where it is.
-    let may_lose = within.filter(|_| !buffers.trace.record.is_kept).map(|within| within / 2.0);
-    let before = buffers.lost;
-    let found = of_piece(from, to, &occluders, (within, may_lose), buffers, stats);
-    if found.is_some() || buffers.lost == before {
-        return found;
-    }
-    buffers.lost = before;
-    of_piece(from, to, &occluders, (within, None), buffers, stats)
-}
-
-/// That of the piece less what may be lost.
-fn of_piece<'a>(
-    from: &DifferentialArea,
-    to: (&PlanarPolygon, &[DVec3]),
-    occluders: impl Fn(&Reach, Taker<'_, 'a>),
-    (within, may_lose): (Option<f64>, Option<f64>),
-    buffers: &mut QuickBuffers,
-    stats: &mut Stats,
-) -> Option<FormFactor> {
-    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace, blockers, lost } = buffers;
-    let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread, may_lose) else {
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, trace, blockers, uncovered, others } =
+        buffers;
+    let Some(target) = Target::new(from, to, corners, (edges, ids), sides, spread) else {
         let error_bound = most_seen(from, to).filter(|most| *most <= within.unwrap_or(0.0))?;
         stats.none += 1;
         return Some(FormFactor { value: 0.0, error_bound });
     };
-    *lost += target.lost;
+    // A boundary is wanted as it is.
+    let is_rough = within.is_some() && !trace.record.is_kept;
+    let most = within.unwrap_or(0.0) - target.error;
     let near = |taker: Taker<'_, 'a>| occluders(&Reach::Quick(&target), taker);
-    match hidden(&target, near, corners, (cones, blockers), stats)? {
-        Hidden::Whole => Some(FormFactor { value: 0.0, error_bound: target.lost }),
-        Hidden::Part { open } if target.lost > 0.0 && cones.len() == 0 => {
-            let open = open + target.lost;
-            let target = Target::new(from, to, corners, (edges, ids), sides, spread, None)?;
-            trace::sum(&target, cones, (open, within), trace, stats)
+    let rough = is_rough.then_some((&mut *uncovered, most));
+    match hidden(&target, near, corners, (cones, blockers), rough, stats)? {
+        Hidden::Whole { error } => {
+            *others += error;
+            Some(FormFactor { value: 0.0, error_bound: error })
+        }
+        Hidden::Part { open } if is_rough && cones.len() > 0 => {
+            let found = uncovered.form_factor(&target, open);
+            let found = found.filter(|found| Some(found.error_bound) <= within);
+            stats.partial += u64::from(found.is_some());
+            found.or_else(|| trace::sum(&target, cones, (open, within), trace, stats))
         }
         Hidden::Part { open } => trace::sum(&target, cones, (open, within), trace, stats),
     }
@@ -173,25 +163,28 @@ fn of_piece<'a>(
 /// What occluders hide of a target.
 #[derive(Clone, Copy, Debug)]
 enum Hidden {
-    /// All of it.
-    Whole,
+    /// All of it, but for a form factor of at most `error`.
+    Whole { error: f64 },
     /// What is inside the cones, or nothing where there are none; the form factor may be off by `open`.
     Part { open: f64 },
 }
 
 /// Puts the cones of what may hide some of the target in place of those before, and adds the ids; `None` where doubles do not decide it.
+/// Where a form factor may be off by so much, as is given beside what is left of the target, no more are asked for when nothing is.
 fn hidden<'a>(
     target: &Target,
     occluders: impl FnOnce(Taker<'_, 'a>),
     corners: &mut [Vec<Corner>; 2],
     (cones, blockers): (&mut Cones, &mut Vec<usize>),
+    mut rough: Option<(&mut Uncovered, f64)>,
     stats: &mut Stats,
 ) -> Option<Hidden> {
-    let (mut open, mut hidden) = (0.0, None);
-    let mut is_decided = true;
+    let (mut open, mut whole, mut is_decided) = (0.0, None, true);
     cones.clear();
+    rough.iter_mut().for_each(|(uncovered, _)| uncovered.begin(target.cone));
     occluders(&mut |id, occluder| {
         stats.looked_at += 1;
+        let known = cones.len();
         match classify(target, occluder, corners, cones) {
             Some(Class::Misses { error }) => {
                 stats.culled += 1;
@@ -204,19 +197,20 @@ fn hidden<'a>(
                 blockers.push(id);
             }
             Some(Class::Covers) => {
-                stats.total += 1;
                 blockers.push(id);
-                hidden = Some(Hidden::Whole);
-                return ControlFlow::Break(());
+                whole = Some(0.0);
             }
-            None => {
-                is_decided = false;
-                return ControlFlow::Break(());
-            }
+            None => is_decided = false,
         }
-        ControlFlow::Continue(())
+        if let Some((uncovered, most)) = &mut rough {
+            (known..cones.len()).for_each(|cone| uncovered.subtract(cones.cone(cone)));
+            let error = open + uncovered.error();
+            whole = whole.or((uncovered.is_empty() && error <= *most).then_some(error + target.error));
+        }
+        if whole.is_none() && is_decided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
-    is_decided.then_some(hidden.unwrap_or(Hidden::Part { open }))
+    stats.total += u64::from(whole.is_some());
+    is_decided.then_some(whole.map_or(Hidden::Part { open }, |error| Hidden::Whole { error }))
 }
 
 /// Whether occluders may leave anything of a convex target visible; those that may hide some of it are noted in the buffers. `None` where
@@ -227,13 +221,19 @@ pub(crate) fn is_open<'a>(
     occluders: impl IntoIterator<Item = (usize, &'a PlanarPolygon)>,
     buffers: &mut QuickBuffers,
 ) -> Option<bool> {
-    let QuickBuffers { corners, edges, ids, sides, spread, cones, blockers, lost, .. } = buffers;
+    let QuickBuffers { corners, edges, ids, sides, spread, cones, blockers, others, .. } = buffers;
     let mut pieces = to.convex_pieces();
     let piece = pieces.next().filter(|_| pieces.next().is_none())?;
-    let target = Target::new(from, (to, piece), corners, (edges, ids), sides, spread, None)?;
+    let target = Target::new(from, (to, piece), corners, (edges, ids), sides, spread)?;
     blockers.clear();
-    *lost = 0.0;
-    let found =
-        hidden(&target, |taker| each(occluders, taker), corners, (cones, blockers), &mut Stats::default())?;
+    *others = 0.0;
+    let found = hidden(
+        &target,
+        |taker| each(occluders, taker),
+        corners,
+        (cones, blockers),
+        None,
+        &mut Stats::default(),
+    )?;
     Some(matches!(found, Hidden::Part { .. }))
 }

@@ -5,7 +5,6 @@ use super::cone::{
 };
 use super::corners::{copy, deviation_error};
 use super::horizon::Band;
-use super::inset::inset;
 use super::interval::greater;
 use crate::exact::deviation;
 use crate::numeric::predicates::{over_horizon, place, turn};
@@ -25,8 +24,6 @@ pub(crate) struct Target<'a> {
     sides: &'a [HalfSpace],
     /// A bound on the form factor of what its vertices' deviation leaves open.
     pub(super) error: f64,
-    /// The part of it that is lost as the cone is a hair smaller than the target; 0 where it is not.
-    pub(super) lost: f64,
 }
 
 /// A half-space around dA: normal . p + shift >= 0, known within `error` by the size of p, and `least`.
@@ -137,7 +134,7 @@ pub(super) enum Apart<'t> {
 const INVERSE: f64 = 3.0 / ERROR;
 
 impl<'a> Target<'a> {
-    /// A convex piece of `to`, and a hair less of it where that may be lost, if given; `None` where doubles leave open whether it is seen.
+    /// A convex piece of `to`; `None` where doubles leave open whether it is seen.
     pub(super) fn new(
         from: &'a DifferentialArea,
         (to, piece): (&'a PlanarPolygon, &[DVec3]),
@@ -145,7 +142,6 @@ impl<'a> Target<'a> {
         (edges, ids): (&'a mut Vec<Edge>, &'a mut Vec<CornerId>),
         sides: &'a mut Vec<HalfSpace>,
         spread: &'a mut Spread,
-        may_lose: Option<f64>,
     ) -> Option<Self> {
         let origin = from.position();
         if to.plane().quick_side(origin) != Some(Ordering::Greater) {
@@ -158,21 +154,13 @@ impl<'a> Target<'a> {
             // Nothing is above the horizon, or so little that its corners coincide: anything would seem to cover it.
             return None;
         }
-        let left_open = deviation_error(corners, edges)? + deviation::of_facing(origin, to) + left_out;
-        let lost = may_lose.and_then(|most| inset(edges, origin, most, corners));
-        if lost.is_some() {
-            edges.clear();
-            ids.clear();
-            faces(corners, false, edges, ids);
-        }
+        let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to) + left_out;
         *spread = Spread::of(edges, 0, rounding(corners), to.deviation() == 0.0);
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
-        let is_whole = lost.is_none() && to.is_convex() && to.convex_pieces().nth(1).is_none();
-        let cone = OneCone::of_target(edges, ids, spread, lost.is_some());
-        let lost = lost.unwrap_or(0.0);
-        Some(Self { from, to, is_whole, cone, sides, error: left_open + lost, lost })
+        let is_whole = to.is_convex() && to.convex_pieces().nth(1).is_none();
+        Some(Self { from, to, is_whole, cone: OneCone::of_target(edges, ids, spread), sides, error })
     }
 
     /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons

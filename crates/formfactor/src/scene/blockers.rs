@@ -20,7 +20,7 @@ impl Blockers {
         let mut ids = buffers.quick.blockers.clone();
         ids.sort_unstable();
         ids.dedup();
-        Self { ids, others: others + buffers.quick.lost }
+        Self { ids, others: others + buffers.quick.others }
     }
 
     /// Their ids, in ascending order.
