@@ -52,7 +52,7 @@ enum Relation {
 /// Two cones that cross, and on which sides of the planes of each the corners of the other one are.
 struct Meeting<'m> {
     cones: [&'m OneCone<'m>; 2],
-    span: Span<'m>,
+    span: &'m Span<'m>,
     sides: [&'m Sides; 2],
     relation: Relation,
 }
@@ -123,7 +123,7 @@ impl Boundary {
     }
 
     /// Clips a cone's edges to the target, and hides the target's behind it. Returns whether they meet.
-    pub(super) fn clip(&mut self, span: Span, target: OneCone, cones: &Cones, index: usize) -> bool {
+    pub(super) fn clip(&mut self, span: &Span, target: OneCone, cones: &Cones, index: usize) -> bool {
         let (cone, first) = (cones.cone(index), self.sides + cones.first(index));
         let relation = self.compare(&cone, &target, false);
         let is_apart = matches!(relation, Relation::Apart | Relation::Beside(_));
@@ -181,7 +181,7 @@ impl Boundary {
     }
 
     /// Hides the edges of two cones behind each other.
-    pub(super) fn hide(&mut self, span: Span, cones: &Cones, [a, b]: [usize; 2]) {
+    pub(super) fn hide(&mut self, span: &Span, cones: &Cones, [a, b]: [usize; 2]) {
         if self.is_swallowed(a) || self.is_swallowed(b) {
             return;
         }

@@ -4,7 +4,7 @@
 //! half-spaces, coplanar with dA, or behind the target's plane. Otherwise what is behind that plane is cut off each of its convex
 //! pieces, and the cones of the rest are added. The occluder covers the target if one of them contains all corners of the target.
 use super::clip::clip;
-use super::cone::{Cones, Corner, Edge, Place, size};
+use super::cone::{Cones, Corner, Edge, Kind, Place, size};
 use super::corners::{copy, deviation_error};
 use super::interval::greater;
 use super::target::{Apart, Target};
@@ -133,7 +133,7 @@ fn push<'c>(
         if is_clipped {
             clip(corners, spare, |p| plane.side_of(p), |p| plane.side(p).value.round());
         }
-        cones.push(corners, deviation == 0.0)
+        cones.push(corners, Kind::of_occluder(deviation == 0.0))
     } else {
         corners.clear();
         let given = piece.iter().copied();

@@ -86,9 +86,10 @@ impl Corner {
 
     /// The way to another corner: rounded once between vertices as given, which may be far closer together than dA is.
     fn along(&self, end: &Self) -> DVec3 {
-        match [self.id, end.id].map(CornerId::given) {
-            [Some(start), Some(end)] => end - start,
-            _ => end.at - self.at,
+        if self.rounding + end.rounding > 0.0 {
+            end.at - self.at
+        } else {
+            end.id.between[0] - self.id.between[0]
         }
     }
 }
@@ -188,17 +189,18 @@ pub(super) fn faces(
     edges: &mut Vec<Edge>,
     ids: &mut Vec<CornerId>,
 ) {
-    let Some(mut before) = corners.last().copied() else { return };
+    let Some(mut before) = corners.last() else { return };
+    let mut id = before.id;
     for corner in corners {
         let along = before.along(corner);
         if along != DVec3::ZERO {
             let mut edge = Edge::new(before.at, corner.at, along);
-            edge.count_cuts([&before, corner], is_cut_exactly);
+            edge.count_cuts([before, corner], is_cut_exactly);
             edges.push(edge);
-            ids.push(before.id);
-            before = *corner;
-        } else if before.id != corner.id {
-            before.id = CornerId::UNKNOWN;
+            ids.push(id);
+            (before, id) = (corner, corner.id);
+        } else if id != corner.id {
+            id = CornerId::UNKNOWN;
         }
     }
 }
@@ -229,23 +231,11 @@ pub(super) struct OneCone<'c> {
     pub(super) edges: &'c [Edge],
     pub(super) ids: &'c [CornerId],
     pub(super) spread: &'c Spread,
-    /// Where corners are that are no vertices as given.
-    pub(super) cut: Cut,
-}
-
-/// Where corners are that are no vertices as given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cut {
-    /// Of an occluder: where it passes through the target's plane.
-    AtTarget,
-    /// Of a target: hardly above the horizon.
-    AtHorizon,
 }
 
 impl<'c> OneCone<'c> {
-    /// That of a target.
-    pub(super) fn of_target(edges: &'c [Edge], ids: &'c [CornerId], spread: &'c Spread) -> Self {
-        Self { edges, ids, spread, cut: Cut::AtHorizon }
+    pub(super) fn new(edges: &'c [Edge], ids: &'c [CornerId], spread: &'c Spread) -> Self {
+        Self { edges, ids, spread }
     }
 
     /// Two vertices as given on the line of an edge, in its order; none where a plane made the edge.
@@ -271,13 +261,30 @@ pub(super) struct Spread {
     cuts: f64,
     /// Which of all edges are its own: from `first` on.
     first: usize,
-    /// Whether its vertices as given lie in a plane.
-    pub(super) is_flat: bool,
+    pub(super) kind: Kind,
+}
+
+/// What corners are that are no vertices as given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Of a target: hardly above the horizon.
+    #[default]
+    Target,
+    /// Of an occluder with vertices in a plane: exactly where it passes through the target's plane.
+    Flat,
+    /// Of one with vertices about a plane: about there.
+    Bent,
+}
+
+impl Kind {
+    pub(super) fn of_occluder(is_flat: bool) -> Self {
+        if is_flat { Self::Flat } else { Self::Bent }
+    }
 }
 
 impl Spread {
     /// Of the cone of those edges that come last, from `first` on, whose cut corners may be so far off.
-    pub(super) fn of(edges: &[Edge], first: usize, rounding: f64, is_flat: bool) -> Self {
+    pub(super) fn of(edges: &[Edge], first: usize, rounding: f64, kind: Kind) -> Self {
         let edges = &edges[first..];
         let reach = edges.iter().fold(0.0, |reach, edge| greater(reach, size(edge.start)));
         let cuts = rounding / ERROR;
@@ -286,7 +293,7 @@ impl Spread {
             reach: reach + cuts,
             cuts,
             first,
-            is_flat,
+            kind,
         }
     }
 
@@ -316,12 +323,11 @@ impl Cones {
         self.spreads.clear();
     }
 
-    /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges. Those of a flat one come
-    /// from vertices in a plane.
-    pub(super) fn push(&mut self, corners: &[Corner], is_flat: bool) -> &[Edge] {
+    /// Adds the cone of a convex polygon whose corners are counter-clockwise as dA sees them, and returns its edges.
+    pub(super) fn push(&mut self, corners: &[Corner], kind: Kind) -> &[Edge] {
         let first = self.edges.len();
-        faces(corners, is_flat, &mut self.edges, &mut self.ids);
-        self.spreads.push(Spread::of(&self.edges, first, rounding(corners), is_flat));
+        faces(corners, kind == Kind::Flat, &mut self.edges, &mut self.ids);
+        self.spreads.push(Spread::of(&self.edges, first, rounding(corners), kind));
         &self.edges[first..]
     }
 
@@ -333,7 +339,7 @@ impl Cones {
     ) -> &[Edge] {
         let first = self.edges.len();
         given_faces(vertices, origin, &mut self.edges, &mut self.ids);
-        self.spreads.push(Spread::of(&self.edges, first, 0.0, true));
+        self.spreads.push(Spread::of(&self.edges, first, 0.0, Kind::Flat));
         &self.edges[first..]
     }
 
@@ -356,6 +362,6 @@ impl Cones {
     pub(super) fn cone(&self, cone: usize) -> OneCone<'_> {
         let spread = &self.spreads[cone];
         let own = spread.first..spread.first + spread.corners.count;
-        OneCone { edges: &self.edges[own.clone()], ids: &self.ids[own], spread, cut: Cut::AtTarget }
+        OneCone { edges: &self.edges[own.clone()], ids: &self.ids[own], spread }
     }
 }

@@ -8,13 +8,13 @@
 //!   ------|/-----p---
 //!         cut
 //! ```
-use super::cone::{CornerId, Cut, OneCone};
+use super::cone::{CornerId, Kind, OneCone};
 use crate::numeric::predicates::{Plane, side_of_crossing, turn};
 use glam::DVec3;
 use std::cmp::Ordering;
 
 /// From dA to the target's plane, at which occluders are cut.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(super) struct Span<'t> {
     pub(super) origin: DVec3,
     pub(super) plane: &'t Plane,
@@ -23,7 +23,7 @@ pub(super) struct Span<'t> {
 /// On which side of the plane of an edge a corner of another cone is, as far as vertices as given decide it.
 #[cold]
 pub(super) fn exact_side(
-    span: Span,
+    span: &Span,
     (cone, corner): (&OneCone, CornerId),
     (other, edge): (&OneCone, usize),
 ) -> Option<Ordering> {
@@ -37,26 +37,28 @@ pub(super) fn exact_side(
     }
     match other.line(edge) {
         Some([a, b]) => side_of([span.origin, b, a], span, (cone, corner)),
-        None if other.spread.is_flat && other.cut == Cut::AtTarget => behind(span, (cone, corner), ends),
+        None if other.spread.kind == Kind::Flat => behind(span, (cone, corner), ends),
         None => None,
     }
 }
 
 /// On which side of the plane through three points a corner is: a vertex as given, or where the target's plane cuts an edge.
-fn side_of([a, b, c]: [DVec3; 3], span: Span, (cone, corner): (&OneCone, CornerId)) -> Option<Ordering> {
+fn side_of([a, b, c]: [DVec3; 3], span: &Span, (cone, corner): (&OneCone, CornerId)) -> Option<Ordering> {
     match corner.between().map(|p| turn(a, b, c, p)) {
         [one, other] if one == other || other.is_eq() => Some(one),
         [Ordering::Equal, other] => Some(other),
-        _ if cone.cut == Cut::AtTarget => Some(side_of_crossing(&[a, b, c], corner.between(), span.plane)),
+        _ if cone.spread.kind != Kind::Target => {
+            Some(side_of_crossing(&[a, b, c], corner.between(), span.plane))
+        }
         _ => None,
     }
 }
 
 /// Whether a corner in the target's plane is behind the occluder that this plane cut between two ends; `None` of other corners.
-fn behind(span: Span, (cone, corner): (&OneCone, CornerId), ends: [CornerId; 2]) -> Option<Ordering> {
+fn behind(span: &Span, (cone, corner): (&OneCone, CornerId), ends: [CornerId; 2]) -> Option<Ordering> {
     let is_in_plane = match corner.given() {
         Some(given) => span.plane.side_of(given).is_eq(),
-        None => cone.cut == Cut::AtTarget,
+        None => cone.spread.kind != Kind::Target,
     };
     let [[a, b], [c, d]] = ends.map(CornerId::between);
     let occluder = Plane::through([a, b, c]).or_else(|| Plane::through([a, b, d])).filter(|_| is_in_plane)?;

@@ -24,7 +24,7 @@ pub(super) const CLEAR: f64 = 16.0;
 const SHARE: f64 = 1.07;
 
 /// What of edge `index` of a cone is inside another one, by clipping it against one plane after the other.
-pub(super) fn inside(span: Span, (own, index): (&OneCone<'_>, usize), other: &OneCone<'_>) -> Inside {
+pub(super) fn inside(span: &Span, (own, index): (&OneCone<'_>, usize), other: &OneCone<'_>) -> Inside {
     let edge = &own.edges[index];
     let mut left = Interval::WHOLE;
     // Whether it may lie in a plane; whether it lies in planes of edges that run the other way, and the same way.

@@ -168,7 +168,7 @@ fn shared(depths: &Lanes, clear: f64, corners: &[CornerId], ends: [CornerId; 2])
 mod tests {
     use super::*;
     use crate::numeric::predicates::Plane;
-    use crate::quick::cone::{Cones, Corner};
+    use crate::quick::cone::{Cones, Corner, Kind};
     use crate::quick::{exact_side::Span, inside::inside};
     use glam::{DVec2, DVec3};
     use proptest::prelude::*;
@@ -234,13 +234,13 @@ mod tests {
         fn shared_corners_move_no_boundary(polygons in prop::array::uniform2(of_places()), is_smaller in any::<bool>()) {
             let mut cones = Cones::default();
             for polygon in &polygons {
-                cones.push(polygon, true);
+                cones.push(polygon, Kind::Flat);
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
             let standings = [there.find(&b, &a, is_smaller), back.find(&a, &b, !is_smaller)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(Span { origin: DVec3::ZERO, plane: &beyond() }, (&a, index), &b);
+                let clipped = inside(&Span { origin: DVec3::ZERO, plane: &beyond() }, (&a, index), &b);
                 let found = match standings {
                     [Standing::Beside([own, _]), _] | [_, Standing::Beside([_, own])] if own == index => {
                         Inside::Along { part: Interval::WHOLE, is_same_way: false }
@@ -263,13 +263,13 @@ mod tests {
         fn signs_find_the_parts_that_clipping_finds(polygons in prop::array::uniform2(polygon())) {
             let mut cones = Cones::default();
             for polygon in polygons {
-                cones.push(&corners(polygon), true);
+                cones.push(&corners(polygon), Kind::Flat);
             }
             let [a, b] = [cones.cone(0), cones.cone(1)];
             let [mut there, mut back] = [Sides::default(); 2];
             let standings = [there.find(&b, &a, false), back.find(&a, &b, true)];
             for (index, edge) in a.edges.iter().enumerate() {
-                let clipped = inside(Span { origin: DVec3::ZERO, plane: &beyond() }, (&a, index), &b);
+                let clipped = inside(&Span { origin: DVec3::ZERO, plane: &beyond() }, (&a, index), &b);
                 let found = match standings {
                     [Standing::Apart, _] | [_, Standing::Apart] => Inside::Nothing,
                     [Standing::Contained, _] => Inside::Part(Interval::WHOLE),

@@ -1,7 +1,7 @@
 //! A convex target as dA sees it, and the half-spaces in which something must be to hide any of it.
 use super::clip::clip;
 use super::cone::{
-    Corner, CornerId, ERROR, Edge, OneCone, Spread, UNDERFLOW, faces, given_faces, rounding, size,
+    Corner, CornerId, ERROR, Edge, Kind, OneCone, Spread, UNDERFLOW, faces, given_faces, rounding, size,
 };
 use super::corners::{copy, deviation_error};
 use super::horizon::Band;
@@ -155,12 +155,12 @@ impl<'a> Target<'a> {
             return None;
         }
         let error = deviation_error(corners, edges)? + deviation::of_facing(origin, to) + left_out;
-        *spread = Spread::of(edges, 0, rounding(corners), to.deviation() == 0.0);
+        *spread = Spread::of(edges, 0, rounding(corners), Kind::Target);
         sides.clear();
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
         let is_whole = to.is_convex() && to.convex_pieces().nth(1).is_none();
-        Some(Self { from, to, is_whole, cone: OneCone::of_target(edges, ids, spread), sides, error })
+        Some(Self { from, to, is_whole, cone: OneCone::new(edges, ids, spread), sides, error })
     }
 
     /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons

@@ -97,7 +97,7 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
     boundary.begin(target.cone, cones);
     neighbours.clear();
     for cone in 0..cones.len() {
-        if boundary.clip(span, target.cone, cones, cone) {
+        if boundary.clip(&span, target.cone, cones, cone) {
             neighbours.push(frame.around(cones.cone(cone).edges), cone);
         }
     }
@@ -111,7 +111,7 @@ fn trace(target: &Target, cones: &Cones, buffers: &mut TraceBuffers, sum: &mut S
         }
         neighbours.retain(|cone| !boundary.is_swallowed(cone));
     }
-    neighbours.for_each_pair(|pair| boundary.hide(span, cones, pair));
+    neighbours.for_each_pair(|pair| boundary.hide(&span, cones, pair));
     let (of_target, of_cones) = boundary.rests();
     let of_target = target.cone.edges.iter().zip(of_target).map(|(edge, rest)| (edge, rest, 1.0));
     // An occluder's edge has the visible part on its other side.
