@@ -190,7 +190,7 @@ pub(super) fn faces(
     ids: &mut Vec<CornerId>,
 ) {
     let Some(mut before) = corners.last() else { return };
-    let mut id = before.id;
+    let (first, mut id) = (ids.len(), before.id);
     for corner in corners {
         let along = before.along(corner);
         if along != DVec3::ZERO {
@@ -202,6 +202,10 @@ pub(super) fn faces(
         } else if id != corner.id {
             id = CornerId::UNKNOWN;
         }
+    }
+    // The last ones are where the first edge starts.
+    if let Some(first) = ids.get_mut(first).filter(|_| !id.is_known()) {
+        *first = id;
     }
 }
 
@@ -363,5 +367,31 @@ impl Cones {
         let spread = &self.spreads[cone];
         let own = spread.first..spread.first + spread.corners.count;
         OneCone { edges: &self.edges[own.clone()], ids: &self.ids[own], spread }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wherever the list of corners starts, two that are rounded to one place are neither.
+    #[test]
+    fn corners_at_one_place_are_unknown() {
+        let given = |x: f64, y: f64| Corner::given(DVec3::new(x, y, 1.0), DVec3::ZERO, 0.0);
+        let twin = |other: f64| {
+            let corner = given(0.0, 0.0);
+            let id = CornerId::cut([DVec3::new(0.0, 0.0, 1.0), DVec3::new(other, other, 2.0)]);
+            Corner { id, rounding: 1e-16, ..corner }
+        };
+        let mut corners = vec![twin(1.0), twin(2.0), given(0.0, 1.0), given(1.0, 0.0)];
+        for _ in 0..corners.len() {
+            corners.rotate_left(1);
+            let (mut edges, mut ids) = (Vec::new(), vec![CornerId::UNKNOWN]);
+            faces(&corners, true, &mut edges, &mut ids);
+            let unknown = edges.iter().zip(&ids[1..]).filter(|(_, id)| !id.is_known());
+            let starts: Vec<DVec3> = unknown.map(|(edge, _)| edge.start).collect();
+            assert_eq!(starts, [DVec3::Z], "{corners:?}");
+            assert_eq!(ids.len(), 4);
+        }
     }
 }
