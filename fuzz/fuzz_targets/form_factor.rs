@@ -2,7 +2,9 @@
 //! the angular sweep.
 #![no_main]
 use arbitrary::Arbitrary;
-use formfactor::{DVec3, DifferentialArea, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded};
+use formfactor::{
+    DVec3, DifferentialArea, Enclosure, FormFactor, PlanarPolygon, by_hierarchy, form_factor, unoccluded,
+};
 use libfuzzer_sys::fuzz_target;
 use tests::sweep::{self, Loops};
 
@@ -40,6 +42,10 @@ fuzz_target!(|input: Input| {
     let reach = found.error_bound + all.error_bound;
     assert!(found.value <= all.value + reach, "occluders add light: {found:?} > {all:?}");
     assert_agree(found, by_hierarchy(&from, &target, &occluders), "by hierarchy");
+    let room = Enclosure::new([std::slice::from_ref(&target), &occluders].concat());
+    for tolerance in [1e-11, 1e-8] {
+        assert_agree(found, room.form_factor_within(&from, 0, &target, tolerance), "within a tolerance");
+    }
     occluders.reverse();
     assert_agree(found, form_factor(&from, &target, &occluders), "in reverse order");
     occluders.extend(occluders.clone());
