@@ -270,14 +270,20 @@ fn a_target_of_which_almost_nothing_rises() {
 /// Boards in rows leave the target in more pieces than it pays to keep.
 #[test]
 fn a_crowd_of_boards() {
+    for size in [1.0, 1e-50, 1e50] {
+        crowd(size);
+    }
+}
+
+fn crowd(size: f64) {
     let square = |corner: DVec3, [u, v]: [DVec3; 2]| {
-        PlanarPolygon::new([[corner, corner + u, corner + u + v, corner + v]]).unwrap()
+        PlanarPolygon::new([[corner, corner + u, corner + u + v, corner + v].map(|p| p * size)]).unwrap()
     };
     let target = square(DVec3::new(-2.0, -2.0, 2.0), [DVec3::Y * 4.0, DVec3::X * 4.0]);
     let place =
         |index: i32| DVec3::new(f64::from(index % 20), f64::from(index / 20), 0.0) * 0.1 - DVec3::splat(1.0);
     let board = |index| square(place(index) + DVec3::Z * 2.0, [DVec3::X * 0.05, DVec3::Y * 0.07]);
-    let from = DifferentialArea::new(DVec3::new(0.01, 0.02, 0.0), DVec3::new(0.1, 0.2, 1.0)).unwrap();
+    let from = DifferentialArea::new(DVec3::new(0.01, 0.02, 0.0) * size, DVec3::new(0.1, 0.2, 1.0)).unwrap();
     for count in [1, 20, 100, 400] {
         agree(&from, &target, &(0..count).map(board).collect::<Vec<_>>()).unwrap();
     }

@@ -7,7 +7,7 @@
 //!    |____|    |____|       edges that run along each other but for roundings are no question here. Large occluders that
 //!    |____|____|____|       hide all of the target do so after few cuts, and nothing else is looked at then.
 //! ```
-use super::cone::{Edge, OneCone};
+use super::cone::{Edge, OneCone, UNDERFLOW};
 use super::contour::Sum;
 use super::target::Target;
 use crate::form_factor::FormFactor;
@@ -100,7 +100,7 @@ impl Uncovered {
                 None => *error += cut(piece, cone.edges, inside, next, &mut touched),
             }
         }
-        let angle = |plane: &Edge| plane.error / plane.inward.length();
+        let angle = |plane: &Edge| (plane.error + UNDERFLOW) / plane.inward.length();
         let planes = cone.edges.iter().enumerate().filter(|(index, _)| touched >> index & 1 == 1);
         *error += BAND * planes.map(|(_, plane)| angle(plane)).sum::<f64>();
         std::mem::swap(pieces, next);

@@ -1,5 +1,5 @@
-//! Heights over planes, and their signs: almost every decision in space is the sign of one polynomial of degree 3 in the input's doubles: the height
-//! (b - a) x (c - a) . (x - y). It is computed in up to three ways:
+//! Heights over planes, and their signs: almost every decision in space is the sign of one polynomial of degree 3 in the input's
+//! doubles, the height (b - a) x (c - a) . (x - y). It is computed in up to three ways:
 //!
 //! 1. in doubles, with an error below [`QUICK`] times the sum of its terms' magnitudes;
 //! 2. in double-doubles, with an error below 2^-96 of that sum ([`crate::numeric::offset::size`] accounts for underflow);
