@@ -7,6 +7,7 @@ use super::solution::Solution;
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use crate::union_find::UnionFind;
+use glam::DVec3;
 use std::collections::BTreeMap;
 
 impl Solution {
@@ -81,6 +82,8 @@ pub(crate) fn welds(scene: &Scene, mesh: &Mesh) -> Vec<usize> {
 
 /// How often what facets share is spread to the vertices inside of them.
 const SPREAD: usize = 64;
+/// What sharing changes fades to 1/e within so many times the width of the narrowest facet.
+const FADE: f64 = 4.0;
 /// Facets share their light where their normals have at least this dot product: beyond 60 degrees an edge is an edge.
 const SMOOTH: f64 = 0.5;
 
@@ -135,33 +138,123 @@ impl<'m> Means<'m> {
         };
         let change =
             |(at, value): (usize, &f64)| if is_shared(at / self.bands) { mean(at) - value } else { 0.0 };
-        let changes = self.spread(values.iter().enumerate().map(change).collect(), is_shared);
+        let changes = self.faded(welds, values.iter().enumerate().map(change).collect(), is_shared);
         let changed = |(at, value): (usize, f64)| {
             if is_shared(at / self.bands) { mean(at) } else { (value + changes[at]).max(0.0) }
         };
         values.into_iter().enumerate().map(changed).collect()
     }
 
-    /// Changes that are known at some vertices, at all of them: elsewhere each is the mean of its neighbours' on its patch. 0 on patches
-    /// without any that is known.
-    fn spread(&self, mut changes: Vec<f64>, is_known: impl Fn(usize) -> bool) -> Vec<f64> {
-        let mut around = BTreeMap::<usize, Vec<usize>>::new();
+    /// Changes that are known where facets meet, at all vertices: elsewhere they fade out within a few times the width of the smallest facet
+    /// that meets another there. A large flat facet stays as bright as it is but next to the small ones that round its rim.
+    fn faded(&self, welds: &[usize], changes: Vec<f64>, is_known: impl Fn(usize) -> bool) -> Vec<f64> {
+        let mut inside = BTreeMap::<usize, Vec<usize>>::new();
         for element in &self.mesh.elements {
             let [a, b, c] = element.corners;
             for (vertex, others) in [(a, [b, c]), (b, [c, a]), (c, [a, b])] {
                 if !is_known(vertex) {
-                    around.entry(vertex).or_default().extend(others);
+                    inside.entry(vertex).or_default().extend(others);
                 }
             }
         }
-        for _ in 0..SPREAD {
-            for (&vertex, others) in &around {
-                for band in 0..self.bands {
-                    let sum: f64 = others.iter().map(|other| changes[other * self.bands + band]).sum();
-                    changes[vertex * self.bands + band] = sum / others.len() as f64;
-                }
+        let narrowest = self.narrowest(welds);
+        let widths =
+            (0..welds.len()).map(|vertex| if is_known(vertex) { narrowest[welds[vertex]] } else { 0.0 });
+        let widths = spread(&inside, 1, widths.collect(), |_, _| 1.0);
+        spread(&inside, self.bands, changes, |vertex, other| {
+            let step = self.mesh.vertices[vertex].distance(self.mesh.vertices[other]);
+            (-step / (FADE * widths[vertex]).max(f64::MIN_POSITIVE)).exp()
+        })
+    }
+
+    /// The width of the narrowest facet around each vertex and those that it shares its light with, by the first of these.
+    fn narrowest(&self, welds: &[usize]) -> Vec<f64> {
+        let mut narrowest = vec![f64::INFINITY; welds.len()];
+        let mut first = 0;
+        for facet in self.mesh.elements.chunk_by(|one, other| one.patch == other.patch) {
+            let area: f64 = self.areas[first..first + facet.len()].iter().sum();
+            first += facet.len();
+            let corners = || facet.iter().flat_map(|element| element.corners);
+            let places = || corners().map(|corner| self.mesh.vertices[corner]);
+            let low = places().fold(DVec3::INFINITY, DVec3::min);
+            let high = places().fold(DVec3::NEG_INFINITY, DVec3::max);
+            let width = area / low.distance(high).max(f64::MIN_POSITIVE);
+            corners().for_each(|corner| narrowest[welds[corner]] = narrowest[welds[corner]].min(width));
+        }
+        narrowest
+    }
+}
+
+/// Vertices × `columns` values that are known at some vertices, at those `inside` as well: each is the mean of what its neighbours keep.
+fn spread(
+    inside: &BTreeMap<usize, Vec<usize>>,
+    columns: usize,
+    mut values: Vec<f64>,
+    keeps: impl Fn(usize, usize) -> f64,
+) -> Vec<f64> {
+    let shares = |(&vertex, others): (&usize, &Vec<usize>)| {
+        let share = |&other: &usize| (other, keeps(vertex, other) / others.len() as f64);
+        (vertex, others.iter().map(share).collect())
+    };
+    let shares: Vec<(usize, Vec<(usize, f64)>)> = inside.iter().map(shares).collect();
+    for _ in 0..SPREAD {
+        for (vertex, others) in &shares {
+            for column in 0..columns {
+                let mean = others.iter().map(|(other, share)| share * values[other * columns + column]);
+                values[vertex * columns + column] = mean.sum();
             }
         }
-        changes
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::element::Element;
+
+    /// A square facet of 8 × 8 cells, and another of 1 × 8 along one side of it, that wide; and which vertices share their light.
+    fn facets(width: f64) -> (Mesh, Vec<usize>) {
+        let mut mesh = Mesh::default();
+        for (patch, columns, step) in [(0, 8, 1.0 / 8.0), (1, 1, width)] {
+            let first = mesh.vertices.len();
+            for (i, j) in (0..=columns).flat_map(|i| (0..9).map(move |j| (i, j))) {
+                let x = f64::from(patch) + f64::from(i) * step;
+                mesh.vertices.push(DVec3::new(x, f64::from(j) / 8.0, 0.0));
+            }
+            for at in (0..columns as usize * 9).filter(|at| at % 9 < 8).map(|at| first + at) {
+                let halves = [[at, at + 9, at + 10], [at, at + 10, at + 1]];
+                mesh.elements.extend(halves.map(|corners| Element { patch: patch as usize, corners }));
+            }
+        }
+        let last = mesh.vertices.len() - 18;
+        let first = |vertex: usize| if (last..last + 9).contains(&vertex) { vertex - 9 } else { vertex };
+        let welds = (0..mesh.vertices.len()).map(first).collect();
+        (mesh, welds)
+    }
+
+    /// What the vertices along the middle of the square show, from the far side to the shared one, where the square has 1 and its neighbour 3.
+    fn across(width: f64) -> Vec<f64> {
+        let (mesh, welds) = facets(width);
+        let light = mesh.vertices.iter().enumerate().map(|(at, _)| if at < 81 { 1.0 } else { 3.0 });
+        let shown = Means::of(&mesh, 1).shared(&welds, light.collect());
+        (0..9).map(|column| shown[column * 9 + 4]).collect()
+    }
+
+    /// A facet that shares its light with one as wide fades all the way; beside a hundred times narrower one only its rim changes.
+    #[test]
+    fn what_sharing_changes_fades_with_the_narrower_facet() {
+        let [alike, narrow] = [1.0, 0.01].map(across);
+        assert!(alike.is_sorted() && narrow.is_sorted(), "{alike:?}, {narrow:?}");
+        assert!(alike[8] > 1.5 && alike[6] > 1.3, "{alike:?}");
+        assert!(narrow[8] > 1.1 && narrow[6] < 1.01 && narrow[0] < 1.0 + 1e-6, "{narrow:?}");
+    }
+
+    #[test]
+    fn even_light_stays_even() {
+        let (mesh, welds) = facets(0.1);
+        let light = vec![2.0; 2 * mesh.vertices.len()];
+        let shown = Means::of(&mesh, 2).shared(&welds, light.clone());
+        assert!(shown.iter().zip(&light).all(|(shown, light)| (shown - light).abs() < 1e-12));
     }
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// The share of its light by which a vertex may be wrong for what it receives from patches that it does not look at itself.
-const UNSEEN: f64 = 0.1;
+const UNSEEN: f64 = 0.05;
 /// A patch that may be nearer than this share of the way to the elements' centroids is looked at.
 const NEAR: f64 = 0.5;
 /// The mean of elements may be off by so many times what they differ by,
@@ -38,9 +38,8 @@ pub(super) struct Known {
 /// What a vertex receives, and what it was looked at for that.
 #[derive(Debug, Default)]
 pub(super) struct Look {
-    /// Per band, and what of it comes from patches.
+    /// Per band.
     pub(super) light: Vec<f64>,
-    reflected: Vec<f64>,
     /// The elements around it, with their shares.
     around: Vec<(usize, f64)>,
     /// The senders that it looks at, in ascending order.
@@ -107,7 +106,7 @@ impl Known {
         tear(mesh, |one, other| bright[one].max(bright[other]) <= JUMP * bright[one].min(bright[other]))
     }
 
-    /// What vertices receive, and see. Of those between two `looks` these tell.
+    /// What vertices receive, and see. Where one is between two `looks`, what these see tells what it must look at.
     pub(super) fn look(
         &self,
         run: &Run<'_>,
@@ -120,46 +119,39 @@ impl Known {
         let at = |(outlook, [lamps, beyond]): (&Outlook, &[Vec<f64>; 2])| {
             let ends = outlook.ends.and_then(|[a, b]| Some([looks.get(&a)?, looks.get(&b)?]));
             let mut look = self.reflected(factors, outlook, ends);
-            look.light = (0..look.reflected.len())
-                .map(|band| lamps[band] + beyond[band] + look.reflected[band])
-                .collect();
+            look.light.iter_mut().enumerate().for_each(|(band, light)| *light += lamps[band] + beyond[band]);
             look
         };
         attempt("the final gather", || outlooks.par_iter().zip(&straight).map(at).collect())
     }
 
-    /// What a vertex receives of patches: what is known before it looks, but for those that it looks at itself.
+    /// What a vertex receives of patches: what the elements around it do, but for those that it looks at itself.
     fn reflected(&self, factors: &Factors<'_>, outlook: &Outlook, ends: Option<[&Look; 2]>) -> Look {
         let of = self.at_least(&outlook.mean);
-        let own = Look { around: outlook.around.clone(), ..Look::default() };
-        let (sources, share) = ends.map_or((vec![&own], 1.0), |ends| (ends.to_vec(), 0.5));
-        let mut rest = self.known_before(outlook, ends);
-        let before: Vec<Vec<f64>> = sources.iter().map(|look| self.brought(look)).collect();
-        let (mut reflected, mut all) = (vec![0.0; of.len()], Vec::new());
-        let seen = self.seen(outlook, &of, if ends.is_some() { &before } else { &[] });
+        let around = Look { around: outlook.around.clone(), ..Look::default() };
+        let (before, mut rest) = (self.brought(&around), self.received_around(outlook));
+        let ends: Vec<Vec<f64>> = ends.iter().flatten().map(|look| self.brought(look)).collect();
+        let (mut light, mut all) = (vec![0.0; of.len()], Vec::new());
+        let seen = self.seen(outlook, &of, &ends);
         for &sender in &seen {
             let looked_at = &self.senders[sender];
             let point = if looked_at.emits { &outlook.point } else { &outlook.inside };
             let mut brought = vec![0.0; of.len()];
             looked_at.shine(factors, &LitPoint { point, of: &of }, &mut brought);
-            add(&mut reflected, 1.0, &brought);
+            add(&mut light, 1.0, &brought);
             all.extend(brought);
-            before.iter().for_each(|before| add(&mut rest, -share, &before[sender * of.len()..]));
+            add(&mut rest, -1.0, &before[sender * of.len()..]);
         }
-        reflected.iter_mut().zip(rest).for_each(|(reflected, rest)| *reflected += rest.max(0.0));
-        Look { light: Vec::new(), reflected, around: own.around, seen, brought: all }
+        light.iter_mut().zip(rest).for_each(|(light, rest)| *light += rest.max(0.0));
+        Look { light, seen, brought: all, ..around }
     }
 
-    /// What a vertex receives of patches as far as that is known before it looks: what the elements around it do, or on average the ends of
-    /// what was an edge.
-    fn known_before(&self, outlook: &Outlook, ends: Option<[&Look; 2]>) -> Vec<f64> {
+    /// What the elements around a vertex receive of patches on average.
+    fn received_around(&self, outlook: &Outlook) -> Vec<f64> {
         let bands = self.mean.len();
         let mut light = vec![0.0; bands];
-        match ends {
-            Some(ends) => ends.iter().for_each(|end| add(&mut light, 0.5, &end.reflected)),
-            None => outlook.around.iter().for_each(|(element, share)| {
-                add(&mut light, *share, &self.received[element * bands..][..bands]);
-            }),
+        for (element, share) in &outlook.around {
+            add(&mut light, *share, &self.received[element * bands..][..bands]);
         }
         light
     }
@@ -183,10 +175,11 @@ impl Known {
         light.iter().zip(&self.mean).map(least).collect()
     }
 
-    /// By how much light is off other light, as a share of it, all bands together.
+    /// By how much light is off other light, as a share of it, all bands together. Where both are dim it counts less, the less light there is.
     pub(super) fn difference(&self, light: &[f64], other: &[f64]) -> f64 {
         let [light, other, mean] = [light, other, &self.mean].map(|light| light.iter().sum::<f64>());
-        (light - other).abs() / light.max(DIM * mean).max(f64::MIN_POSITIVE)
+        let dim = (DIM * mean).max(f64::MIN_POSITIVE);
+        (light - other).abs() / light.max(dim) * (light.max(other) / dim).min(1.0)
     }
 
     /// The senders that a vertex looks at, in ascending order: lights, and from wide ones those of which least is known. What it receives of

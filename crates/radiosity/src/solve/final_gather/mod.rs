@@ -10,9 +10,10 @@
 //! bisection  elements cut in halves
 //! ```
 //!
-//! Lights are looked at from the vertex itself, and so are patches that bring much, where they are near or the elements around the vertex
-//! receive unlike shares of their light: piece by piece, where these are not equally bright. Of the others a vertex receives what the elements
-//! around it do. A vertex between two that were looked from looks only at what these and the elements receive unlike shares of. From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
+//! Lights are looked at from the vertex itself, and so are patches that bring much, where they are near or the elements around the vertex, and
+//! the ends of the edge that it was the middle of, receive unlike shares of their light: piece by piece, where these are not equally bright. Of
+//! the others a vertex receives what the elements around it do. From the smallest vertices only lights are looked at: they have 3 % of the
+//! area, and are most where bodies are round.
 mod bisection;
 mod known;
 mod outlook;
@@ -82,7 +83,7 @@ fn corners(
     Ok((light, looks.into_iter().enumerate().collect()))
 }
 
-/// What vertices receive; of fewer than all when the watcher wants to stop. Of those in between ends that were looked from that is known.
+/// What vertices receive; of fewer than all when the watcher wants to stop. Of those in between what their ends see is known.
 fn look(
     run: &mut Run<'_>,
     known: &Known,
