@@ -27,17 +27,17 @@ fn assert_shown(name: &str, least: f64, gain: f64) {
 
 #[test]
 fn the_cornell_box() {
-    assert_shown("cornell-box", 0.87, 0.15);
+    assert_shown("cornell-box", 0.95, 0.15);
 }
 
 #[test]
 fn penumbrae_of_small_occluders() {
-    assert_shown("small-occluders", 0.87, 0.15);
+    assert_shown("small-occluders", 0.96, 0.15);
 }
 
 #[test]
 fn lit_spots_under_a_panel() {
-    assert_shown("perforated", 0.8, 0.2);
+    assert_shown("perforated", 0.83, 0.2);
 }
 
 #[test]
@@ -121,5 +121,5 @@ fn solids_that_pass_through_each_other() {
         patches.extend(block("block", DVec3::new(1.2 + 0.5 * k as f64, 1.6 + 0.2 * k as f64, 0.3), edges));
     }
     let share = share_where(&scene(patches), 600, |sample| sample.patch > 6 || sample.patch == 4);
-    assert!(share >= 0.77, "{share}");
+    assert!(share >= 0.79, "{share}");
 }
