@@ -234,8 +234,9 @@ mod tests {
     }
 
     /// What the vertices along the middle of the square show, from the far side to the shared one, where the square has 1 and its neighbour 3.
-    fn across(width: f64) -> Vec<f64> {
-        let (mesh, welds) = facets(width);
+    fn across(width: f64, unit: f64) -> Vec<f64> {
+        let (mut mesh, welds) = facets(width);
+        mesh.vertices.iter_mut().for_each(|place| *place *= unit);
         let light = mesh.vertices.iter().enumerate().map(|(at, _)| if at < 81 { 1.0 } else { 3.0 });
         let shown = Means::of(&mesh, 1).shared(&welds, light.collect());
         (0..9).map(|column| shown[column * 9 + 4]).collect()
@@ -244,10 +245,18 @@ mod tests {
     /// A facet that shares its light with one as wide fades all the way; beside a hundred times narrower one only its rim changes.
     #[test]
     fn what_sharing_changes_fades_with_the_narrower_facet() {
-        let [alike, narrow] = [1.0, 0.01].map(across);
+        let [alike, narrow] = [1.0, 0.01].map(|width| across(width, 1.0));
         assert!(alike.is_sorted() && narrow.is_sorted(), "{alike:?}, {narrow:?}");
         assert!(alike[8] > 1.5 && alike[6] > 1.3, "{alike:?}");
         assert!(narrow[8] > 1.1 && narrow[6] < 1.01 && narrow[0] < 1.0 + 1e-6, "{narrow:?}");
+    }
+
+    #[test]
+    fn no_unit_of_length_changes_what_is_shared() {
+        let here = across(0.1, 1.0);
+        for unit in [2f64.powi(-60), 2f64.powi(60)] {
+            assert_eq!(across(0.1, unit), here);
+        }
     }
 
     #[test]

@@ -27,16 +27,14 @@ const DIM: f64 = 0.01;
 pub(super) struct Known {
     /// The patches that send light.
     senders: Vec<Sender>,
-    /// What elements receive of them,
+    /// What elements receive of them.
     rows: Received,
-    /// and of all together, elements × bands.
-    received: Vec<f64>,
     /// The mean irradiance, per band.
     mean: Vec<f64>,
 }
 
 /// What a vertex receives, and what it was looked at for that.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Look {
     /// Per band.
     pub(super) light: Vec<f64>,
@@ -89,13 +87,9 @@ impl Known {
     fn from(run: &Run<'_>, senders: Vec<Sender>, pieces: Vec<SentPiece>) -> Known {
         let (elements, bands) = (run.light.areas.len(), run.light.bands);
         let rows = Received::of(pieces, elements, bands);
-        let mut received = vec![0.0; elements * bands];
-        for (element, received) in received.chunks_exact_mut(bands).enumerate() {
-            rows.for_each(element, |_, light| add(received, 1.0, light));
-        }
         let area: f64 = run.light.areas.iter().sum();
         let mean = run.light.total(&run.light.irradiance).iter().map(|power| power / area).collect();
-        Known { senders, rows, received, mean }
+        Known { senders, rows, mean }
     }
 
     /// The run's mesh with vertices apart where the light of the elements around them jumps.
@@ -128,32 +122,18 @@ impl Known {
     /// What a vertex receives of patches: what the elements around it do, but for those that it looks at itself.
     fn reflected(&self, factors: &Factors<'_>, outlook: &Outlook, ends: Option<[&Look; 2]>) -> Look {
         let of = self.at_least(&outlook.mean);
-        let around = Look { around: outlook.around.clone(), ..Look::default() };
-        let (before, mut rest) = (self.brought(&around), self.received_around(outlook));
         let ends: Vec<Vec<f64>> = ends.iter().flatten().map(|look| self.brought(look)).collect();
-        let (mut light, mut all) = (vec![0.0; of.len()], Vec::new());
         let seen = self.seen(outlook, &of, &ends);
-        for &sender in &seen {
-            let looked_at = &self.senders[sender];
-            let point = if looked_at.emits { &outlook.point } else { &outlook.inside };
-            let mut brought = vec![0.0; of.len()];
-            looked_at.shine(factors, &LitPoint { point, of: &of }, &mut brought);
-            add(&mut light, 1.0, &brought);
-            all.extend(brought);
-            add(&mut rest, -1.0, &before[sender * of.len()..]);
+        let mut brought = vec![0.0; seen.len() * of.len()];
+        for (sender, brought) in
+            seen.iter().map(|at| &self.senders[*at]).zip(brought.chunks_exact_mut(of.len()))
+        {
+            let point = if sender.emits { &outlook.point } else { &outlook.inside };
+            sender.shine(factors, &LitPoint { point, of: &of }, brought);
         }
-        light.iter_mut().zip(rest).for_each(|(light, rest)| *light += rest.max(0.0));
-        Look { light, seen, brought: all, ..around }
-    }
-
-    /// What the elements around a vertex receive of patches on average.
-    fn received_around(&self, outlook: &Outlook) -> Vec<f64> {
-        let bands = self.mean.len();
-        let mut light = vec![0.0; bands];
-        for (element, share) in &outlook.around {
-            add(&mut light, *share, &self.received[element * bands..][..bands]);
-        }
-        light
+        let mut look = Look { light: vec![0.0; of.len()], around: outlook.around.clone(), seen, brought };
+        self.brought(&look).chunks_exact(of.len()).for_each(|brought| add(&mut look.light, 1.0, brought));
+        look
     }
 
     /// What each sender brings to where it was looked from, or what it brings to the elements around: senders × bands.
