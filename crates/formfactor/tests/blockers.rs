@@ -1,65 +1,11 @@
 //! What may hide a polygon is all that may hide its parts: behind it a part has the form factor that it has behind everything.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-use formfactor::glam::DQuat;
+mod boards;
+use boards::{Pose, board, corner, part, polygon, pose};
 use formfactor::{Blockers, DVec3, DifferentialArea, Enclosure, PlanarPolygon};
 use proptest::prelude::*;
 
 const TOLERANCE: f64 = 1e-11;
-
-/// A triangle, a quadrangle or a frame anywhere between the floor and the lamp: its middle, two half axes, and which of the three it is.
-type Board = ([f64; 3], [[f64; 3]; 2], usize);
-
-fn board() -> impl Strategy<Value = Board> {
-    let free = prop::array::uniform3(-1.0..1.0);
-    let even = prop::array::uniform3((-2i32..=2).prop_map(|half| f64::from(half) / 2.0));
-    let axis = prop_oneof![free, even];
-    (prop::array::uniform3(-1.5..1.5), prop::array::uniform2(axis), 0usize..3)
-}
-
-fn polygon(pose: &Pose, (middle, axes, kind): &Board) -> Option<PlanarPolygon> {
-    let [u, v] = axes.map(DVec3::from);
-    let middle = DVec3::from(*middle) + DVec3::Z * 2.0;
-    let ring = |size: f64| {
-        let [u, v] = [u * size, v * size];
-        [middle - u - v, middle + u - v, middle + u + v, middle - u + v].map(|corner| pose.place(corner))
-    };
-    let loops = match kind {
-        0 => vec![ring(1.0)[..3].to_vec()],
-        1 => vec![ring(1.0).to_vec()],
-        _ => vec![ring(1.0).to_vec(), ring(-0.5).iter().rev().copied().collect()],
-    };
-    PlanarPolygon::new(loops).ok()
-}
-
-/// How all is turned and enlarged: what lies in a plane does so but for roundings.
-struct Pose {
-    turn: DQuat,
-    size: f64,
-}
-
-impl Pose {
-    fn place(&self, point: DVec3) -> DVec3 {
-        self.turn * point * self.size
-    }
-}
-
-/// A rectangle of the lamp, which faces down, between two corners.
-fn part(pose: &Pose, [low, high]: [[f64; 2]; 2]) -> PlanarPolygon {
-    let corners = [[low[0], low[1]], [low[0], high[1]], [high[0], high[1]], [high[0], low[1]]];
-    on_lamp(pose, corners.to_vec())
-}
-
-/// That without a quarter: it is not convex.
-fn corner(pose: &Pose, [low, high]: [[f64; 2]; 2]) -> PlanarPolygon {
-    let [x, y] = [0, 1].map(|axis| low[axis].midpoint(high[axis]));
-    let [[left, near], [right, far]] = [low, high];
-    on_lamp(pose, vec![[left, near], [left, far], [x, far], [x, y], [right, y], [right, near]])
-}
-
-fn on_lamp(pose: &Pose, corners: Vec<[f64; 2]>) -> PlanarPolygon {
-    let corners: Vec<DVec3> = corners.into_iter().map(|[x, y]| pose.place(DVec3::new(x, y, 4.0))).collect();
-    PlanarPolygon::new([corners]).unwrap()
-}
 
 fn halves([low, high]: [[f64; 2]; 2], depth: usize) -> [[[f64; 2]; 2]; 2] {
     let (axis, mut first_high, mut second_low) = (depth % 2, high, low);
@@ -110,10 +56,9 @@ proptest! {
     #[test]
     fn parts_are_hidden_by_what_may_hide_the_whole(
         boards in prop::collection::vec(board(), 0..25),
-        turn in prop_oneof![Just([0.0; 3]), prop::array::uniform3(-3.0..3.0)], size in prop_oneof![Just(1.0), Just(1e-6), Just(39.37), Just(1e5)],
+        pose in pose(),
         is_bent in any::<bool>(), at in prop::array::uniform2(-1.5..1.5), tilt in prop::array::uniform2(-0.8..0.8), depth in 1usize..6,
     ) {
-        let pose = Pose { turn: DQuat::from_scaled_axis(turn.into()), size };
         let corners = [[-2.0, -2.0], [2.0, 2.0]];
         let whole = if is_bent { corner(&pose, corners) } else { part(&pose, corners) };
         let boards = boards.iter().filter_map(|board| polygon(&pose, board));

@@ -3,7 +3,6 @@ use super::{
     body::{Around, Bodies},
     looks::Looks,
     pool::Pool,
-    shaft::Shaft,
     shell::Adjacency,
     surfaces::Surfaces,
     tree::Tree,
@@ -80,6 +79,11 @@ impl Enclosure {
     /// The boxes around them.
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
+    }
+
+    /// How large they look.
+    pub(super) fn looks(&self) -> &Looks {
+        &self.looks
     }
 
     /// How far a vertex may lie from where it stands.
@@ -256,43 +260,6 @@ impl Enclosure {
             let factor = pipeline::past(from, &self.on_plane(id, part), occluders, within, buffers);
             (factor, Some(take(buffers)))
         })
-    }
-
-    /// The form factors from many points to polygon `id`, each equal to that of [`Self::form_factor`] within the bounds.
-    ///
-    /// The occluders that can stand between all points and the polygon are found once. That pays where the points are near
-    /// each other, as the vertices of an element or the sample points of a patch are.
-    ///
-    /// # Panics
-    /// When there is no polygon `id`.
-    #[must_use]
-    pub fn form_factors(&self, points: &[DifferentialArea], id: usize) -> Vec<FormFactor> {
-        let positions: Vec<DVec3> = points.iter().map(DifferentialArea::position).collect();
-        let near = self.in_shaft(&positions, id);
-        points.iter().map(|from| self.past_near(from, id, &near)).collect()
-    }
-
-    /// The polygons that can stand between points and polygon `id`.
-    fn in_shaft(&self, points: &[DVec3], id: usize) -> Vec<usize> {
-        let shaft = Shaft::between(points, &self.polygons[id]);
-        let behind = |i: usize| {
-            let plane = self.polygons[id].plane();
-            self.polygons[i].points().iter().all(|p| plane.side_of(*p) != Ordering::Greater)
-        };
-        let mut found = self.tree.find(|extent| shaft.misses_box(extent, self.deviation));
-        found.retain(|i| {
-            *i != id && !shaft.misses(&self.polygons[*i]) && !(self.deviation == 0.0 && behind(*i))
-        });
-        found
-    }
-
-    /// The form factor to polygon `id`, past those of the polygons `near` that can hide it.
-    fn past_near<'p>(&'p self, from: &DifferentialArea, id: usize, near: &[usize]) -> FormFactor {
-        let occluders = |reach: &Reach, taker: Taker<'_, 'p>| {
-            let outside = |extent: &Extent| reach.misses_box(extent, self.deviation);
-            each(self.others(from, id, near.iter().copied(), outside), taker);
-        };
-        self.past(from, (id, &self.polygons[id]), occluders, None, |_| ()).0
     }
 
     /// Those of the polygons that can hide polygon `id`, with their ids; nothing in boxes that are `outside` can.

@@ -1,66 +1,141 @@
-//! Shafts: the polygons that can stand between two sets of points meet the convex hull of both.
-use crate::numeric::predicates::turn;
+//! Shafts: the polygons that can stand between two sets of points meet the convex hull of the boxes around both.
+//!
+//! ```text
+//!          ______----+---+
+//!   +---+--          |   |     Seen along each axis the hull has at most two sides that are no side of either box.
+//!   |   |            |   |
+//!   +---+--____      |   |
+//!              ----__+---+
+//! ```
+//! [Haines and Wallace 1991, "Shaft culling for efficient ray-traced radiosity", section 2.]
 use crate::shapes::{extent::Extent, polygon::PlanarPolygon};
 use glam::DVec3;
-use std::cmp::Ordering;
 
-/// More planes than this are not tried.
-const MOST: usize = 4096;
+/// What is outside of a plane by less than this share of the coordinates may be inside: far more than roundings.
+const MARGIN: f64 = 1e-12;
 
-/// The convex hull of two sets of points, as far as planes through an edge of one and a vertex of the other bound it, and
-/// the box around it.
+/// What is beyond a plane: `outward` · p > `most`.
+#[derive(Clone, Copy, Debug)]
+struct Beyond {
+    outward: DVec3,
+    most: f64,
+}
+
+/// The convex hull of two boxes, cut off at planes.
 #[derive(Clone, Debug)]
 pub(crate) struct Shaft {
     extent: Extent,
-    /// Three points of each plane, and the side of it on which the hull is not.
-    planes: Vec<([DVec3; 3], Ordering)>,
+    sides: Vec<Beyond>,
 }
 
 impl Shaft {
-    /// The shaft between points and a polygon. When the points are few, all pairs of them count as edges.
-    pub(crate) fn between(points: &[DVec3], to: &PlanarPolygon) -> Self {
-        let all: Vec<DVec3> = points.iter().chain(to.points()).copied().collect();
-        let extent = Extent::around(&all);
-        let mut planes = Vec::new();
-        if points.len().pow(2) * to.points().len() * all.len() <= MOST {
-            let pairs =
-                points.iter().enumerate().flat_map(|(i, a)| points[..i].iter().map(move |b| (*a, *b)));
-            planes.extend(pairs.flat_map(|edge| bounding(edge, to.points(), &all)));
-            planes.extend(to.edges().flat_map(|edge| bounding(edge, points, &all)));
+    /// The shaft between points whose boxes these are.
+    pub(crate) fn between(ends: [Extent; 2]) -> Self {
+        let mut shaft = Self { extent: ends[0].with(ends[1]), sides: Vec::new() };
+        for (x, y) in [(0, 1), (1, 2), (2, 0)] {
+            for corner in [[false, false], [false, true], [true, false], [true, true]] {
+                shaft.sides.extend(side(ends, [x, y], corner));
+            }
         }
-        Self { extent, planes }
+        shaft
     }
 
-    /// Whether a box is wholly outside, its polygons lying off their vertices by `deviation`.
+    /// Cuts off what is farther along `outward` than all of some points.
+    pub(crate) fn cut_off(&mut self, outward: DVec3, points: impl IntoIterator<Item = DVec3>) {
+        let most = points.into_iter().map(|p| outward.dot(p)).fold(f64::NEG_INFINITY, f64::max);
+        self.sides.push(Beyond { outward, most });
+    }
+
+    /// Whether a box is outside for certain. Polygons in it may lie off their vertices by `deviation`.
     pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
-        extent.low.cmpgt(self.extent.high + deviation).any()
-            || extent.high.cmplt(self.extent.low - deviation).any()
+        let size = extent.low.abs().max(extent.high.abs());
+        extent.misses(&self.extent.grown(deviation))
+            || self.sides.iter().any(|side| {
+                let innermost = (side.outward * extent.low).min(side.outward * extent.high).element_sum();
+                side.is_beyond(innermost, size, deviation)
+            })
     }
 
-    /// Whether a polygon is outside of the hull, touching allowed.
-    pub(crate) fn misses(&self, polygon: &PlanarPolygon) -> bool {
-        let is_out = |([a, b, c], outer): &([DVec3; 3], Ordering)| {
-            polygon.points().iter().all(|p| turn(*a, *b, *c, *p) != outer.reverse())
-        };
-        polygon.deviation() == 0.0 && self.planes.iter().any(is_out)
+    /// Whether a polygon that may lie off its vertices by `deviation` is outside for certain.
+    pub(crate) fn misses(&self, polygon: &PlanarPolygon, deviation: f64) -> bool {
+        let points = polygon.points();
+        let size = points.iter().fold(DVec3::ZERO, |size, p| size.max(p.abs()));
+        self.sides.iter().any(|side| {
+            let innermost = points.iter().map(|p| side.outward.dot(*p)).fold(f64::INFINITY, f64::min);
+            side.is_beyond(innermost, size, deviation)
+        })
     }
 }
 
-/// The planes through an edge and one of the points that have all points on one side.
-fn bounding<'a>(
-    (a, b): (DVec3, DVec3),
-    points: &'a [DVec3],
-    all: &'a [DVec3],
-) -> impl Iterator<Item = ([DVec3; 3], Ordering)> + 'a {
-    points.iter().filter_map(move |c| {
-        let mut side = Ordering::Equal;
-        for point in all {
-            let here = turn(a, b, *c, *point);
-            if here != Ordering::Equal && side == here.reverse() {
-                return None;
-            }
-            side = side.then(here);
+impl Beyond {
+    /// Whether a place is beyond the plane for certain, by its product with `outward` and the size of its coordinates.
+    fn is_beyond(&self, product: f64, size: DVec3, deviation: f64) -> bool {
+        let outward = self.outward.abs();
+        product - self.most
+            > MARGIN * (outward.dot(size) + self.most.abs()) + outward.element_sum() * deviation
+    }
+}
+
+/// The side of the hull along the third axis through one corner of both boxes, as seen along that axis; `corner` says of each of the two
+/// axes whether it is the upper one. Nothing where the hull has no such side.
+fn side(ends: [Extent; 2], [x, y]: [usize; 2], corner: [bool; 2]) -> Option<Beyond> {
+    let at = |end: Extent, axis: usize, is_upper: bool| if is_upper { end.high[axis] } else { end.low[axis] };
+    let [one, other] = ends.map(|end| [at(end, x, corner[0]), at(end, y, corner[1])]);
+    let [along, up] = [other[0] - one[0], other[1] - one[1]];
+    let signs = corner.map(|is_upper| if is_upper { 1.0 } else { -1.0 });
+    // The normal of a side through these corners points the way that the corners are.
+    let faces = |[a, b]: [f64; 2]| a * signs[0] > 0.0 && b * signs[1] > 0.0;
+    let [a, b] = [[up, -along], [-up, along]].into_iter().find(|normal| faces(*normal))?;
+    let mut outward = DVec3::ZERO;
+    (outward[x], outward[y]) = (a, b);
+    let most = [one, other].map(|[p, q]| a * p + b * q);
+    Some(Beyond { outward, most: most[0].max(most[1]) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(prop_oneof![-9.0..9.0, (-3..4).prop_map(f64::from)]).prop_map(DVec3::from)
+    }
+
+    /// Points, and a polygon around a point between one of these and one of others.
+    fn on_the_way() -> impl Strategy<Value = ([Vec<DVec3>; 2], PlanarPolygon)> {
+        let some = || prop::collection::vec(point(), 1..6);
+        let at = (any::<prop::sample::Index>(), any::<prop::sample::Index>(), 0.0..=1.0);
+        (some(), some(), at, point(), point()).prop_filter_map("a triangle", |(one, other, at, a, b)| {
+            let middle = at.0.get(&one).lerp(*at.1.get(&other), at.2);
+            let triangle = PlanarPolygon::new([[a, b, 3.0 * middle - a - b]]).ok()?;
+            Some(([one, other], triangle))
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        /// What meets the way between two points is not outside, whichever they are.
+        #[test]
+        fn nothing_on_the_way_is_outside((ends, triangle) in on_the_way()) {
+            let shaft = Shaft::between([&ends[0], &ends[1]].map(|end| Extent::around(end)));
+            prop_assert!(!shaft.misses(&triangle, 0.0));
+            prop_assert!(!shaft.misses_box(&Extent::around(triangle.points()), 0.0));
         }
-        (side != Ordering::Equal).then_some(([a, b, *c], side.reverse()))
-    })
+    }
+
+    /// Two unit squares, ten apart and five up: what lies below, above, beside or beyond is outside, by a plane that is no box's.
+    #[test]
+    fn what_is_beside_is_outside() {
+        let extent =
+            |x: f64, y: f64| Extent { low: DVec3::new(x, y, 0.0), high: DVec3::new(x + 1.0, y + 1.0, 0.0) };
+        let mut shaft = Shaft::between([extent(0.0, 0.0), extent(10.0, 5.0)]);
+        let at =
+            |x: f64, y: f64| Extent { low: DVec3::new(x, y, -1.0), high: DVec3::new(x + 0.1, y + 0.1, 1.0) };
+        assert!(!shaft.misses_box(&at(5.5, 3.0), 0.0));
+        assert!(shaft.misses_box(&at(5.5, 4.0), 0.0) && shaft.misses_box(&at(5.5, 1.5), 0.0));
+        assert!(!shaft.misses_box(&at(5.5, 4.0), 1.0));
+        shaft.cut_off(DVec3::X, [DVec3::X * 3.0, DVec3::X * 4.0]);
+        assert!(shaft.misses_box(&at(5.5, 3.0), 0.0) && !shaft.misses_box(&at(3.5, 2.0), 0.0));
+    }
 }

@@ -13,9 +13,9 @@ impl Run<'_> {
             return Ok(Some(known));
         }
         let piece = self.factors.piece(node)?;
-        let count = self.factors.receivers.len();
+        let count = self.factors.groups.len();
         let found = self.in_batches(count, |run, some| run.factors.seen(some, &piece))?;
-        Ok((found.len() == count).then(|| self.factors.keep(node, &found)))
+        Ok((found.len() == count).then(|| self.factors.keep(node, &found.concat())))
     }
 
     /// What `find` finds for so many points, all or as many as the watcher waits for. Batches change nothing in it.

@@ -15,6 +15,9 @@ const ENOUGH: f64 = 1e-11;
 /// or far less than what is shown, or what is taken roughly, of all together.
 const SHOWN: f64 = 1e-8;
 
+/// So many elements are looked from together at most, but for those of one cell.
+const GROUP: usize = 16;
+
 /// A piece of a patch, in the plane of the polygon that the enclosure has for the patch.
 #[derive(Debug)]
 pub(super) struct PieceShape {
@@ -32,6 +35,8 @@ pub(super) struct Factors<'s> {
     /// The polygon of the enclosure that each patch is a part of.
     surface_of: Vec<usize>,
     pub(super) receivers: Vec<DifferentialArea>,
+    /// Elements near each other, all in ascending order.
+    pub(super) groups: Vec<Range<usize>>,
     /// What is taken roughly.
     rough: Option<Rough>,
     /// What takes the place of exact factors, to compare with.
@@ -60,6 +65,7 @@ impl<'s> Factors<'s> {
         };
         Ok(Factors {
             receivers: mesh.elements.iter().enumerate().map(receiver).collect::<Result<_, _>>()?,
+            groups: groups(scene, subdivision),
             scene,
             subdivision,
             lights: Lights::new(scene, &polygons),
@@ -146,11 +152,9 @@ impl<'s> Factors<'s> {
         from.owned_by(self.surface_of[patch])
     }
 
-    /// The form factor from a point to a piece.
-    pub(super) fn factor(&self, from: &DifferentialArea, piece: &PieceShape) -> f64 {
-        let surface = self.surface_of[piece.patch];
-        let enough = if self.rough.is_some() { SHOWN } else { ENOUGH };
-        self.enclosure.form_factor_within(from, surface, &piece.polygon, enough).value
+    /// What a form factor may be off by.
+    fn enough(&self) -> f64 {
+        if self.rough.is_some() { SHOWN } else { ENOUGH }
     }
 
     /// The form factor from a point to a piece, and what may hide some of it.
@@ -196,19 +200,29 @@ impl<'s> Factors<'s> {
         Some(self.part(mesh.elements[element].patch, &polygon))
     }
 
-    /// The form factors from some elements to a piece.
-    pub(super) fn seen(&self, elements: Range<usize>, piece: &PieceShape) -> Result<Vec<f64>, Error> {
-        let elements: Vec<usize> = elements.collect();
+    /// The form factors from some groups of elements to a piece.
+    pub(super) fn seen(&self, groups: Range<usize>, piece: &PieceShape) -> Result<Vec<Vec<f64>>, Error> {
         let (ball, middle) = (Ball::around(&piece.polygon), middle(&piece.polygon));
-        workers::from_all(&elements, &self.scene.patches[piece.patch].name, |&element| {
+        workers::from_all(&self.groups[groups], &self.scene.patches[piece.patch].name, |group| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(piece.patch), "injected");
-            let from = &self.receivers[element];
-            match &self.rough {
-                Some(rough) if rough.is_small(element, from, piece.patch) => self.glance(from, &ball, middle),
-                _ => self.factor(from, piece),
-            }
+            let rough = group.clone().map(|element| self.taken_roughly(element, piece.patch, &ball, middle));
+            let rough: Vec<Option<f64>> = rough.collect();
+            let others = group.clone().zip(&rough).filter(|(_, rough)| rough.is_none());
+            let points: Vec<_> = others.map(|(element, _)| self.receivers[element]).collect();
+            let surface = self.surface_of[piece.patch];
+            let found = self.enclosure.form_factors_within(&points, surface, &piece.polygon, self.enough());
+            let mut found = found.into_iter();
+            let factor = |rough: Option<f64>| rough.or_else(|| Some(found.next()?.value)).unwrap_or(0.0);
+            rough.into_iter().map(factor).collect()
         })
+    }
+
+    /// The form factor from an element to a piece of a patch where that may be taken roughly.
+    fn taken_roughly(&self, element: usize, patch: usize, ball: &Ball, middle: DVec3) -> Option<f64> {
+        let from = &self.receivers[element];
+        let is_small = self.rough.as_ref()?.is_small(element, from, patch);
+        is_small.then(|| self.glance(from, ball, middle))
     }
 
     /// The form factor from a point to a small piece that its middle tells all of.
@@ -236,6 +250,20 @@ impl<'s> Factors<'s> {
         let polygon = whole.part(polygon.loops()).unwrap_or_else(|_| polygon.clone());
         PieceShape { patch, polygon }
     }
+}
+
+/// The elements of the largest pieces of patches that have few enough.
+fn groups(scene: &Scene, subdivision: &Subdivision) -> Vec<Range<usize>> {
+    let nodes = &subdivision.nodes;
+    let (mut open, mut groups) = ((0..scene.patches.len()).collect::<Vec<_>>(), Vec::new());
+    while let Some(node) = open.pop() {
+        match nodes[node].halves {
+            Some(halves) if nodes[node].elements.len() > GROUP => open.extend(halves),
+            _ => groups.push(nodes[node].elements.clone()),
+        }
+    }
+    groups.sort_by_key(|group| group.start);
+    groups
 }
 
 /// The mean of a polygon's vertices.
