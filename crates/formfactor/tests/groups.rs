@@ -2,8 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 mod boards;
 use boards::{board, corner, part, polygon, pose};
-use formfactor::{DVec3, DifferentialArea, Enclosure};
+use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
 use proptest::prelude::*;
+
+/// Its vertices, and a place among these.
+fn places(polygon: &PlanarPolygon) -> Vec<DVec3> {
+    let mut places: Vec<DVec3> = polygon.loops().flatten().copied().collect();
+    places.push(places.iter().sum::<DVec3>() / places.len() as f64);
+    places
+}
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
@@ -36,6 +43,10 @@ proptest! {
                 let allowed = alone.error_bound + found.error_bound;
                 prop_assert!((found.value - alone.value).abs() <= allowed, "{id}: {found:?} is not {alone:?}");
             }
+        }
+        for there in room.polygons().iter().flat_map(places) {
+            let each: Vec<bool> = points.iter().map(|from| room.sees(from, there)).collect();
+            prop_assert_eq!(room.each_sees(&points, there), each);
         }
         for (from, found) in points.iter().zip(room.form_factors_within(&points, 0, &piece, tolerance)) {
             let alone = room.form_factor_to_part(from, 0, &piece);

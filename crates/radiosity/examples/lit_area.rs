@@ -1,25 +1,25 @@
 //! How much of what is lit in scene files is shown within 5 % of an exact gather over the solution itself.
 //!
 //! ```sh
-//! cargo run --release -p radiosity --example lit_area -- [draft|normal|high] COUNT FILE...
+//! cargo run --release -p radiosity --example lit_area -- [draft|normal|high] SECONDS COUNT FILE...
 //! ```
 //!
-//! So many points are looked at, spread evenly over the area; what is darker than 1 % of the mean is not lit. A scene without light gets a
+//! Solving takes so many seconds at most. So many points are looked at, spread evenly over the area; what is darker than 1 % of the mean is not lit. A scene without light gets a
 //! uniform sky, as from `radiosity solve`.
 #[path = "../tests/gather/mod.rs"]
 mod gather;
 
 use gather::area::{lit_samples, within};
 use radiosity::io::Source;
-use radiosity::{Quality, Scene, Sky, SkyKind, needed_sides, repair, solve};
+use radiosity::{Options, Quality, Scene, Sky, SkyKind, needed_sides, repair, solve};
 use std::error::Error;
 use std::io::Write;
 use std::ops::ControlFlow;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [quality, count, files @ ..] = arguments.as_slice() else {
-        return Err("give a quality, how many points, and files".into());
+    let [quality, seconds, count, files @ ..] = arguments.as_slice() else {
+        return Err("give a quality, a time, how many points, and files".into());
     };
     let quality = match quality.as_str() {
         "draft" => Quality::Draft,
@@ -27,13 +27,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         "high" => Quality::High,
         other => return Err(format!("{other}: no quality").into()),
     };
+    let options = Options { max_seconds: Some(seconds.parse()?), ..quality.options() };
     let count = count.parse()?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "| file | patches | elements | s | lit points | within 5 % | within 20 % |")?;
     writeln!(out, "| --- | --- | --- | --- | --- | --- | --- |")?;
     for file in files {
         let scene = lit(file)?;
-        let solution = solve(&scene, &quality.options(), |_| ControlFlow::Continue(()))?;
+        let solution = solve(&scene, &options, |_| ControlFlow::Continue(()))?;
         let found = lit_samples(&scene, &solution, count)?;
         let [fine, coarse] = [0.05, 0.2].map(|share| 100.0 * within(&found, share));
         let (patches, elements) = (scene.patches.len(), solution.mesh.elements.len());

@@ -1,9 +1,10 @@
-//! Form factors from many points near each other to one polygon.
-use super::{enclosure::Enclosure, shaft::Shaft};
+//! What many points near each other see of one polygon, or of a place.
+use super::{enclosure::Enclosure, line::LineOfSight, shaft::Shaft, sight::is_above_horizon};
 use crate::buffers::Buffers;
 use crate::form_factor::FormFactor;
 use crate::occluders::{Reach, Taker, each};
 use crate::shapes::{differential_area::DifferentialArea, extent::Extent, polygon::PlanarPolygon};
+use glam::DVec3;
 use std::cell::OnceCell;
 
 impl Enclosure {
@@ -57,6 +58,36 @@ impl Enclosure {
         self.past_between(points, (id, part), Some(tolerance))
     }
 
+    /// Whether many points see a place, each as [`Self::sees`] says.
+    ///
+    /// ```
+    /// use formfactor::{DVec3, DifferentialArea, Enclosure, PlanarPolygon};
+    /// let board = PlanarPolygon::new([[[-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]]])?;
+    /// let room = Enclosure::new(vec![board]);
+    /// let floor = [0.0, 0.9].map(|x| DifferentialArea::new(DVec3::X * x, DVec3::Z)).into_iter().collect::<Result<Vec<_>, _>>()?;
+    /// assert_eq!(room.each_sees(&floor, DVec3::new(1.5, 0.0, 2.0)), [false, true]);
+    /// # Ok::<(), formfactor::Error>(())
+    /// ```
+    #[must_use]
+    pub fn each_sees(&self, points: &[DifferentialArea], there: DVec3) -> Vec<bool> {
+        if let [from] = points {
+            return vec![self.sees(from, there)];
+        }
+        let mut near = OnceCell::new();
+        let sees = |from: &DifferentialArea| {
+            if !is_above_horizon(from, there) {
+                return false;
+            }
+            let line = LineOfSight::between(from.position(), there);
+            near.get_or_init(|| self.on_ways(points, there));
+            let Some(near) = near.get_mut() else { return false };
+            let first = near.iter().position(|&id| self.blocks(id, from, &line));
+            // What is in the way of one may be in that of the next.
+            first.inspect(|&first| near[..=first].rotate_right(1)).is_none()
+        };
+        points.iter().map(sees).collect()
+    }
+
     /// The form factors past what stands between any of the points and the part, which is found when the first point needs it: none
     /// behind the part does.
     fn past_between<'p>(
@@ -88,18 +119,22 @@ impl Enclosure {
 
     /// The polygons that can stand between some of the points and a part of polygon `id`, those first that look largest from there.
     fn between(&self, points: &[DifferentialArea], (id, part): (usize, &PlanarPolygon)) -> Vec<usize> {
-        let positions = || points.iter().map(DifferentialArea::position);
-        let around = positions().fold(Extent::NOTHING, |all, p| all.with(Extent { low: p, high: p }));
-        let mut shaft = Shaft::between([around, Extent::around(part.points())]);
-        // What lies behind the part, or below all horizons, hides nothing of it.
+        let (around, mut shaft) = shaft(points, part.points());
+        // What lies behind the part hides nothing of it.
         shaft.cut_off(-part.normal(), part.points().iter().copied());
-        if points.iter().all(|point| point.normal() == points[0].normal()) {
-            shaft.cut_off(-points[0].normal(), positions());
-        }
         let deviation = self.deviation() + part.deviation();
         let mut near = self.tree().find(|extent| shaft.misses_box(extent, deviation));
         near.retain(|other| *other != id && !shaft.misses(&self.polygons()[*other], deviation));
         self.looks().sort(around.low.midpoint(around.high), &mut near);
+        near
+    }
+
+    /// The polygons that can be on the way from some of the points to a place.
+    fn on_ways(&self, points: &[DifferentialArea], there: DVec3) -> Vec<usize> {
+        let (_, shaft) = shaft(points, &[there]);
+        let deviation = self.deviation();
+        let mut near = self.tree().find(|extent| shaft.misses_box(extent, deviation));
+        near.retain(|other| !shaft.misses(&self.polygons()[*other], deviation));
         near
     }
 
@@ -116,6 +151,17 @@ impl Enclosure {
         let near = near.iter().copied().filter(|other| !reach.misses(&self.polygons()[*other]));
         each(self.others(from, id, near, outside), taker);
     }
+}
+
+/// The box around some points, and the shaft to others, without what lies below all horizons.
+fn shaft(points: &[DifferentialArea], others: &[DVec3]) -> (Extent, Shaft) {
+    let positions = || points.iter().map(DifferentialArea::position);
+    let around = positions().fold(Extent::NOTHING, |all, p| all.with(Extent { low: p, high: p }));
+    let mut shaft = Shaft::between([around, Extent::around(others)]);
+    if points.iter().all(|point| point.normal() == points[0].normal()) {
+        shaft.cut_off(-points[0].normal(), positions());
+    }
+    (around, shaft)
 }
 
 /// Puts some of the polygons before the others.

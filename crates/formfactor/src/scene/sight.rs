@@ -85,13 +85,22 @@ impl Enclosure {
     /// ```
     #[must_use]
     pub fn sees(&self, from: &DifferentialArea, there: DVec3) -> bool {
-        if place(from.given_normal(), from.position(), there) != Ordering::Greater {
+        if !is_above_horizon(from, there) {
             return false;
         }
         let line = LineOfSight::between(from.position(), there);
-        let blocks = |id: usize| line.is_blocked_by(&self.polygons()[id]) && !self.is_edge_on(from, id);
-        !self.tree().has_any(|extent| line.misses_box(extent), blocks)
+        !self.tree().has_any(|extent| line.misses_box(extent), |id| self.blocks(id, from, &line))
     }
+
+    /// Whether a polygon stands in the way of a point.
+    pub(super) fn blocks(&self, id: usize, from: &DifferentialArea, line: &LineOfSight) -> bool {
+        line.is_blocked_by(&self.polygons()[id]) && !self.is_edge_on(from, id)
+    }
+}
+
+/// Whether a place is above the horizon of a point.
+pub(super) fn is_above_horizon(from: &DifferentialArea, there: DVec3) -> bool {
+    place(from.given_normal(), from.position(), there) == Ordering::Greater
 }
 
 /// A closed ring, edge by edge, as seen from a point.

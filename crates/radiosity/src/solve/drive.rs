@@ -114,7 +114,7 @@ impl Run<'_> {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
-        if converged && last && self.options.gather && self.options.hemicube.is_none() {
+        if (last || !converged) && self.has_light_to_gather(converged) {
             let found = gather(scene, &mut self);
             fine = self.survive(found)?.flatten();
         }

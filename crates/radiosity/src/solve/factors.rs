@@ -206,29 +206,41 @@ impl<'s> Factors<'s> {
         workers::from_all(&self.groups[groups], &self.scene.patches[piece.patch].name, |group| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(piece.patch), "injected");
-            let rough = group.clone().map(|element| self.taken_roughly(element, piece.patch, &ball, middle));
-            let rough: Vec<Option<f64>> = rough.collect();
-            let others = group.clone().zip(&rough).filter(|(_, rough)| rough.is_none());
-            let points: Vec<_> = others.map(|(element, _)| self.receivers[element]).collect();
-            let surface = self.surface_of[piece.patch];
-            let found = self.enclosure.form_factors_within(&points, surface, &piece.polygon, self.enough());
-            let mut found = found.into_iter();
-            let factor = |rough: Option<f64>| rough.or_else(|| Some(found.next()?.value)).unwrap_or(0.0);
-            rough.into_iter().map(factor).collect()
+            let is_small = |element: &usize| self.is_small(*element, piece.patch);
+            let (small, others): (Vec<usize>, Vec<usize>) = group.clone().partition(is_small);
+            let rough = self.glance(&small, &ball, middle);
+            let exact = self.exact(&others, piece);
+            let mut found = vec![0.0; group.len()];
+            for (element, factor) in small.into_iter().zip(rough).chain(others.into_iter().zip(exact)) {
+                found[element - group.start] = factor;
+            }
+            found
         })
     }
 
-    /// The form factor from an element to a piece of a patch where that may be taken roughly.
-    fn taken_roughly(&self, element: usize, patch: usize, ball: &Ball, middle: DVec3) -> Option<f64> {
-        let from = &self.receivers[element];
-        let is_small = self.rough.as_ref()?.is_small(element, from, patch);
-        is_small.then(|| self.glance(from, ball, middle))
+    /// Whether the form factor from an element to a patch may be taken roughly.
+    fn is_small(&self, element: usize, patch: usize) -> bool {
+        self.rough.as_ref().is_some_and(|rough| rough.is_small(element, &self.receivers[element], patch))
     }
 
-    /// The form factor from a point to a small piece that its middle tells all of.
-    fn glance(&self, from: &DifferentialArea, ball: &Ball, middle: DVec3) -> f64 {
-        let disk = ball.disk(from);
-        if disk > 0.0 && self.enclosure.sees(from, middle) { disk } else { 0.0 }
+    /// The form factors from elements near each other to a piece.
+    fn exact(&self, elements: &[usize], piece: &PieceShape) -> Vec<f64> {
+        let points: Vec<_> = elements.iter().map(|element| self.receivers[*element]).collect();
+        let surface = self.surface_of[piece.patch];
+        let found = self.enclosure.form_factors_within(&points, surface, &piece.polygon, self.enough());
+        found.into_iter().map(|factor| factor.value).collect()
+    }
+
+    /// The form factors from elements near each other to a small piece that its middle tells all of.
+    fn glance(&self, elements: &[usize], ball: &Ball, middle: DVec3) -> Vec<f64> {
+        let disks: Vec<f64> = elements.iter().map(|element| ball.disk(&self.receivers[*element])).collect();
+        let facing = elements.iter().zip(&disks).filter(|(_, disk)| **disk > 0.0);
+        let points: Vec<_> = facing.map(|(element, _)| self.receivers[*element]).collect();
+        let mut sees = self.enclosure.each_sees(&points, middle).into_iter();
+        disks
+            .into_iter()
+            .map(|disk| if disk > 0.0 && sees.next() == Some(true) { disk } else { 0.0 })
+            .collect()
     }
 
     /// The shape of a piece.

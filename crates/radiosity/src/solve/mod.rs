@@ -138,9 +138,10 @@ pub fn solve_from(
             run.recognise()?;
         }
         let converged = run.advance(scene)?;
-        let solution = run.finish(scene, converged, passes_left == 0)?;
-        if !solution.converged || passes_left == 0 {
-            return Ok(solution);
+        let last = passes_left == 0 || !run.has_time();
+        let solution = run.finish(scene, converged, last)?;
+        if !solution.converged || last {
+            return Ok(Solution { converged: solution.converged && passes_left == 0, ..solution });
         }
         passes_left -= 1;
         plan = refine::refine(&plan, &subdivision, &solution, options.norm, options.elements >> passes_left);

@@ -16,6 +16,9 @@ use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
 use std::{ops::ControlFlow, time::Instant};
 
+/// This share of the time that is granted goes to finding the light, where a final gather takes the rest.
+const SOLVING: f64 = 0.5;
+
 /// Whoever follows a run.
 pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 
@@ -39,8 +42,12 @@ pub(super) struct Run<'r> {
     pub(super) ledger: Ledger,
     /// The defect that ended the run.
     fault: Option<Error>,
-    /// Whether the watcher, or the time, said to stop.
-    pub(super) is_stopped: bool,
+    /// After so many seconds the time is up: until the light is found, that is earlier than the time that is granted.
+    limit: Option<f64>,
+    /// Whether the time was up.
+    is_late: bool,
+    /// Whether the watcher said to stop.
+    is_told: bool,
     /// Σ|AΔB| over the emitted power, per band.
     pub(super) unshot: Vec<f64>,
     /// See [`gaps`].
@@ -74,7 +81,11 @@ impl<'r> Run<'r> {
             unshot: live(&light, 1.0),
             ledger: Ledger::dark(&light),
             fault: None,
-            is_stopped: false,
+            limit: options
+                .max_seconds
+                .map(|limit| if ends_with_gather(options) { SOLVING * limit } else { limit }),
+            is_late: false,
+            is_told: false,
             light,
             rooms: None,
             products: 0,
@@ -209,9 +220,28 @@ impl<'r> Run<'r> {
             tiles: &LinkedTiles::default,
             state: factors.state,
         });
-        let is_late = self.options.max_seconds.is_some_and(|limit| seconds > limit);
-        self.is_stopped |= goes_on.is_break() || is_late;
-        if self.is_stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        self.is_told |= goes_on.is_break();
+        self.is_late |= self.limit.is_some_and(|limit| seconds > limit);
+        if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Whether the watcher, or the time, said to stop.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.is_told || self.is_late
+    }
+
+    /// Whether there is light to gather: all, or, where the time for finding it is up, what was found; that leaves the rest of the time.
+    pub(super) fn has_light_to_gather(&mut self, converged: bool) -> bool {
+        let is_halfway = self.is_late && !self.is_told && ends_with_gather(self.options);
+        if is_halfway {
+            (self.limit, self.is_late) = (self.options.max_seconds, false);
+        }
+        ends_with_gather(self.options) && (converged || is_halfway)
+    }
+
+    /// Whether there is time for a pass that takes twice as long as all so far.
+    pub(super) fn has_time(&self) -> bool {
+        self.limit.is_none_or(|limit| 3.0 * self.start.elapsed().as_secs_f64() <= limit)
     }
 
     /// Whether the last step of every band was within the tolerance.
@@ -228,6 +258,7 @@ impl<'r> Run<'r> {
         closure: Option<f64>,
         fine: Option<FineLight>,
     ) -> Solution {
+        let is_whole = converged && self.fault.is_none() && !self.is_stopped();
         let vertices = self.factors.subdivision.mesh.vertices.len() * self.light.bands;
         let gathered = fine.as_ref().map(|fine| Gathered {
             elements: self.light.irradiance.clone(),
@@ -249,11 +280,16 @@ impl<'r> Run<'r> {
             scaling: self.scaling,
             shots: self.shooters.shots,
             products: self.products,
-            converged: converged && self.fault.is_none() && !self.is_stopped,
+            converged: is_whole,
             fault: self.fault,
             seconds: self.start.elapsed().as_secs_f64(),
         }
     }
+}
+
+/// Whether what is shown is gathered in the end.
+fn ends_with_gather(options: &Options) -> bool {
+    options.gather && options.hemicube.is_none()
 }
 
 /// A value for the bands in which something emits, and 0 for the others.

@@ -154,6 +154,18 @@ fn a_run_that_is_stopped_within_the_final_gather_goes_on_to_the_same_bits() {
     assert_eq!(again.vertex_irradiance(), whole.vertex_irradiance());
 }
 
+/// Half of the time is left to the gather: what was found until then is shown.
+#[test]
+fn what_was_found_until_the_time_is_up_is_gathered() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let timed = Options { max_seconds: Some(0.0), ..options(200, 1e-4) };
+    let solution = quick(&scene, timed);
+    assert!(!solution.converged && solution.shots == 0 && solution.fine.is_some());
+    let without = quick(&scene, Options { gather: false, ..timed });
+    assert!(!without.converged && without.fine.is_none());
+}
+
 #[test]
 fn what_is_cut_among_very_many_patches_takes_no_more_than_its_time() {
     let tile = |k: i32| {

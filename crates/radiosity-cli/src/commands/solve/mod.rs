@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let outputs = Output::all(&arguments.output, &arguments.format)?;
     let lights = arguments.lights.clone();
     let lit = move |scene: &mut Scene| light(scene, &lights);
-    let is_late = || arguments.time.is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
+    let is_late = || arguments.seconds().is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
     let input = input::read_repaired(&arguments.scene, arguments.reading, lit, is_late)?;
     let (scene, read) = (&input.scene, start.elapsed());
     let mut state = resume(arguments.resume.as_deref())?;

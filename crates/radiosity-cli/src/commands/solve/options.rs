@@ -61,7 +61,7 @@ pub(crate) struct Solve {
     /// Stop shooting after this many shots [default: 1000000]
     #[arg(long, value_name = "N")]
     pub(super) max_shots: Option<usize>,
-    /// Stop after this many seconds
+    /// Stop after this many seconds; where a final gather shows the light, it takes half of them [default: 55 at draft]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub(super) time: Option<f64>,
     /// Resume from the state that a stopped run of the same scene wrote
@@ -163,6 +163,16 @@ fn method(arguments: &Solve) -> Result<radiosity::Method, Failure> {
     }
 }
 
+/// A draft is there within a minute.
+const DRAFT_SECONDS: f64 = 55.0;
+
+impl Solve {
+    /// After how many seconds the run stops.
+    pub(super) fn seconds(&self) -> Option<f64> {
+        self.time.or(matches!(self.quality, Quality::Draft).then_some(DRAFT_SECONDS))
+    }
+}
+
 /// The options of the solver.
 ///
 /// # Errors
@@ -196,6 +206,6 @@ pub(super) fn options(arguments: &Solve) -> Result<Options, Failure> {
         gather: given.gather,
         record: arguments.record,
         max_shots: arguments.max_shots.unwrap_or(given.max_shots),
-        max_seconds: arguments.time,
+        max_seconds: arguments.seconds(),
     })
 }

@@ -56,19 +56,16 @@ struct Shares {
 }
 
 impl Known {
-    /// What the elements of a run received; nothing when the watcher wants to stop, or where there are more form factors than are kept.
+    /// What the elements of a run received of what was shot; nothing when the watcher wants to stop, or where there are more form factors
+    /// than are kept.
     pub(super) fn of(run: &mut Run<'_>) -> Result<Option<Known>, Error> {
         let nodes = &run.factors.subdivision.nodes;
         let (mut senders, mut pieces) = (Vec::new(), Vec::new());
         let (mut of_patch, mut count) = (vec![None; nodes.len()], 0);
-        for node in run.shooters.front().collect::<Vec<_>>() {
+        for index in 0..run.shooters.len() {
+            let node = run.shooters.node(index);
             if !run.sends(node) {
                 continue;
-            }
-            let Some(column) = run.column(node)? else { return Ok(None) };
-            count += column.len();
-            if count > KEPT {
-                return Ok(None);
             }
             let sender = match of_patch[nodes[node].patch] {
                 Some(sender) => sender,
@@ -78,6 +75,14 @@ impl Known {
                 }
             };
             of_patch[nodes[node].patch] = Some(sender);
+            if run.shooters.shot(index).iter().all(|shot| *shot == 0.0) {
+                continue;
+            }
+            let Some(column) = run.column(node)? else { return Ok(None) };
+            count += column.len();
+            if count > KEPT {
+                return Ok(None);
+            }
             let radiosity = run.light.mean_radiosity(nodes[node].elements.clone());
             pieces.push(SentPiece { sender, radiosity, column });
         }

@@ -31,9 +31,9 @@ use outlook::{Outlook, narrow, outlooks};
 use shown::Shown;
 use std::collections::BTreeMap;
 
-/// So many times the vertices that the mesh has are looked from beside these,
+/// So many times the vertices that the mesh has are looked from beside these at most,
 const MORE: usize = 2;
-/// in so many rounds.
+/// in so many rounds; fewer where what is linear is as good as is asked for.
 const ROUNDS: usize = 16;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
@@ -50,7 +50,8 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     let mut shown = Shown::of(&mesh, corners, &run.light, &known);
     for _ in 0..ROUNDS {
         let count = (MORE * mesh.vertices.len()).div_ceil(ROUNDS);
-        let middles = if run.is_stopped { Vec::new() } else { shown.cut(count) };
+        let is_done = run.is_stopped() || shown.is_within(run.options.error);
+        let middles = if is_done { Vec::new() } else { shown.cut(count) };
         if middles.is_empty() {
             break;
         }

@@ -9,6 +9,11 @@ use crate::solve::{interpolate::welds, light::Light};
 /// Elements are cut where the light inside is off a linear one by more than this share.
 const LINEAR: f64 = 0.03;
 
+/// What is shown is within an error where elements that are off by more than so many times the error
+const OFF: f64 = 2.0;
+/// have no more than so many times that share of the area.
+const WRONG: f64 = 3.0;
+
 /// A mesh and the light of its vertices.
 #[derive(Debug)]
 pub(super) struct Shown {
@@ -81,6 +86,14 @@ impl Shown {
         mesh.elements = order.iter().map(|&element| mesh.elements[element]).collect();
         let whole = order.iter().map(|&element| whole[element]).collect();
         FineLight { welds: welds(scene, &mesh), mesh, whole, vertices: self.vertices }
+    }
+
+    /// Whether most of what is shown is within an error.
+    pub(super) fn is_within(&self, error: f64) -> bool {
+        let area = |element: usize| self.bisection.mesh.area(element);
+        let whole: f64 = (0..self.off.len()).map(area).sum();
+        let off: f64 = (0..self.off.len()).filter(|element| self.off[*element] > OFF * error).map(area).sum();
+        off <= WRONG * error * whole
     }
 
     /// The elements that are to be cut, those that are wrong over most area first.
