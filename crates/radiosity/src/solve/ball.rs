@@ -8,6 +8,9 @@ use std::f64::consts::PI;
 pub(super) struct Ball {
     middle: DVec3,
     radius: f64,
+    /// The corners of the box around it.
+    low: DVec3,
+    high: DVec3,
     normal: DVec3,
     area: f64,
 }
@@ -19,7 +22,7 @@ impl Ball {
         let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
         let middle = low.midpoint(high);
         let radius = points().map(|point| point.distance(middle)).fold(0.0, f64::max);
-        Ball { middle, radius, normal: polygon.normal(), area: polygon.area() }
+        Ball { middle, radius, low, high, normal: polygon.normal(), area: polygon.area() }
     }
 
     /// The form factor of a disk in the middle as large as the polygon, seen from afar, but no more than the bound.
@@ -30,9 +33,11 @@ impl Ball {
         (self.area / (PI * square + self.area) * (cosines / square)).min(self.most_seen(point))
     }
 
-    /// How near to a point it may come.
+    /// How near to a point it may come: it is in the ball and in the box.
     pub(super) fn least_distance(&self, point: &DifferentialArea) -> f64 {
-        (self.middle.distance(point.position()) - self.radius).max(0.0)
+        let at = point.position();
+        let beside = (self.low - at).max(at - self.high).max(DVec3::ZERO).length();
+        beside.max(self.middle.distance(at) - self.radius)
     }
 
     /// A bound on the form factor: A cos θ cos θ' / (π d²) for the largest cosines and the least distance, and at most r² / d².

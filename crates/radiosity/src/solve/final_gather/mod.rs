@@ -27,14 +27,16 @@ use crate::error::Error;
 use crate::mesh::element::Mesh;
 use crate::scene::Scene;
 use known::{Known, Look};
-use outlook::{Outlook, narrow, outlooks};
+use outlook::{Outlook, areas_around, narrow, outlooks};
 use shown::Shown;
 use std::collections::BTreeMap;
 
 /// So many times the vertices that the mesh has are looked from beside these at most,
 const MORE: usize = 2;
-/// in so many rounds; fewer where what is linear is as good as is asked for.
+/// in so many rounds.
 const ROUNDS: usize = 16;
+/// After so many of them cutting ends where most is as good as is asked for: what is little of the area was cut until then.
+const FIRST: usize = 4;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
 /// in time. Nothing when the watcher wants to stop before the first.
@@ -48,9 +50,9 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     let mesh = known.torn(&run.factors.subdivision.mesh, &run.light);
     let (corners, mut looks) = corners(scene, run, &known, &mesh)?;
     let mut shown = Shown::of(&mesh, corners, &run.light, &known);
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         let count = (MORE * mesh.vertices.len()).div_ceil(ROUNDS);
-        let is_done = run.is_stopped() || shown.is_within(run.options.error);
+        let is_done = run.is_stopped() || (round >= FIRST && shown.is_within(run.options.error));
         let middles = if is_done { Vec::new() } else { shown.cut(count) };
         if middles.is_empty() {
             break;
@@ -66,7 +68,8 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     Ok(Some(shown.into_light(scene)))
 }
 
-/// What the vertices of the run's mesh receive, torn apart as they are, and what they see.
+/// What the vertices of the run's mesh receive, torn apart as they are, and what they see: those with the most area around them first, so
+/// that most of what is shown is right when there is no time for all.
 fn corners(
     scene: &Scene,
     run: &mut Run<'_>,
@@ -76,12 +79,19 @@ fn corners(
     let [vertices, whole] =
         [mesh.vertices.len(), mesh.elements.len()].map(|count| (0..count).collect::<Vec<_>>());
     let mut outlooks = outlooks(scene, run, (mesh, &whole), &vertices)?;
-    narrow(mesh, &mut outlooks);
-    let looks = look(run, known, &outlooks, &BTreeMap::new())?;
-    let mut light: Vec<f64> = looks.iter().flat_map(|look| look.light.iter().copied()).collect();
-    let means = Means::of(mesh, run.light.bands).around(&run.light.irradiance);
-    light.extend(&means[light.len()..]);
-    Ok((light, looks.into_iter().enumerate().collect()))
+    let areas = areas_around(mesh);
+    narrow(&areas, &mut outlooks);
+    let mut outlooks: Vec<(usize, Outlook)> = outlooks.into_iter().enumerate().collect();
+    outlooks.sort_by(|(a, _), (b, _)| areas[*b].total_cmp(&areas[*a]));
+    let (order, outlooks): (Vec<usize>, Vec<Outlook>) = outlooks.into_iter().unzip();
+    let found = look(run, known, &outlooks, &BTreeMap::new())?;
+    let looks: BTreeMap<usize, Look> = order.into_iter().zip(found).collect();
+    let bands = run.light.bands;
+    let mut light = Means::of(mesh, bands).around(&run.light.irradiance);
+    for (vertex, look) in &looks {
+        light[vertex * bands..][..bands].copy_from_slice(&look.light);
+    }
+    Ok((light, looks))
 }
 
 /// What vertices receive; of fewer than all when the watcher wants to stop. Of those in between what their ends see is known.

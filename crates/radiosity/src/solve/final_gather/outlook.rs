@@ -5,6 +5,7 @@ use crate::scene::Scene;
 use crate::solve::receivers::{AT_RIM, receivers};
 use crate::solve::run::Run;
 use formfactor::DifferentialArea;
+use glam::DVec3;
 
 /// From vertices that have this share of the area together, only lights are looked at,
 const FEW: f64 = 0.03;
@@ -27,6 +28,8 @@ pub(super) struct Outlook {
     pub(super) mean: Vec<f64>,
     /// How far away their centroids are at most.
     pub(super) reach: f64,
+    /// How far away the middle of the elements around it is, as a share of that: they lie on one side of it.
+    pub(super) lean: f64,
     /// Whether more is looked at than lights.
     pub(super) is_wide: bool,
     /// For a vertex of cuts the ends of what was an edge: elements that had to be cut tell little of what it receives.
@@ -53,8 +56,9 @@ pub(super) fn outlooks(
         let (point, inside) = (from(AT_RIM)?, from(INSIDE)?);
         let area: f64 = around.iter().map(|(_, area)| area).sum();
         around.iter_mut().for_each(|(_, share)| *share /= area.max(f64::MIN_POSITIVE));
-        let centroids = around.iter().map(|(element, _)| run.factors.receivers[*element].position());
-        let reach = centroids.map(|centroid| centroid.distance(point.position())).fold(0.0, f64::max);
+        let way = |element: usize| run.factors.receivers[element].position() - point.position();
+        let reach = around.iter().map(|(element, _)| way(*element).length()).fold(0.0, f64::max);
+        let middle: DVec3 = around.iter().map(|(element, share)| *share * way(*element)).sum();
         let mean = |band: usize| {
             let received = |at: usize| run.light.irradiance[at * run.light.bands + band];
             around.iter().map(|(element, share)| share * received(*element)).sum()
@@ -65,6 +69,7 @@ pub(super) fn outlooks(
             mean: (0..run.light.bands).map(mean).collect(),
             around,
             reach,
+            lean: middle.length() / reach.max(f64::MIN_POSITIVE),
             is_wide: true,
             ends: None,
         })
@@ -72,12 +77,17 @@ pub(super) fn outlooks(
     around.into_iter().zip(vertices).map(outlook).collect()
 }
 
-/// From the smallest vertices only lights are looked at: they have 3 % of the area, and are most where bodies are round.
-pub(super) fn narrow(mesh: &Mesh, outlooks: &mut [Outlook]) {
-    let mut areas = vec![0.0; outlooks.len()];
+/// The area of the elements around each vertex.
+pub(super) fn areas_around(mesh: &Mesh) -> Vec<f64> {
+    let mut areas = vec![0.0; mesh.vertices.len()];
     for (index, element) in mesh.elements.iter().enumerate() {
         element.corners.iter().for_each(|&corner| areas[corner] += mesh.area(index));
     }
+    areas
+}
+
+/// From the smallest vertices, by the area around each, only lights are looked at: they have 3 % of it, and are most where bodies are round.
+pub(super) fn narrow(areas: &[f64], outlooks: &mut [Outlook]) {
     let mut all: Vec<usize> = (0..areas.len()).collect();
     all.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]));
     let whole: f64 = areas.iter().sum();
