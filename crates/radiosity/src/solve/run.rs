@@ -230,13 +230,14 @@ impl<'r> Run<'r> {
         self.is_told || self.is_late
     }
 
-    /// Whether there is light to gather: all, or, where the time for finding it is up, what was found; that leaves the rest of the time.
+    /// Whether there is light to gather: all, or, where the time for finding it is up, what was found. The gather has the rest of the time.
     pub(super) fn has_light_to_gather(&mut self, converged: bool) -> bool {
-        let is_halfway = self.is_late && !self.is_told && ends_with_gather(self.options);
-        if is_halfway {
+        let is_halfway = self.is_late && !self.is_told;
+        let gathers = ends_with_gather(self.options) && (converged || is_halfway);
+        if gathers {
             (self.limit, self.is_late) = (self.options.max_seconds, false);
         }
-        ends_with_gather(self.options) && (converged || is_halfway)
+        gathers
     }
 
     /// Whether there is time for a pass that takes twice as long as all so far.

@@ -1,14 +1,17 @@
 //! Laws of the solver.
 use super::options::{Method, Options};
-use super::progress::Moment;
+use super::progress::{Moment, Progress};
+use super::run::Run;
 use super::{solution::Solution, state::State};
 use super::{solve, solve_from};
 use crate::error::Error;
+use crate::mesh::{plan::Plan, subdivide::Subdivision};
 use crate::scene::sky::{Sky, SkyKind};
 use crate::scene::{Scene, patch::Patch};
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 /// A patch of one band.
 fn patch(name: &str, corners: &[[f64; 3]], reflectance: f64, emission: f64) -> Patch {
@@ -164,6 +167,22 @@ fn what_was_found_until_the_time_is_up_is_gathered() {
     assert!(!solution.converged && solution.shots == 0 && solution.fine.is_some());
     let without = quick(&scene, Options { gather: false, ..timed });
     assert!(!without.converged && without.fine.is_none());
+}
+
+/// Six tenths of the time are gone: too much for finding light, but there is time to gather what was found, also where that is all.
+#[test]
+fn a_gather_has_the_rest_of_the_time() {
+    let mut scene = room(0.6, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let options = Options { max_seconds: Some(1e5), ..options(200, 1e-4) };
+    let start = Instant::now().checked_sub(Duration::from_secs(60_000)).unwrap();
+    let subdivision = Subdivision::new(&scene, &Plan::even(&scene, 200)).unwrap();
+    for is_asked in [true, false] {
+        let (mut state, mut watch) = (State::default(), |_: &Progress<'_>| ControlFlow::Continue(()));
+        let mut run = Run::new(&scene, &options, start, &subdivision, &mut state, &mut watch).unwrap();
+        assert!(!is_asked || run.report().is_break());
+        assert!(run.has_light_to_gather(true) && run.report().is_continue());
+    }
 }
 
 #[test]
