@@ -123,8 +123,8 @@ impl Enclosure {
         // What lies behind the part hides nothing of it.
         shaft.cut_off(-part.normal(), part.points().iter().copied());
         let deviation = self.deviation() + part.deviation();
-        let mut near = self.tree().find(|extent| shaft.misses_box(extent, deviation));
-        near.retain(|other| *other != id && !shaft.misses(&self.polygons()[*other], deviation));
+        let mut near = self.in_shaft(&shaft, deviation);
+        near.retain(|other| *other != id);
         self.looks().sort(around.low.midpoint(around.high), &mut near);
         near
     }
@@ -132,7 +132,11 @@ impl Enclosure {
     /// The polygons that can be on the way from some of the points to a place.
     fn on_ways(&self, points: &[DifferentialArea], there: DVec3) -> Vec<usize> {
         let (_, shaft) = shaft(points, &[there]);
-        let deviation = self.deviation();
+        self.in_shaft(&shaft, self.deviation())
+    }
+
+    /// The polygons that are not all outside of a shaft.
+    fn in_shaft(&self, shaft: &Shaft, deviation: f64) -> Vec<usize> {
         let mut near = self.tree().find(|extent| shaft.misses_box(extent, deviation));
         near.retain(|other| !shaft.misses(&self.polygons()[*other], deviation));
         near

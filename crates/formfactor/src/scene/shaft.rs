@@ -11,18 +11,22 @@
 use crate::shapes::{extent::Extent, polygon::PlanarPolygon};
 use glam::DVec3;
 
-/// What is outside of a plane by less than this share of the coordinates may be inside: far more than roundings.
+/// What is outside of a plane by less than this share of the largest coordinates may be inside: far more than roundings, also those of
+/// the plane.
 const MARGIN: f64 = 1e-12;
 
-/// What is beyond a plane: `outward` · p > `most`.
-#[derive(Clone, Copy, Debug)]
+/// What is beyond a plane through some points: `outward` · p > `most`.
+#[derive(Debug)]
 struct Beyond {
     outward: DVec3,
+    /// The largest of their products with it.
     most: f64,
+    /// The largest of their coordinates: where products cancel out, roundings do not.
+    size: f64,
 }
 
 /// The convex hull of two boxes, cut off at planes.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Shaft {
     extent: Extent,
     sides: Vec<Beyond>,
@@ -42,13 +46,12 @@ impl Shaft {
 
     /// Cuts off what is farther along `outward` than all of some points.
     pub(crate) fn cut_off(&mut self, outward: DVec3, points: impl IntoIterator<Item = DVec3>) {
-        let most = points.into_iter().map(|p| outward.dot(p)).fold(f64::NEG_INFINITY, f64::max);
-        self.sides.push(Beyond { outward, most });
+        self.sides.push(Beyond::through(outward, points));
     }
 
     /// Whether a box is outside for certain. Polygons in it may lie off their vertices by `deviation`.
     pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
-        let size = extent.low.abs().max(extent.high.abs());
+        let size = extent.low.abs().max(extent.high.abs()).max_element();
         extent.misses(&self.extent.grown(deviation))
             || self.sides.iter().any(|side| {
                 let innermost = (side.outward * extent.low).min(side.outward * extent.high).element_sum();
@@ -59,7 +62,7 @@ impl Shaft {
     /// Whether a polygon that may lie off its vertices by `deviation` is outside for certain.
     pub(crate) fn misses(&self, polygon: &PlanarPolygon, deviation: f64) -> bool {
         let points = polygon.points();
-        let size = points.iter().fold(DVec3::ZERO, |size, p| size.max(p.abs()));
+        let size = points.iter().fold(0.0, |size: f64, p| size.max(p.abs().max_element()));
         self.sides.iter().any(|side| {
             let innermost = points.iter().map(|p| side.outward.dot(*p)).fold(f64::INFINITY, f64::min);
             side.is_beyond(innermost, size, deviation)
@@ -68,11 +71,20 @@ impl Shaft {
 }
 
 impl Beyond {
-    /// Whether a place is beyond the plane for certain, by its product with `outward` and the size of its coordinates.
-    fn is_beyond(&self, product: f64, size: DVec3, deviation: f64) -> bool {
-        let outward = self.outward.abs();
-        product - self.most
-            > MARGIN * (outward.dot(size) + self.most.abs()) + outward.element_sum() * deviation
+    /// What is farther along `outward` than all of some points.
+    fn through(outward: DVec3, points: impl IntoIterator<Item = DVec3>) -> Self {
+        let none = Self { outward, most: f64::NEG_INFINITY, size: 0.0 };
+        points.into_iter().fold(none, |beyond, p| Self {
+            most: beyond.most.max(outward.dot(p)),
+            size: beyond.size.max(p.abs().max_element()),
+            ..beyond
+        })
+    }
+
+    /// Whether a place is beyond the plane for certain, by its product with `outward` and its largest coordinate.
+    fn is_beyond(&self, product: f64, size: f64, deviation: f64) -> bool {
+        let margin = MARGIN * (size + self.size) + deviation;
+        product - self.most > margin * self.outward.abs().element_sum()
     }
 }
 
@@ -86,10 +98,12 @@ fn side(ends: [Extent; 2], [x, y]: [usize; 2], corner: [bool; 2]) -> Option<Beyo
     // The normal of a side through these corners points the way that the corners are.
     let faces = |[a, b]: [f64; 2]| a * signs[0] > 0.0 && b * signs[1] > 0.0;
     let [a, b] = [[up, -along], [-up, along]].into_iter().find(|normal| faces(*normal))?;
-    let mut outward = DVec3::ZERO;
-    (outward[x], outward[y]) = (a, b);
-    let most = [one, other].map(|[p, q]| a * p + b * q);
-    Some(Beyond { outward, most: most[0].max(most[1]) })
+    let in_plane = |[p, q]: [f64; 2]| {
+        let mut point = DVec3::ZERO;
+        (point[x], point[y]) = (p, q);
+        point
+    };
+    Some(Beyond::through(in_plane([a, b]), [one, other].map(in_plane)))
 }
 
 #[cfg(test)]
@@ -119,6 +133,31 @@ mod tests {
         #[test]
         fn nothing_on_the_way_is_outside((ends, triangle) in on_the_way()) {
             let shaft = Shaft::between([&ends[0], &ends[1]].map(|end| Extent::around(end)));
+            prop_assert!(!shaft.misses(&triangle, 0.0));
+            prop_assert!(!shaft.misses_box(&Extent::around(triangle.points()), 0.0));
+        }
+    }
+
+    /// Two places far away and exactly opposite as seen from a third, and a triangle around that, which is smaller than what roundings do to
+    /// the places.
+    fn opposite() -> impl Strategy<Value = ([DVec3; 2], PlanarPolygon)> {
+        // With 45 bits for the way and 7 for the place between them, all sums are exact.
+        let whole = |bits: u32| prop::array::uniform3(-(1i64 << bits)..1 << bits);
+        let place = |whole: [i64; 3]| DVec3::from(whole.map(|x| x as f64));
+        (whole(45), whole(7), point(), point()).prop_filter_map("a triangle", move |(way, middle, a, b)| {
+            let (way, middle) = (place(way), place(middle));
+            let triangle =
+                PlanarPolygon::new([[a, b, -(a + b)].map(|corner| middle + corner * 1e-3)]).ok()?;
+            Some(([middle + way, middle - way], triangle))
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn what_is_tiny_among_what_is_far_is_not_outside((ends, triangle) in opposite()) {
+            let shaft = Shaft::between(ends.map(|end| Extent { low: end, high: end }));
             prop_assert!(!shaft.misses(&triangle, 0.0));
             prop_assert!(!shaft.misses_box(&Extent::around(triangle.points()), 0.0));
         }

@@ -114,7 +114,7 @@ impl Run<'_> {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
-        if (last || !converged) && self.has_light_to_gather(converged) {
+        if (last || !converged) && self.turn_to_gather(converged) {
             let found = gather(scene, &mut self);
             fine = self.survive(found)?.flatten();
         }

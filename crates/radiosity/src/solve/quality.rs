@@ -4,7 +4,7 @@ use super::{norm::Norm, options::Options};
 /// A choice of [`Options`] by one word. On a mesh all of them end with a final gather; see [`Options::gather`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// A first look, which `radiosity solve` stops after 55 seconds: an error of 3 %; on a mesh 1500 equal elements, a bound of 1 % and what comes of form factors that are taken
+    /// A first look: an error of 3 %; on a mesh 1500 equal elements, a bound of 1 % and what comes of form factors that are taken
     /// roughly, 0.3 % of what a surface sees.
     Draft,
     /// For pictures: an error of 1 %; on a mesh 6000 elements, half of them where the light changes most, a bound of 0.1 %.

@@ -230,8 +230,8 @@ impl<'r> Run<'r> {
         self.is_told || self.is_late
     }
 
-    /// Whether there is light to gather: all, or, where the time for finding it is up, what was found. The gather has the rest of the time.
-    pub(super) fn has_light_to_gather(&mut self, converged: bool) -> bool {
+    /// Gives the rest of the time to the gather, where there is light to gather: all, or, where the time for finding it is up, what was found.
+    pub(super) fn turn_to_gather(&mut self, converged: bool) -> bool {
         let is_halfway = self.is_late && !self.is_told;
         let gathers = ends_with_gather(self.options) && (converged || is_halfway);
         if gathers {

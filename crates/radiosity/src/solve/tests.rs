@@ -181,7 +181,7 @@ fn a_gather_has_the_rest_of_the_time() {
         let (mut state, mut watch) = (State::default(), |_: &Progress<'_>| ControlFlow::Continue(()));
         let mut run = Run::new(&scene, &options, start, &subdivision, &mut state, &mut watch).unwrap();
         assert!(!is_asked || run.report().is_break());
-        assert!(run.has_light_to_gather(true) && run.report().is_continue());
+        assert!(run.turn_to_gather(true) && run.report().is_continue());
     }
 }
 

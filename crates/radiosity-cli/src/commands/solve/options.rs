@@ -209,3 +209,25 @@ pub(super) fn options(arguments: &Solve) -> Result<Options, Failure> {
         max_seconds: arguments.seconds(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        solve: Solve,
+    }
+
+    #[test]
+    fn a_draft_stops_within_a_minute_unless_a_time_is_given() {
+        let seconds = |line: &str| Line::parse_from(line.split(' ')).solve.seconds();
+        assert_eq!(seconds("solve a.dae --quality draft"), Some(55.0));
+        assert_eq!(seconds("solve a.dae --quality draft --time 5"), Some(5.0));
+        assert_eq!(seconds("solve a.dae --quality draft --time 500"), Some(500.0));
+        assert_eq!(seconds("solve a.dae"), None);
+        assert_eq!(seconds("solve a.dae --quality high"), None);
+    }
+}

@@ -14,10 +14,8 @@ use std::collections::BTreeMap;
 const UNSEEN: f64 = 0.05;
 /// A patch that may be nearer than this share of the way to the elements' centroids is looked at.
 const NEAR: f64 = 0.5;
-/// The mean of elements all around a vertex may be off by so many times what they differ by,
-const UNLIKE: f64 = 0.5;
-/// and by so many times as much more where they lie on one side of it, as far away as they reach,
-const ONE_SIDED: f64 = 2.0;
+/// The mean of elements may be off by so many times what they differ by,
+const UNLIKE: f64 = 2.0;
 /// and by this share of what they receive.
 const ALIKE: f64 = 0.02;
 /// Light jumps between neighbours of which one is so many times as bright as the other.
@@ -177,7 +175,7 @@ impl Known {
         let risk = |(sender, shares): (usize, &Shares)| {
             let most = self.senders[sender].most(&outlook.inside, of);
             let is_open = most == 0.0 || !is_told || self.must_be_seen(sender, outlook);
-            (if is_open { most } else { most.min(shares.risk(outlook.lean)) }, sender)
+            (if is_open { most } else { most.min(shares.risk()) }, sender)
         };
         let (mut seen, mut others): (Vec<_>, Vec<_>) = shares
             .iter()
@@ -226,9 +224,9 @@ impl Shares {
         self.count += 1;
     }
 
-    /// How far off their mean may be: what they differ by is a measure. What is linear cancels out where they lie all around.
-    fn risk(&self, lean: f64) -> f64 {
-        (UNLIKE + ONE_SIDED * lean) * (self.high - self.low) + ALIKE * self.high
+    /// How far off their mean may be: what they differ by is a measure.
+    fn risk(&self) -> f64 {
+        UNLIKE * (self.high - self.low) + ALIKE * self.high
     }
 }
 

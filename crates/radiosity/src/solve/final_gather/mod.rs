@@ -36,7 +36,7 @@ const MORE: usize = 2;
 /// in so many rounds.
 const ROUNDS: usize = 16;
 /// After so many of them cutting ends where most is as good as is asked for: what is little of the area was cut until then.
-const FIRST: usize = 4;
+const FIRST: usize = 6;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
 /// in time. Nothing when the watcher wants to stop before the first.

@@ -5,7 +5,6 @@ use crate::scene::Scene;
 use crate::solve::receivers::{AT_RIM, receivers};
 use crate::solve::run::Run;
 use formfactor::DifferentialArea;
-use glam::DVec3;
 
 /// From vertices that have this share of the area together, only lights are looked at,
 const FEW: f64 = 0.03;
@@ -28,8 +27,6 @@ pub(super) struct Outlook {
     pub(super) mean: Vec<f64>,
     /// How far away their centroids are at most.
     pub(super) reach: f64,
-    /// How far away the middle of the elements around it is, as a share of that: they lie on one side of it.
-    pub(super) lean: f64,
     /// Whether more is looked at than lights.
     pub(super) is_wide: bool,
     /// For a vertex of cuts the ends of what was an edge: elements that had to be cut tell little of what it receives.
@@ -56,9 +53,8 @@ pub(super) fn outlooks(
         let (point, inside) = (from(AT_RIM)?, from(INSIDE)?);
         let area: f64 = around.iter().map(|(_, area)| area).sum();
         around.iter_mut().for_each(|(_, share)| *share /= area.max(f64::MIN_POSITIVE));
-        let way = |element: usize| run.factors.receivers[element].position() - point.position();
-        let reach = around.iter().map(|(element, _)| way(*element).length()).fold(0.0, f64::max);
-        let middle: DVec3 = around.iter().map(|(element, share)| *share * way(*element)).sum();
+        let centroids = around.iter().map(|(element, _)| run.factors.receivers[*element].position());
+        let reach = centroids.map(|centroid| centroid.distance(point.position())).fold(0.0, f64::max);
         let mean = |band: usize| {
             let received = |at: usize| run.light.irradiance[at * run.light.bands + band];
             around.iter().map(|(element, share)| share * received(*element)).sum()
@@ -69,7 +65,6 @@ pub(super) fn outlooks(
             mean: (0..run.light.bands).map(mean).collect(),
             around,
             reach,
-            lean: middle.length() / reach.max(f64::MIN_POSITIVE),
             is_wide: true,
             ends: None,
         })
