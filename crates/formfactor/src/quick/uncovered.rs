@@ -15,7 +15,7 @@ use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
 
 /// In more pieces it pays no longer.
-const MOST: usize = 256;
+const MOST: usize = 512;
 /// Within an angle of a great circle lies no more form factor than this times the angle.
 const BAND: f64 = 4.0;
 

@@ -1,4 +1,5 @@
 //! Balls around polygons: bounds on what is seen of them that cost little.
+use crate::extent::Extent;
 use formfactor::{DifferentialArea, PlanarPolygon};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -23,6 +24,22 @@ impl Ball {
         let middle = low.midpoint(high);
         let radius = points().map(|point| point.distance(middle)).fold(0.0, f64::max);
         Ball { middle, radius, low, high, normal: polygon.normal(), area: polygon.area() }
+    }
+
+    pub(super) fn extent(&self) -> Extent {
+        Extent { low: self.low, high: self.high }
+    }
+
+    pub(super) fn middle(&self) -> DVec3 {
+        self.middle
+    }
+
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    pub(super) fn normal(&self) -> DVec3 {
+        self.normal
     }
 
     /// The form factor of a disk in the middle as large as the polygon, seen from afar, but no more than the bound.

@@ -1,13 +1,18 @@
 //! Form factors from the elements to the pieces: exact ones, but for such as may be taken roughly.
 use super::state::{Column, State};
 use super::{
-    ball::Ball, fingerprint, hemicube::Hemicubes, lights::Lights, occluders::Occluders, rough::Rough, workers,
+    ball::Ball,
+    fingerprint,
+    hemicube::Hemicubes,
+    lights::Lights,
+    occluders::Occluders,
+    rough::{ElementGroup, Rough},
+    workers,
 };
 use crate::error::Error;
 use crate::mesh::{element::Element, subdivide::Subdivision};
 use crate::scene::Scene;
 use formfactor::{Blockers, DifferentialArea, Enclosure, PlanarPolygon};
-use glam::DVec3;
 use std::{ops::Range, sync::Arc};
 
 /// What a form factor may be off by: far less than what tells a closed room from an open one,
@@ -202,18 +207,22 @@ impl<'s> Factors<'s> {
 
     /// The form factors from some groups of elements to a piece.
     pub(super) fn seen(&self, groups: Range<usize>, piece: &PieceShape) -> Result<Vec<Vec<f64>>, Error> {
-        let (ball, middle) = (Ball::around(&piece.polygon), middle(&piece.polygon));
-        workers::from_all(&self.groups[groups], &self.scene.patches[piece.patch].name, |group| {
+        let ball = Ball::around(&piece.polygon);
+        workers::from_all(&groups.collect::<Vec<_>>(), &self.scene.patches[piece.patch].name, |&index| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(piece.patch), "injected");
-            let is_small = |element: &usize| self.is_small(*element, piece.patch);
-            let (small, others): (Vec<usize>, Vec<usize>) = group.clone().partition(is_small);
-            let rough = self.glance(&small, &ball, middle);
-            let exact = self.exact(&others, piece);
-            let mut found = vec![0.0; group.len()];
-            for (element, factor) in small.into_iter().zip(rough).chain(others.into_iter().zip(exact)) {
-                found[element - group.start] = factor;
-            }
+            let group = self.groups[index].clone();
+            let points = &self.receivers[group.clone()];
+            let is_small = |at: &usize| self.is_small(group.start + at, piece.patch);
+            let (small, others): (Vec<usize>, Vec<usize>) = (0..points.len()).partition(is_small);
+            let rough = self.roughly((index, points), &small, (piece.patch, &ball));
+            let exact = self.exact(points, &others, piece);
+            let mut found = vec![0.0; points.len()];
+            small
+                .into_iter()
+                .zip(rough)
+                .chain(others.into_iter().zip(exact))
+                .for_each(|(at, factor)| found[at] = factor);
             found
         })
     }
@@ -223,24 +232,17 @@ impl<'s> Factors<'s> {
         self.rough.as_ref().is_some_and(|rough| rough.is_small(element, &self.receivers[element], patch))
     }
 
-    /// The form factors from elements near each other to a piece.
-    fn exact(&self, elements: &[usize], piece: &PieceShape) -> Vec<f64> {
-        let points: Vec<_> = elements.iter().map(|element| self.receivers[*element]).collect();
+    /// The form factors from some of a group of elements to a piece.
+    fn exact(&self, points: &[DifferentialArea], some: &[usize], piece: &PieceShape) -> Vec<f64> {
+        let points: Vec<_> = some.iter().map(|at| points[*at]).collect();
         let surface = self.surface_of[piece.patch];
         let found = self.enclosure.form_factors_within(&points, surface, &piece.polygon, self.enough());
         found.into_iter().map(|factor| factor.value).collect()
     }
 
-    /// The form factors from elements near each other to a small piece that its middle tells all of.
-    fn glance(&self, elements: &[usize], ball: &Ball, middle: DVec3) -> Vec<f64> {
-        let disks: Vec<f64> = elements.iter().map(|element| ball.disk(&self.receivers[*element])).collect();
-        let facing = elements.iter().zip(&disks).filter(|(_, disk)| **disk > 0.0);
-        let points: Vec<_> = facing.map(|(element, _)| self.receivers[*element]).collect();
-        let mut sees = self.enclosure.each_sees(&points, middle).into_iter();
-        disks
-            .into_iter()
-            .map(|disk| if disk > 0.0 && sees.next() == Some(true) { disk } else { 0.0 })
-            .collect()
+    /// The form factors from some of a group of elements to a small piece.
+    fn roughly(&self, group: ElementGroup<'_>, some: &[usize], piece: (usize, &Ball)) -> Vec<f64> {
+        self.rough.as_ref().map_or_else(Vec::new, |rough| rough.factors(&self.enclosure, group, some, piece))
     }
 
     /// The shape of a piece.
@@ -276,10 +278,4 @@ fn groups(scene: &Scene, subdivision: &Subdivision) -> Vec<Range<usize>> {
     }
     groups.sort_by_key(|group| group.start);
     groups
-}
-
-/// The mean of a polygon's vertices.
-fn middle(polygon: &PlanarPolygon) -> DVec3 {
-    let points = || polygon.loops().flatten();
-    points().sum::<DVec3>() / points().count() as f64
 }

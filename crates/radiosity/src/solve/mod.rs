@@ -1,36 +1,37 @@
 //! From a scene to its light.
 //!
 //! ```text
-//! refine       where the light is not resolved, and a plan for a finer mesh
-//! drive        one mesh from the first step to its solution: which method, the steps, closure, direct light
-//! levels       light between parts of patches of any size; the mesh follows
-//! final_gather what vertices receive, exactly past what stands in between
-//! receivers    where the light of vertices is gathered
-//! lights       lamps, the sun and the sky: what points and polygons receive of them
-//! relax        all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
-//! shoot        progressive refinement: the piece with most to shoot shoots, again and again
-//! follow       the light followed through the rooms
-//! batches      form factors and light of many points; the watcher is asked in between
-//! run          what the steps of a run share
-//! progress     the progress of a run, as its caller sees it
-//! factors      columns of form factors from every element's centroid to one piece; kept in the state
-//! rough        which of them are so small that they may be taken roughly
-//! hemicube     form factors by hemicubes, to compare with
-//! workers      many form factors at once, by all threads
-//! occluders    patches that continue each other hide as one polygon
-//! ball         bounds on what is seen of polygons
-//! interpolate  from elements to vertices
-//! solution     what comes out
-//! ledger       where the power went, and how far the light is from the solution
-//! shooters     which pieces shoot, how much each has shot, when one is split
-//! rooms        which patches light reaches, and which of them close a room
-//! light        radiosity and irradiance of every element
-//! state        the form factors found so far, as bytes; fingerprint tells meshes apart
-//! magnitude    how large many numbers are
-//! check        refuse what has no solution: negative emission, reflectance above 1
-//! overlap      refuse patches that lie on each other
-//! quality      options by one word
-//! options      the options, with norm
+//! refine         where the light is not resolved, and a plan for a finer mesh
+//! drive          one mesh from the first step to its solution: which method, the steps, closure, direct light
+//! levels         light between parts of patches of any size; the mesh follows
+//! final_gather   what vertices receive, exactly past what stands in between
+//! receivers      where the light of vertices is gathered
+//! lights         lamps, the sun and the sky: what points and polygons receive of them
+//! relax          all pieces at once: exchange, balance, and cg, gmres or gauss; then gather
+//! shoot          progressive refinement: the piece with most to shoot shoots, again and again
+//! follow         the light followed through the rooms
+//! batches        form factors and light of many points; the watcher is asked in between
+//! run            what the steps of a run share
+//! progress       the progress of a run, as its caller sees it
+//! factors        columns of form factors from every element's centroid to one piece; kept in the state
+//! rough          which of them are so small that they may be taken roughly; who sees a cluster sees its patches
+//! patch_clusters patches near each other that look one way
+//! hemicube       form factors by hemicubes, to compare with
+//! workers        many form factors at once, by all threads
+//! occluders      patches that continue each other hide as one polygon
+//! ball           bounds on what is seen of polygons
+//! interpolate    from elements to vertices
+//! solution       what comes out
+//! ledger         where the power went, and how far the light is from the solution
+//! shooters       which pieces shoot, how much each has shot, when one is split
+//! rooms          which patches light reaches, and which of them close a room
+//! light          radiosity and irradiance of every element
+//! state          the form factors found so far, as bytes; fingerprint tells meshes apart
+//! magnitude      how large many numbers are
+//! check          refuse what has no solution: negative emission, reflectance above 1
+//! overlap        refuse patches that lie on each other
+//! quality        options by one word
+//! options        the options, with norm
 //! ```
 //!
 //! The discrete system is B = E + ρ F P B: elements i receive at their centroids, F_ij is the exact form factor
@@ -56,6 +57,7 @@ pub(crate) mod norm;
 pub(crate) mod occluders;
 pub(crate) mod options;
 mod overlap;
+mod patch_clusters;
 pub(crate) mod progress;
 pub(crate) mod quality;
 mod receivers;

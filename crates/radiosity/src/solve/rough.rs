@@ -3,11 +3,12 @@
 //! Most pairs of a detailed scene are a small patch and an element far away. What an element sees of the smallest ones, all together, is no
 //! more than a share of its view, however much of them is hidden: so much, and no more, is wrong where nothing is found out of what hides
 //! them.
-use super::ball::Ball;
-use super::workers::from_all;
+use super::{ball::Ball, patch_clusters::PatchClusters, workers::from_all};
 use crate::error::Error;
 use crate::scene::{Scene, patch::Patch};
-use formfactor::DifferentialArea;
+use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
+use glam::DVec3;
+use std::sync::OnceLock;
 
 /// Among more pairs of patches and elements the small ones are not looked for: it would take longer than a first shot may.
 const MOST: usize = 1 << 25;
@@ -21,14 +22,31 @@ pub(super) struct Rough {
     pub(super) share: f64,
     /// For each element, what bounds on its small form factors are below.
     pub(super) limits: Vec<f64>,
+    /// The mean of each patch's vertices.
+    middles: Vec<DVec3>,
+    clusters: PatchClusters,
+    groups: usize,
+    /// For each cluster and each group: which elements see it, once that was asked.
+    seen: Vec<OnceLock<Vec<bool>>>,
 }
+
+/// A group of elements near each other: which one it is, and where its elements receive.
+pub(super) type ElementGroup<'g> = (usize, &'g [DifferentialArea]);
 
 impl Rough {
     /// Nothing is small yet; nothing at all among very many patches and elements.
-    pub(super) fn among(scene: &Scene, elements: usize, share: f64) -> Option<Rough> {
+    ///
+    /// Takes O(n log² n) for n patches.
+    pub(super) fn among(scene: &Scene, elements: usize, groups: usize, share: f64) -> Option<Rough> {
         let ball = |patch: &Patch| (!patch.emits()).then(|| Ball::around(&patch.polygon));
         let are_few = scene.patches.len().saturating_mul(elements) <= MOST;
-        are_few.then(|| Rough { balls: scene.patches.iter().map(ball).collect(), share, limits: Vec::new() })
+        are_few.then(|| {
+            let balls: Vec<_> = scene.patches.iter().map(ball).collect();
+            let clusters = PatchClusters::of(&balls);
+            let seen = (0..clusters.len() * groups).map(|_| OnceLock::new()).collect();
+            let middles = scene.patches.iter().map(|patch| middle(&patch.polygon)).collect();
+            Rough { balls, share, limits: Vec::new(), middles, clusters, groups, seen }
+        })
     }
 
     /// The limits of some elements: from each, the smallest patches fill no more than the share of its view together, whatever hides them.
@@ -42,6 +60,52 @@ impl Rough {
     pub(super) fn is_small(&self, element: usize, from: &DifferentialArea, patch: usize) -> bool {
         self.balls[patch].as_ref().is_some_and(|ball| ball.most_seen(from) < self.limits[element])
     }
+}
+
+impl Rough {
+    /// The form factors from some of a group to a part of a small patch in a ball: where its cluster is seen, those of the ball's disk.
+    pub(super) fn factors(
+        &self,
+        enclosure: &Enclosure,
+        group: ElementGroup<'_>,
+        some: &[usize],
+        (patch, ball): (usize, &Ball),
+    ) -> Vec<f64> {
+        let Some(cluster) = self.clusters.of_patch(patch).filter(|_| !some.is_empty()) else {
+            return vec![0.0; some.len()];
+        };
+        let known = &self.seen[cluster * self.groups + group.0];
+        let seen = known.get_or_init(|| self.who_sees(enclosure, group.1, cluster));
+        some.iter().map(|&at| if seen[at] { ball.disk(&group.1[at]) } else { 0.0 }).collect()
+    }
+
+    /// Which points near each other see a cluster: the middle of the patch in it that looks largest from all that it faces.
+    fn who_sees(&self, enclosure: &Enclosure, points: &[DifferentialArea], cluster: usize) -> Vec<bool> {
+        let disk =
+            |patch: usize, at: usize| self.balls[patch].as_ref().map_or(0.0, |ball| ball.disk(&points[at]));
+        let (mut seen, mut left) = (vec![false; points.len()], (0..points.len()).collect::<Vec<_>>());
+        let look = |left: &[usize]| {
+            let of_all = |&patch: &usize| (left.iter().map(|at| disk(patch, *at)).sum::<f64>(), patch);
+            let largest =
+                self.clusters.patches(cluster).iter().map(of_all).max_by(|a, b| a.0.total_cmp(&b.0));
+            largest.filter(|(sum, _)| *sum > 0.0).map(|(_, patch)| patch)
+        };
+        while let Some(patch) = look(&left) {
+            let (faced, others): (Vec<usize>, Vec<usize>) =
+                left.iter().partition(|at| disk(patch, **at) > 0.0);
+            let from: Vec<_> = faced.iter().map(|at| points[*at]).collect();
+            let sees = enclosure.each_sees(&from, self.middles[patch]);
+            faced.iter().zip(sees).for_each(|(at, sees)| seen[*at] = sees);
+            left = others;
+        }
+        seen
+    }
+}
+
+/// The mean of a polygon's vertices.
+fn middle(polygon: &PlanarPolygon) -> DVec3 {
+    let points = || polygon.loops().flatten();
+    points().sum::<DVec3>() / points().count() as f64
 }
 
 /// The first of the bounds, in ascending order, that does not add up to a share or less with those before it.

@@ -43,6 +43,12 @@ fn what_is_taken_roughly_is_within_the_bound() {
             let off = off.fold(0.0, f64::max);
             assert!(off > 0.0 || share < 1e-3);
             assert!(off <= exact.bound[0] + rough.bound[0], "{reflectance} {share}: {off:e}");
+            let [of_exact, of_rough] =
+                [&exact, &rough].map(|solution| solution.irradiance.iter().sum::<f64>());
+            assert!(
+                (of_rough / of_exact - 1.0).abs() < share / 4.0,
+                "{reflectance} {share}: {of_rough} {of_exact}"
+            );
             assert!(exact.closure.is_some() && rough.closure.is_none());
         }
     }
