@@ -122,4 +122,31 @@ mod tests {
             prop_assert!((quickly.value - exact.value).abs() <= quickly.error_bound + exact.error_bound);
         }
     }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(30))]
+
+        /// Boards of all sizes and turns, of which most hide nothing of what others leave.
+        #[test]
+        fn among_a_crowd_what_is_left_is_what_the_exact_route_sees(
+            boards in prop::collection::vec(
+                (prop::array::uniform3(-2.0..2.0), prop::array::uniform3(-3.0..3.0), -7.0..0.0), 100..400,
+            ),
+            tolerance in prop_oneof![Just(1e-4), Just(1e-7), Just(1e-9)],
+        ) {
+            let target = rectangle(DQuat::IDENTITY, DVec3::new(-3.0, -3.0, 3.0), [DVec3::Y * 6.0, DVec3::X * 6.0]);
+            let board = |(at, turn, size): &([f64; 3], [f64; 3], f64)| {
+                let turn = DQuat::from_scaled_axis(DVec3::from(*turn));
+                let corner = turn.inverse() * (DVec3::from(*at) * DVec3::new(1.0, 1.0, 0.4) + DVec3::Z * 1.5);
+                rectangle(turn, corner, [DVec3::X * size.exp2(), DVec3::Y * size.exp2()])
+            };
+            let boards: Vec<PlanarPolygon> = boards.iter().map(board).collect();
+            let spot = DifferentialArea::new(DVec3::ZERO, DVec3::Z).expect("a place");
+            let mut buffers = Buffers::default();
+            let found = past(&spot, &target, all(&boards), Some(tolerance), &mut buffers);
+            let exact = past(&spot, &target, all(&boards), None, &mut buffers);
+            prop_assert!(found.error_bound <= tolerance);
+            prop_assert!((found.value - exact.value).abs() <= found.error_bound + exact.error_bound);
+        }
+    }
 }

@@ -13,57 +13,76 @@ use super::target::Target;
 use crate::form_factor::FormFactor;
 use crate::numeric::rounding::ROUNDING;
 use glam::DVec3;
+use std::ops::Range;
 
 /// In more pieces it pays no longer.
-const MOST: usize = 512;
+const MOST: usize = 4096;
 /// Within an angle of a great circle lies no more form factor than this times the angle.
 const BAND: f64 = 4.0;
+/// More than roundings change in a cosine of the sum of two angles.
+const CLEAR: f64 = 1e-14;
 
-/// Convex polygons of unit vectors, counter-clockwise seen from dA.
-#[derive(Debug, Default)]
-struct Polygons {
-    corners: Vec<DVec3>,
-    /// Where each ends among the corners.
-    ends: Vec<usize>,
+/// A cone around all of a convex polygon.
+#[derive(Clone, Copy, Debug)]
+struct SphericalCap {
+    middle: DVec3,
+    /// Of the largest angle from the middle to a corner,
+    cosine: f64,
+    /// and no less than its sine: the largest distance.
+    sine: f64,
+}
+
+impl SphericalCap {
+    /// Around unit vectors.
+    fn around(corners: impl Iterator<Item = DVec3> + Clone) -> Self {
+        let (middle, length) = corners.clone().sum::<DVec3>().normalize_and_length();
+        let farthest = corners.map(|p| p.distance(middle)).fold(0.0, f64::max);
+        // What has no middle goes all around.
+        let sine = if length > 0.0 { farthest } else { 2.0 };
+        Self { middle, cosine: 1.0 - sine * sine / 2.0, sine }
+    }
+
+    /// Whether two are clear of each other: the angle between the middles is larger than the sum of both, which are less than a right angle.
+    #[inline]
+    fn misses(&self, other: &Self) -> bool {
+        let least = self.cosine * other.cosine - self.sine * other.sine;
+        self.cosine > 0.0 && other.cosine > 0.0 && self.middle.dot(other.middle) < least - CLEAR
+    }
+}
+
+/// A convex polygon of unit vectors, counter-clockwise seen from dA.
+#[derive(Clone, Debug)]
+struct UncoveredPiece {
+    /// Which of all corners are its own.
+    corners: Range<usize>,
+    cap: SphericalCap,
 }
 
 /// The pieces that are left of a target.
 #[derive(Debug, Default)]
 pub(super) struct Uncovered {
-    pieces: Polygons,
-    next: Polygons,
+    pieces: Vec<UncoveredPiece>,
+    corners: Vec<DVec3>,
+    /// Pieces that the last cone has cut.
+    gone: Vec<usize>,
     /// What is inside of the planes so far, of one piece.
     inside: [Vec<DVec3>; 2],
     /// A bound on the form factor of what is misplaced.
     error: f64,
 }
 
-impl Polygons {
-    fn clear(&mut self) {
-        self.corners.clear();
-        self.ends.clear();
-    }
-
-    fn push(&mut self, corners: &[DVec3]) {
-        self.corners.extend_from_slice(corners);
-        self.ends.push(self.corners.len());
-    }
-
-    fn iter(&self) -> impl Iterator<Item = &[DVec3]> {
-        let starts = std::iter::once(&0).chain(&self.ends);
-        starts.zip(&self.ends).map(|(start, end)| &self.corners[*start..*end])
-    }
-}
-
 impl Uncovered {
     /// All of a target.
     pub(super) fn begin(&mut self, target: OneCone) {
-        let Self { pieces, inside: [corners, _], error, .. } = self;
+        let Self { pieces, corners, error, .. } = self;
         corners.clear();
         corners.extend(target.edges.iter().map(|edge| edge.start.normalize()));
         *error = BAND * 4.0 * ROUNDING * corners.len() as f64;
         pieces.clear();
-        pieces.push(corners);
+        pieces.push(UncoveredPiece {
+            corners: 0..corners.len(),
+            cap: SphericalCap::around(corners.iter().copied()),
+        });
     }
 
     /// A bound on the form factor of what is misplaced so far: infinite where that is not known.
@@ -73,43 +92,50 @@ impl Uncovered {
 
     /// Whether nothing is left.
     pub(super) fn is_empty(&self) -> bool {
-        self.pieces.ends.is_empty()
+        self.pieces.is_empty()
     }
 
     /// Cuts a cone out.
     pub(super) fn subtract(&mut self, cone: OneCone) {
-        let Self { pieces, next, inside, error } = self;
-        if pieces.ends.len() > MOST || cone.edges.len() > u64::BITS as usize {
+        let Self { pieces, corners, gone, inside, error } = self;
+        if pieces.len() > MOST || cone.edges.len() > u64::BITS as usize {
             *error = f64::INFINITY;
         }
         if !error.is_finite() {
             return;
         }
-        next.clear();
+        let cap = SphericalCap::around(cone.edges.iter().map(|edge| edge.start.normalize()));
         let mut touched = 0_u64;
-        for piece in pieces.iter() {
-            match cone
-                .edges
-                .iter()
-                .position(|plane| piece.iter().all(|p| plane.inward.dot(*p) <= plane.error))
-            {
-                Some(plane) => {
-                    touched |= 1 << plane;
-                    next.push(piece);
-                }
-                None => *error += cut(piece, cone.edges, inside, next, &mut touched),
+        gone.clear();
+        for index in 0..pieces.len() {
+            let piece = &pieces[index];
+            if piece.cap.misses(&cap) {
+                continue;
             }
+            let own = &corners[piece.corners.clone()];
+            let is_beside = |plane: &Edge| own.iter().all(|p| plane.inward.dot(*p) <= plane.error);
+            if let Some(plane) = cone.edges.iter().position(is_beside) {
+                touched |= 1 << plane;
+                continue;
+            }
+            let [rest, _] = &mut *inside;
+            rest.clear();
+            rest.extend_from_slice(own);
+            *error += cut(cone.edges, inside, (pieces, corners), &mut touched);
+            gone.push(index);
         }
+        gone.iter().rev().for_each(|index| {
+            pieces.swap_remove(*index);
+        });
         let angle = |plane: &Edge| (plane.error + UNDERFLOW) / plane.inward.length();
         let planes = cone.edges.iter().enumerate().filter(|(index, _)| touched >> index & 1 == 1);
         *error += BAND * planes.map(|(_, plane)| angle(plane)).sum::<f64>();
-        std::mem::swap(pieces, next);
     }
 
     /// The form factor of what is left, with an error of at most `open` from elsewhere; `None` where too much is misplaced.
     pub(super) fn form_factor(&self, target: &Target, open: f64) -> Option<FormFactor> {
         let mut sum = Sum::new(target.from.normal());
-        for piece in self.pieces.iter() {
+        for piece in self.pieces.iter().map(|piece| &self.corners[piece.corners.clone()]) {
             for (&start, &end) in
                 piece.iter().zip(piece.iter().cycle().skip(1)).filter(|(start, end)| start != end)
             {
@@ -122,18 +148,15 @@ impl Uncovered {
     }
 }
 
-/// Adds what is outside of any plane of a piece, and notes the planes; returns a bound on the form factor that the rounding of corners
-/// misplaces.
+/// Adds what is outside of any plane of the piece that is inside of none yet, and notes the planes; returns a bound on the form factor that the
+/// rounding of corners misplaces.
 fn cut(
-    piece: &[DVec3],
     planes: &[Edge],
     inside: &mut [Vec<DVec3>; 2],
-    outside: &mut Polygons,
+    (pieces, corners): (&mut Vec<UncoveredPiece>, &mut Vec<DVec3>),
     touched: &mut u64,
 ) -> f64 {
     let [rest, within] = inside;
-    rest.clear();
-    rest.extend_from_slice(piece);
     let mut error = 0.0;
     for (index, plane) in planes.iter().enumerate() {
         let place = |p: &DVec3| plane.inward.dot(*p);
@@ -142,8 +165,12 @@ fn cut(
             continue;
         }
         within.clear();
-        error += split(rest, plane, within, &mut outside.corners);
-        outside.ends.push(outside.corners.len());
+        let first = corners.len();
+        error += split(rest, plane, within, corners);
+        pieces.push(UncoveredPiece {
+            corners: first..corners.len(),
+            cap: SphericalCap::around(corners[first..].iter().copied()),
+        });
         std::mem::swap(rest, within);
         if rest.len() < 3 {
             break;
