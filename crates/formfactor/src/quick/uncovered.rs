@@ -23,7 +23,7 @@ const BAND: f64 = 4.0;
 const CLEAR: f64 = 1e-14;
 
 /// A cone around all of a convex polygon.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 struct SphericalCap {
     middle: DVec3,
     /// Of the largest angle from the middle to a corner,
@@ -51,7 +51,7 @@ impl SphericalCap {
 }
 
 /// A convex polygon of unit vectors, counter-clockwise seen from dA.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct UncoveredPiece {
     /// Which of all corners are its own.
     corners: Range<usize>,

@@ -47,12 +47,10 @@ impl Run<'_> {
     /// Takes small form factors roughly where that is asked for; false when the watcher wants to stop.
     fn take_roughly(&mut self, scene: &Scene) -> Result<bool, Error> {
         let (share, count) = (self.options.rough, self.factors.receivers.len());
-        let is_asked = share > 0.0 && self.options.hemicube.is_none();
-        let Some(mut rough) =
-            Rough::among(scene, count, self.factors.groups.len(), share).filter(|_| is_asked)
-        else {
+        if share == 0.0 || self.options.hemicube.is_some() {
             return Ok(true);
-        };
+        }
+        let Some(mut rough) = Rough::among(scene, count, share) else { return Ok(true) };
         rough.limits = self.in_batches(count, |run, some| rough.limits(&run.factors.receivers[some]))?;
         let goes_on = rough.limits.len() == count;
         if goes_on {

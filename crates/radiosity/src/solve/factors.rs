@@ -208,14 +208,13 @@ impl<'s> Factors<'s> {
     /// The form factors from some groups of elements to a piece.
     pub(super) fn seen(&self, groups: Range<usize>, piece: &PieceShape) -> Result<Vec<Vec<f64>>, Error> {
         let ball = Ball::around(&piece.polygon);
-        workers::from_all(&groups.collect::<Vec<_>>(), &self.scene.patches[piece.patch].name, |&index| {
+        workers::from_all(&self.groups[groups], &self.scene.patches[piece.patch].name, |group| {
             #[cfg(test)]
             assert_ne!(self.state.trap, Some(piece.patch), "injected");
-            let group = self.groups[index].clone();
             let points = &self.receivers[group.clone()];
             let is_small = |at: &usize| self.is_small(group.start + at, piece.patch);
             let (small, others): (Vec<usize>, Vec<usize>) = (0..points.len()).partition(is_small);
-            let rough = self.roughly((index, points), &small, (piece.patch, &ball));
+            let rough = self.roughly((group.start, points), &small, (piece.patch, &ball));
             let exact = self.exact(points, &others, piece);
             let mut found = vec![0.0; points.len()];
             small

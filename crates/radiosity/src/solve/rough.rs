@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::scene::{Scene, patch::Patch};
 use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::DVec3;
-use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Among more pairs of patches and elements the small ones are not looked for: it would take longer than a first shot may.
 const MOST: usize = 1 << 25;
@@ -25,27 +25,32 @@ pub(super) struct Rough {
     /// The mean of each patch's vertices.
     middles: Vec<DVec3>,
     clusters: PatchClusters,
-    groups: usize,
-    /// For each cluster and each group: which elements see it, once that was asked.
-    seen: Vec<OnceLock<Vec<bool>>>,
+    elements: usize,
+    /// For each cluster and each element: whether it sees the cluster.
+    seen: Vec<AtomicU8>,
 }
 
-/// A group of elements near each other: which one it is, and where its elements receive.
+/// What is known of an element and a cluster. Whoever asks at once finds the same.
+const UNKNOWN: u8 = 0;
+const HIDDEN: u8 = 1;
+const SEEN: u8 = 2;
+
+/// A group of elements near each other: which one is the first, and where all receive.
 pub(super) type ElementGroup<'g> = (usize, &'g [DifferentialArea]);
 
 impl Rough {
     /// Nothing is small yet; nothing at all among very many patches and elements.
     ///
-    /// Takes O(n log² n) for n patches.
-    pub(super) fn among(scene: &Scene, elements: usize, groups: usize, share: f64) -> Option<Rough> {
+    /// Takes O(n log² n) for n patches, and a byte for each cluster of these and each element.
+    pub(super) fn among(scene: &Scene, elements: usize, share: f64) -> Option<Rough> {
         let ball = |patch: &Patch| (!patch.emits()).then(|| Ball::around(&patch.polygon));
         let are_few = scene.patches.len().saturating_mul(elements) <= MOST;
         are_few.then(|| {
             let balls: Vec<_> = scene.patches.iter().map(ball).collect();
             let clusters = PatchClusters::of(&balls);
-            let seen = (0..clusters.len() * groups).map(|_| OnceLock::new()).collect();
+            let seen = (0..clusters.len() * elements).map(|_| AtomicU8::new(UNKNOWN)).collect();
             let middles = scene.patches.iter().map(|patch| middle(&patch.polygon)).collect();
-            Rough { balls, share, limits: Vec::new(), middles, clusters, groups, seen }
+            Rough { balls, share, limits: Vec::new(), middles, clusters, elements, seen }
         })
     }
 
@@ -60,9 +65,7 @@ impl Rough {
     pub(super) fn is_small(&self, element: usize, from: &DifferentialArea, patch: usize) -> bool {
         self.balls[patch].as_ref().is_some_and(|ball| ball.most_seen(from) < self.limits[element])
     }
-}
 
-impl Rough {
     /// The form factors from some of a group to a part of a small patch in a ball: where its cluster is seen, those of the ball's disk.
     pub(super) fn factors(
         &self,
@@ -74,9 +77,17 @@ impl Rough {
         let Some(cluster) = self.clusters.of_patch(patch).filter(|_| !some.is_empty()) else {
             return vec![0.0; some.len()];
         };
-        let known = &self.seen[cluster * self.groups + group.0];
-        let seen = known.get_or_init(|| self.who_sees(enclosure, group.1, cluster));
-        some.iter().map(|&at| if seen[at] { ball.disk(&group.1[at]) } else { 0.0 }).collect()
+        let (first, points) = group;
+        let known = &self.seen[cluster * self.elements + first..][..points.len()];
+        let told = |at: &usize| known[*at].load(Relaxed);
+        if some.iter().any(|at| told(at) == UNKNOWN) {
+            let seen = self.who_sees(enclosure, points, cluster);
+            known
+                .iter()
+                .zip(seen)
+                .for_each(|(known, sees)| known.store(if sees { SEEN } else { HIDDEN }, Relaxed));
+        }
+        some.iter().map(|at| if told(at) == SEEN { ball.disk(&points[*at]) } else { 0.0 }).collect()
     }
 
     /// Which points near each other see a cluster: the middle of the patch in it that looks largest from all that it faces.
