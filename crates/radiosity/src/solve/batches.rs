@@ -18,6 +18,15 @@ impl Run<'_> {
         Ok((found.len() == count).then(|| self.factors.keep(node, &found.concat())))
     }
 
+    /// About the form factors from all elements to one piece; nothing when the watcher wants to stop, or where nothing is taken roughly.
+    pub(super) fn rough_column(&mut self, node: usize) -> Result<Option<Arc<Column>>, Error> {
+        let piece = self.factors.piece(node)?;
+        let count = self.factors.groups.len();
+        let found = self.in_batches(count, |run, some| run.factors.about(some, &piece))?;
+        let found = found.concat();
+        Ok((found.len() == self.factors.receivers.len()).then(|| Arc::new(Column::new(&found))))
+    }
+
     /// What `find` finds for so many points, all or as many as the watcher waits for. Batches change nothing in it.
     pub(super) fn in_batches<T>(
         &mut self,

@@ -66,7 +66,7 @@ impl Rough {
         self.balls[patch].as_ref().is_some_and(|ball| ball.most_seen(from) < self.limits[element])
     }
 
-    /// The form factors from some of a group to a part of a small patch in a ball: where its cluster is seen, those of the ball's disk.
+    /// The form factors from some of a group to a part of a patch in a ball: where its cluster is seen, those of the ball's disk.
     pub(super) fn factors(
         &self,
         enclosure: &Enclosure,

@@ -118,6 +118,11 @@ impl<'r> Run<'r> {
         Ok(goes_on)
     }
 
+    /// Whether more is unshot than the tolerance lets be.
+    pub(super) fn is_open(&self) -> bool {
+        largest(&self.unshot) > self.options.tolerance
+    }
+
     /// Whether a piece sends light.
     pub(super) fn sends(&self, node: usize) -> bool {
         let (elements, bands) = (&self.factors.subdivision.nodes[node].elements, self.light.bands);
@@ -149,8 +154,7 @@ impl<'r> Run<'r> {
         self.bound = bound(&self.light, &self.with_rough(peaks), &self.gaps);
         self.ledger = Ledger::new(&self.light, &self.shooters);
         let brightness = self.light.brightness();
-        largest(&self.unshot) <= self.options.tolerance
-            && (0..self.light.bands).all(|band| self.within(of_unshot[band], brightness[band]))
+        !self.is_open() && (0..self.light.bands).all(|band| self.within(of_unshot[band], brightness[band]))
     }
 
     /// What may be missing of radiosities, per band: what is unshot, and of what was shot the share that is taken roughly.
@@ -165,7 +169,7 @@ impl<'r> Run<'r> {
 
     /// Which piece is to shoot next.
     pub(super) fn next(&self) -> usize {
-        if largest(&self.unshot) > self.options.tolerance {
+        if self.is_open() {
             self.shooters.strongest(&self.light.emitted)
         } else {
             self.shooters.brightest(&self.light.brightness())

@@ -158,6 +158,11 @@ impl<'s> Shooters<'s> {
         &self.front[index].shot
     }
 
+    /// The power that a piece has not shot, all bands together, as measured last.
+    pub(super) fn power(&self, index: usize) -> f64 {
+        self.front[index].unshot.iter().map(|power| power.abs()).sum()
+    }
+
     /// The nodes of all pieces.
     pub(super) fn front(&self) -> impl Iterator<Item = usize> {
         self.front.iter().map(|shooter| shooter.node)

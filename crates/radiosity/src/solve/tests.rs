@@ -1,7 +1,7 @@
 //! Laws of the solver.
 use super::options::{Method, Options};
 use super::progress::{Moment, Progress};
-use super::run::Run;
+use super::{final_gather::gather, rough::Rough, run::Run, shoot::shoot};
 use super::{solution::Solution, state::State};
 use super::{solve, solve_from};
 use crate::error::Error;
@@ -183,6 +183,30 @@ fn a_gather_has_the_rest_of_the_time() {
         assert!(!is_asked || run.report().is_break());
         assert!(run.turn_to_gather(true) && run.report().is_continue());
     }
+}
+
+/// After one shot most of the light of a bright room is still to be shot: it is shown where it would go.
+#[test]
+fn what_did_not_shoot_in_time_is_shown() {
+    let mut scene = room(0.8, 0.0);
+    scene.patches[0].emission[0] = 1.0;
+    let (options, subdivision) =
+        (options(600, 1e-4), Subdivision::new(&scene, &Plan::even(&scene, 600)).unwrap());
+    let (mut state, mut watch) = (State::default(), |_: &Progress<'_>| ControlFlow::Continue(()));
+    let mut run = Run::new(&scene, &options, Instant::now(), &subdivision, &mut state, &mut watch).unwrap();
+    let count = run.factors.receivers.len();
+    let mut rough = Rough::among(&scene, count, 1e-9).unwrap();
+    rough.limits = vec![0.0; count];
+    run.factors.take_roughly(rough);
+    shoot(&mut run, 1).unwrap();
+    let fine = gather(&scene, &mut run).unwrap().unwrap();
+    let corner = |element: usize| fine.mesh.elements[element].corners.iter().map(|at| fine.vertices[*at]);
+    let mean = |element: usize| corner(element).sum::<f64>() / 3.0;
+    let shown: f64 = (0..fine.mesh.elements.len()).map(|at| fine.mesh.area(at) * mean(at)).sum();
+    let received: f64 = run.light.total(&run.light.irradiance).iter().sum();
+    let sent: f64 = run.light.total(&run.light.radiosity).iter().sum();
+    assert!(received < 0.8 * sent, "{received} of {sent}");
+    assert!((shown - sent).abs() < 0.03 * sent, "{shown} of {sent}");
 }
 
 #[test]

@@ -5,10 +5,9 @@ use super::senders::{LitPoint, Sender};
 use super::tears::tear;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
-use crate::solve::light::Light;
-use crate::solve::{factors::Factors, run::Run, state::KEPT, workers::attempt};
+use crate::solve::{factors::Factors, run::Run, state::Column, state::KEPT, workers::attempt};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::Arc};
 
 /// The share of its light by which a vertex may be wrong for what it receives from patches that it does not look at itself.
 const UNSEEN: f64 = 0.05;
@@ -29,6 +28,8 @@ pub(super) struct Known {
     senders: Vec<Sender>,
     /// What elements receive of them.
     rows: Received,
+    /// What they receive in all, elements × bands: what they did while the light was found, and what was open then.
+    pub(super) light: Vec<f64>,
     /// The mean irradiance, per band.
     mean: Vec<f64>,
 }
@@ -60,7 +61,7 @@ impl Known {
     /// than are kept.
     pub(super) fn of(run: &mut Run<'_>) -> Result<Option<Known>, Error> {
         let nodes = &run.factors.subdivision.nodes;
-        let (mut senders, mut pieces) = (Vec::new(), Vec::new());
+        let (mut senders, mut pieces, mut unshot) = (Vec::new(), Vec::new(), Vec::new());
         let (mut of_patch, mut count) = (vec![None; nodes.len()], 0);
         for index in 0..run.shooters.len() {
             let node = run.shooters.node(index);
@@ -76,6 +77,7 @@ impl Known {
             };
             of_patch[nodes[node].patch] = Some(sender);
             if run.shooters.shot(index).iter().all(|shot| *shot == 0.0) {
+                unshot.push((sender, index));
                 continue;
             }
             let Some(column) = run.column(node)? else { return Ok(None) };
@@ -83,8 +85,10 @@ impl Known {
             if count > KEPT {
                 return Ok(None);
             }
-            let radiosity = run.light.mean_radiosity(nodes[node].elements.clone());
-            pieces.push(SentPiece { sender, radiosity, column });
+            pieces.push(sent_piece(run, sender, index, column));
+        }
+        if run.is_open() {
+            pieces.extend(unshot_pieces(run, unshot, KEPT - count)?);
         }
         Ok(Some(Known::from(run, senders, pieces)))
     }
@@ -93,13 +97,16 @@ impl Known {
         let (elements, bands) = (run.light.areas.len(), run.light.bands);
         let rows = Received::of(pieces, elements, bands);
         let area: f64 = run.light.areas.iter().sum();
-        let mean = run.light.total(&run.light.irradiance).iter().map(|power| power / area).collect();
-        Known { senders, rows, mean }
+        let mut light = run.light.irradiance.clone();
+        rows.add_open(&mut light);
+        let mean = run.light.total(&light).iter().map(|power| power / area).collect();
+        Known { senders, rows, light, mean }
     }
 
     /// The run's mesh with vertices apart where the light of the elements around them jumps.
-    pub(super) fn torn(&self, mesh: &Mesh, light: &Light) -> Mesh {
-        let received = |element: usize| &light.irradiance[element * light.bands..][..light.bands];
+    pub(super) fn torn(&self, mesh: &Mesh) -> Mesh {
+        let bands = self.mean.len();
+        let received = |element: usize| &self.light[element * bands..][..bands];
         let bright = |element: usize| self.at_least(received(element)).iter().sum::<f64>();
         let bright: Vec<f64> = (0..mesh.elements.len()).map(bright).collect();
         tear(mesh, |one, other| bright[one].max(bright[other]) <= JUMP * bright[one].min(bright[other]))
@@ -215,6 +222,32 @@ impl Known {
         shares.iter_mut().filter(|shares| shares.count < all).for_each(|shares| shares.low = 0.0);
         shares
     }
+}
+
+/// A piece of a sender by its number among the shooters.
+fn sent_piece(run: &Run<'_>, sender: usize, index: usize, column: Arc<Column>) -> SentPiece {
+    let elements = run.factors.subdivision.nodes[run.shooters.node(index)].elements.clone();
+    let radiosity = run.light.mean_radiosity(elements);
+    let open = radiosity.iter().zip(run.shooters.shot(index)).map(|(sent, shot)| sent - shot).collect();
+    SentPiece { sender, radiosity, open, column }
+}
+
+/// What elements receive, roughly, of pieces that did not shoot before the time was up, given by sender and shooter: of those with most power
+/// first, while there is time and so many form factors are kept.
+fn unshot_pieces(
+    run: &mut Run<'_>,
+    mut unshot: Vec<(usize, usize)>,
+    mut left: usize,
+) -> Result<Vec<SentPiece>, Error> {
+    let mut pieces = Vec::new();
+    unshot.sort_by(|(_, a), (_, b)| run.shooters.power(*b).total_cmp(&run.shooters.power(*a)));
+    for (sender, index) in unshot {
+        let Some(column) = run.rough_column(run.shooters.node(index))? else { break };
+        let Some(rest) = left.checked_sub(column.len()) else { break };
+        left = rest;
+        pieces.push(sent_piece(run, sender, index, column));
+    }
+    Ok(pieces)
 }
 
 impl Shares {

@@ -14,6 +14,8 @@
 //! the ends of the edge that it was the middle of, receive unlike shares of their light: piece by piece, where these are not equally bright. Of
 //! the others a vertex receives what the elements around it do. From the smallest vertices only lights are looked at: they have 3 % of the
 //! area, and are most where bodies are round.
+//!
+//! Where the time was up before all had shot, drafts take roughly what elements receive of the rest, by who sees their clusters.
 mod bisection;
 mod known;
 mod outlook;
@@ -47,9 +49,9 @@ const FIRST: usize = 6;
 /// [`Error::Shape`] where a place is beyond what form factors take, [`Error::Defect`] when one fails.
 pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLight>, Error> {
     let Some(known) = Known::of(run)? else { return Ok(None) };
-    let mesh = known.torn(&run.factors.subdivision.mesh, &run.light);
+    let mesh = known.torn(&run.factors.subdivision.mesh);
     let (corners, mut looks) = corners(scene, run, &known, &mesh)?;
-    let mut shown = Shown::of(&mesh, corners, &run.light, &known);
+    let mut shown = Shown::of(&mesh, corners, run.light.bands, &known);
     for round in 0..ROUNDS {
         let count = (MORE * mesh.vertices.len()).div_ceil(ROUNDS);
         let is_done = run.is_stopped() || (round >= FIRST && shown.is_within(run.options.error));
@@ -87,7 +89,7 @@ fn corners(
     let found = look(run, known, &outlooks, &BTreeMap::new())?;
     let looks: BTreeMap<usize, Look> = order.into_iter().zip(found).collect();
     let bands = run.light.bands;
-    let mut light = Means::of(mesh, bands).around(&run.light.irradiance);
+    let mut light = Means::of(mesh, bands).around(&known.light);
     for (vertex, look) in &looks {
         light[vertex * bands..][..bands].copy_from_slice(&look.light);
     }

@@ -2,12 +2,14 @@
 use crate::solve::state::Column;
 use std::sync::Arc;
 
-/// A piece of a sender that shot.
+/// A piece of a sender.
 #[derive(Debug)]
 pub(super) struct SentPiece {
     pub(super) sender: usize,
     /// What it sends on average, per band.
     pub(super) radiosity: Vec<f64>,
+    /// How much of that elements did not receive when the run ended.
+    pub(super) open: Vec<f64>,
     pub(super) column: Arc<Column>,
 }
 
@@ -28,6 +30,16 @@ impl Received {
             piece.column.iter().for_each(|(element, factor)| rows[element].push((number, factor)));
         }
         Received { pieces, rows, bands }
+    }
+
+    /// Adds to what elements received, elements × bands, what was still open.
+    pub(super) fn add_open(&self, light: &mut [f64]) {
+        for (row, light) in self.rows.iter().zip(light.chunks_exact_mut(self.bands)) {
+            for (piece, factor) in row {
+                let open = &self.pieces[*piece as usize].open;
+                light.iter_mut().zip(open).for_each(|(light, open)| *light += factor * open);
+            }
+        }
     }
 
     /// Calls back with what an element receives of each sender that it sees, per band, by ascending sender.

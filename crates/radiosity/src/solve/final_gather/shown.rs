@@ -3,8 +3,8 @@ use super::bisection::{Bisection, Cuts, Middle};
 use super::known::{Known, Look};
 use crate::mesh::element::{Element, Mesh};
 use crate::scene::Scene;
+use crate::solve::interpolate::welds;
 use crate::solve::solution::FineLight;
-use crate::solve::{interpolate::welds, light::Light};
 
 /// Elements are cut where the light inside is off a linear one by more than this share.
 const LINEAR: f64 = 0.03;
@@ -27,11 +27,10 @@ pub(super) struct Shown {
 
 impl Shown {
     /// The light of a mesh whose vertices were looked from. What elements receive at their centroids is known.
-    pub(super) fn of(mesh: &Mesh, vertices: Vec<f64>, light: &Light, known: &Known) -> Shown {
-        let bands = light.bands;
+    pub(super) fn of(mesh: &Mesh, vertices: Vec<f64>, bands: usize, known: &Known) -> Shown {
         let mut shown = Shown { bisection: Bisection::of(mesh), bands, vertices, off: Vec::new() };
         let off = |(index, element): (usize, &Element)| {
-            let inside = &light.irradiance[index * bands..][..bands];
+            let inside = &known.light[index * bands..][..bands];
             known.difference(inside, &shown.mean(&element.corners))
         };
         shown.off = mesh.elements.iter().enumerate().map(off).collect();
