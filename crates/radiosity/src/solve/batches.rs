@@ -1,5 +1,5 @@
 //! Form factors and light of many points, batch by batch: between two batches the watcher is asked whether to go on.
-use super::{run::Run, state::Column};
+use super::{factors::PieceShape, run::Run, state::Column};
 use crate::error::Error;
 use std::{ops::Range, sync::Arc, time::Instant};
 
@@ -18,13 +18,11 @@ impl Run<'_> {
         Ok((found.len() == count).then(|| self.factors.keep(node, &found.concat())))
     }
 
-    /// About the form factors from all elements to one piece; nothing when the watcher wants to stop, or where nothing is taken roughly.
-    pub(super) fn rough_column(&mut self, node: usize) -> Result<Option<Arc<Column>>, Error> {
-        let piece = self.factors.piece(node)?;
+    /// About the form factors from all elements to one piece, by who sees its cluster; nothing when the watcher wants to stop.
+    pub(super) fn rough_column(&mut self, piece: &PieceShape) -> Result<Option<Arc<Column>>, Error> {
         let count = self.factors.groups.len();
-        let found = self.in_batches(count, |run, some| run.factors.about(some, &piece))?;
-        let found = found.concat();
-        Ok((found.len() == self.factors.receivers.len()).then(|| Arc::new(Column::new(&found))))
+        let found = self.in_batches(count, |run, some| run.factors.about(some, piece))?;
+        Ok((found.len() == count).then(|| Arc::new(Column::new(&found.concat()))))
     }
 
     /// What `find` finds for so many points, all or as many as the watcher waits for. Batches change nothing in it.

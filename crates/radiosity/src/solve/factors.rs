@@ -226,14 +226,14 @@ impl<'s> Factors<'s> {
         })
     }
 
-    /// About the form factors from some groups of elements to a piece, however large they are; none where nothing is taken roughly.
+    /// About the form factors from some groups of elements to a piece, however large they are; for runs that take some roughly.
     pub(super) fn about(&self, groups: Range<usize>, piece: &PieceShape) -> Result<Vec<Vec<f64>>, Error> {
         let ball = Ball::around(&piece.polygon);
         workers::from_all(&self.groups[groups], &self.scene.patches[piece.patch].name, |group| {
             let points = &self.receivers[group.clone()];
             let faced: Vec<usize> = (0..points.len()).filter(|at| ball.disk(&points[*at]) > 0.0).collect();
             let found = self.roughly((group.start, points), &faced, (piece.patch, &ball));
-            let mut factors = vec![0.0; if self.rough.is_some() { points.len() } else { 0 }];
+            let mut factors = vec![0.0; points.len()];
             faced.into_iter().zip(found).for_each(|(at, factor)| factors[at] = factor);
             factors
         })

@@ -87,7 +87,7 @@ impl Known {
             }
             pieces.push(sent_piece(run, sender, index, column));
         }
-        if run.is_open() {
+        if run.is_open() && run.factors.rough_share() > 0.0 {
             pieces.extend(unshot_pieces(run, unshot, KEPT - count)?);
         }
         Ok(Some(Known::from(run, senders, pieces)))
@@ -233,7 +233,7 @@ fn sent_piece(run: &Run<'_>, sender: usize, index: usize, column: Arc<Column>) -
 }
 
 /// What elements receive, roughly, of pieces that did not shoot before the time was up, given by sender and shooter: of those with most power
-/// first, while there is time and so many form factors are kept.
+/// first, while there is time and so many form factors are kept. Those that are too thin to be outlined are left out.
 fn unshot_pieces(
     run: &mut Run<'_>,
     mut unshot: Vec<(usize, usize)>,
@@ -242,7 +242,8 @@ fn unshot_pieces(
     let mut pieces = Vec::new();
     unshot.sort_by(|(_, a), (_, b)| run.shooters.power(*b).total_cmp(&run.shooters.power(*a)));
     for (sender, index) in unshot {
-        let Some(column) = run.rough_column(run.shooters.node(index))? else { break };
+        let Ok(piece) = run.factors.piece(run.shooters.node(index)) else { continue };
+        let Some(column) = run.rough_column(&piece)? else { break };
         let Some(rest) = left.checked_sub(column.len()) else { break };
         left = rest;
         pieces.push(sent_piece(run, sender, index, column));
