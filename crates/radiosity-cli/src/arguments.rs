@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::outputs::print;
 use clap::{Arg, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
-use std::process::ExitCode;
+use std::{num::NonZero, process::ExitCode};
 
 /// The diffuse light of a scene, by radiosity with exact form factors.
 ///
@@ -24,10 +24,13 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Task,
-    /// Number of threads; the result does not depend on it [default: one per core]
+    /// Number of threads, at most 8 per core; the result does not depend on it [default: one per core]
     #[arg(short = 'j', long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 }
+
+/// Results are the same for any number of threads: whoever tries that on few cores gets more threads than these.
+const PER_CORE: usize = 8;
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -75,7 +78,7 @@ fn with_negative_numbers(command: Command) -> Command {
 
 /// Runs the command; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
-    let threads = arguments.threads.map_or(0, usize::from);
+    let threads = arguments.threads.map_or(0, |threads| few(threads.into()));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
     pool.install(|| match arguments.command {
         Task::Solve(arguments) => solve::run(&arguments),
@@ -89,6 +92,15 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Task::Scene(arguments) => scene::run(&arguments),
         Task::Completions { shell } => completions(shell),
     })
+}
+
+/// So many threads, but no more than the machine has use for: thousands take longer to start than most runs.
+fn few(threads: usize) -> usize {
+    let most = PER_CORE * std::thread::available_parallelism().map_or(1, NonZero::get);
+    if threads > most {
+        eprintln!("warning: -j {threads} is more than {PER_CORE} threads per core; {most} are started");
+    }
+    threads.min(most)
 }
 
 /// Prints a shell's completions.

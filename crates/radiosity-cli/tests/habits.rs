@@ -231,3 +231,12 @@ fn a_file_that_takes_longer_to_read_than_there_is_time_is_not_waited_for() {
     let names: Vec<_> = std::fs::read_dir(folder.path()).expect("a folder").collect();
     assert_eq!(names.len(), 1);
 }
+
+#[test]
+fn more_threads_than_a_machine_has_use_for_are_not_started() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let output = radiosity(folder.path(), &["-j", "60000", "scene", "cube", "-o", "cube.dae"], b"");
+    assert!(output.status.success());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("-j 60000"));
+    assert!(folder.path().join("cube.dae").exists());
+}
