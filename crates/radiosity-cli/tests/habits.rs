@@ -240,3 +240,13 @@ fn more_threads_than_a_machine_has_use_for_are_not_started() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("-j 60000"));
     assert!(folder.path().join("cube.dae").exists());
 }
+
+#[test]
+fn a_mark_before_the_text_of_obj_and_mtl_loses_nothing() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let text = "\u{feff}mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl lamp\nf 1 2 3\n";
+    std::fs::write(folder.path().join("a.obj"), text).expect("a file");
+    std::fs::write(folder.path().join("a.mtl"), "\u{feff}newmtl lamp\nKe 1 1 1\n").expect("a file");
+    let output = done(radiosity(folder.path(), &["inspect", "a.obj"], b""));
+    assert!(String::from_utf8_lossy(&output).contains("emitter"));
+}

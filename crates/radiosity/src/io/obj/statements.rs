@@ -2,6 +2,9 @@
 use crate::io::error::{Fault, Wrong};
 use glam::{DVec2, DVec3};
 
+/// The byte order mark.
+const MARK: char = '\u{feff}';
+
 /// A statement: a keyword and what follows it.
 #[derive(Debug)]
 pub(super) struct Statement<'t> {
@@ -11,9 +14,9 @@ pub(super) struct Statement<'t> {
 }
 
 impl<'t> Statement<'t> {
-    /// The statements of a text, without comments.
+    /// The statements of a text, without comments and the mark that Windows puts before UTF-8.
     pub(super) fn all(text: &'t str) -> impl Iterator<Item = Statement<'t>> {
-        let mut lines = (1..).zip(text.lines());
+        let mut lines = (1..).zip(text.trim_start_matches(MARK).lines());
         std::iter::from_fn(move || {
             let (line, first) = lines.next()?;
             let (mut words, mut goes_on) = words(first);
