@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 247] = [
+const ORDER: [&str; 248] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -35,7 +35,7 @@ const ORDER: [&str; 247] = [
     "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/cluster_links", "solve/levels/cluster_views", "solve/levels/clusters", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/levels/boxes", "solve/refine", "solve/drive", "solve/final_gather", "solve/final_gather/shown", "solve/final_gather/bisection", "solve/final_gather/known", "solve/final_gather/tears", "solve/final_gather/received", "solve/final_gather/outlook", "solve/final_gather/senders", "solve/receivers", "solve/relax", "solve/relax/bounces", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",
-    "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/batches", "solve/run", "solve/progress",
+    "solve/relax/exchange", "solve/shoot", "solve/follow", "solve/batches", "solve/pace", "solve/run", "solve/progress",
     "solve/factors", "solve/rough", "solve/patch_clusters", "solve/ball", "solve/hemicube", "solve/workers", "solve/occluders", "solve/lights", "solve/lights/beam", "solve/lights/dome", "solve/lights/cubature", "solve/interpolate",
     "solve/solution", "solve/ledger", "solve/shooters", "solve/rooms", "solve/light", "solve/state",
     "solve/levels/transfer", "solve/levels/tile",

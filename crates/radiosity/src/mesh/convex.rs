@@ -36,7 +36,18 @@ pub(crate) fn convex_parts(
         }
     }
     let place = |flat: DVec2| (flat, places.get(&key(flat)).copied().unwrap_or_else(|| frame.lift(flat)));
-    Ok(parts.into_iter().map(|ring| ring.into_iter().map(place).collect()).collect())
+    Ok(parts.into_iter().map(|ring| straight(ring).into_iter().map(place).collect()).collect())
+}
+
+/// A convex ring without the vertices within its sides.
+fn straight(ring: Vec<DVec2>) -> Vec<DVec2> {
+    let count = ring.len();
+    let turns = |k: &usize| {
+        let [a, b, c] = [k + count - 1, *k, k + 1].map(|k| ring[k % count]);
+        let [before, after] = [b - a, c - b];
+        before.perp_dot(after).abs() > STRAIGHT * before.length() * after.length()
+    };
+    (0..count).filter(turns).map(|k| ring[k]).collect()
 }
 
 fn key(flat: DVec2) -> [u64; 2] {

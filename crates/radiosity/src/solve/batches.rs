@@ -1,10 +1,12 @@
 //! Form factors and light of many points, batch by batch: between two batches the watcher is asked whether to go on.
-use super::{factors::PieceShape, run::Run, state::Column};
+use super::{
+    factors::PieceShape,
+    pace::{PAUSE, Pace},
+    run::Run,
+    state::Column,
+};
 use crate::error::Error;
-use std::{ops::Range, sync::Arc, time::Instant};
-
-/// Batches become smaller that take more seconds, and larger that take less than half of them; the watcher is asked as often.
-const PAUSE: f64 = if cfg!(test) { 0.0 } else { 0.1 };
+use std::{ops::Range, sync::Arc};
 
 impl Run<'_> {
     /// The form factors from all elements to one piece; nothing when the watcher wants to stop.
@@ -31,27 +33,14 @@ impl Run<'_> {
         count: usize,
         find: impl Fn(&Self, Range<usize>) -> Result<Vec<T>, Error>,
     ) -> Result<Vec<T>, Error> {
-        // One point may take long among very many polygons.
-        let (mut found, mut size) = (Vec::with_capacity(count), rayon::current_num_threads());
+        let (mut found, mut pace) = (Vec::with_capacity(count), Pace::new());
         while found.len() < count {
-            let start = Instant::now();
-            let batch = found.len()..count.min(found.len() + size);
-            found.extend(find(self, batch)?);
-            size = next(size, start.elapsed().as_secs_f64());
+            found.extend(find(self, pace.batch(found.len(), count))?);
             let is_due = self.asked.elapsed().as_secs_f64() >= PAUSE;
             if found.len() < count && is_due && self.report().is_break() {
                 break;
             }
         }
         Ok(found)
-    }
-}
-
-/// The size of a batch after one that took so long.
-fn next(size: usize, seconds: f64) -> usize {
-    match seconds / PAUSE {
-        ..0.5 => 2 * size,
-        ..1.0 => size,
-        _ => rayon::current_num_threads().max(size / 2),
     }
 }

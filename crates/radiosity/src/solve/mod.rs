@@ -11,6 +11,7 @@
 //! shoot          progressive refinement: the piece with most to shoot shoots, again and again
 //! follow         the light followed through the rooms
 //! batches        form factors and light of many points; the watcher is asked in between
+//! pace           how much is done before the watcher is asked
 //! run            what the steps of a run share
 //! progress       the progress of a run, as its caller sees it
 //! factors        columns of form factors from every element's centroid to one piece; kept in the state
@@ -57,6 +58,7 @@ pub(crate) mod norm;
 pub(crate) mod occluders;
 pub(crate) mod options;
 mod overlap;
+mod pace;
 mod patch_clusters;
 pub(crate) mod progress;
 pub(crate) mod quality;

@@ -56,7 +56,7 @@ impl Occluders {
             None => {
                 for &patch in patches {
                     self.of_patch[patch] = self.polygons.len();
-                    self.polygons.push(scene.patches[patch].polygon.clone());
+                    self.polygons.push(straight(&scene.patches[patch].polygon));
                 }
             }
         }
@@ -102,6 +102,15 @@ fn largest_first(mut loops: Vec<Vec<DVec3>>, normal: DVec3) -> Option<PlanarPoly
         (0..loops.len()).max_by(|&a, &b| area(&loops[a], normal).total_cmp(&area(&loops[b], normal)))?;
     loops.swap(0, outer);
     PlanarPolygon::new(&loops).ok()
+}
+
+/// The polygon without vertices that lie straight between others.
+fn straight(polygon: &PlanarPolygon) -> PlanarPolygon {
+    let loops: Vec<Vec<DVec3>> = polygon.loops().map(|walk| straighten(walk.to_vec())).collect();
+    if loops.iter().map(Vec::len).eq(polygon.loops().map(<[DVec3]>::len)) {
+        return polygon.clone();
+    }
+    PlanarPolygon::new(&loops).unwrap_or_else(|_| polygon.clone())
 }
 
 /// The same polygon, without edges that cross or cover each other: of those every view would take a polygon Boolean.

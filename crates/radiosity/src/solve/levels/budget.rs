@@ -243,13 +243,13 @@ pub(super) fn uneven(tiling: &Tiling<'_>, bands: &[BandLight], limits: &[f64]) -
     tiling.leaves().filter(is_beyond).collect()
 }
 
-/// The largest errors that the links of every patch may have, so that they add up to no more than `share` of its light: infinite where all do.
+/// The largest errors that the links of every patch may have, so that they add up to no more than its share of its light: infinite where all do.
 pub(super) fn limits(
     tiling: &Tiling<'_>,
     links: &[Link],
     clusters: &ClusterLinks,
     bands: &[BandLight],
-    share: f64,
+    shares: &[f64],
 ) -> Vec<f64> {
     let mut of_patch: Vec<Vec<f64>> = vec![Vec::new(); tiling.scene.patches.len()];
     for link in &clusters.all {
@@ -268,7 +268,7 @@ pub(super) fn limits(
             of_patch[tiling.tiles[leaf].patch].push(error);
         }
     }
-    of_patch.into_par_iter().map(|errors| limit(errors, share)).collect()
+    of_patch.into_par_iter().zip(shares).map(|(errors, share)| limit(errors, *share)).collect()
 }
 
 fn limit(mut errors: Vec<f64>, share: f64) -> f64 {

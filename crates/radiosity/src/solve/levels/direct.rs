@@ -16,8 +16,6 @@ use rayon::prelude::*;
 /// How many curvatures a mean over five points may be off by.
 const CUBATURE: f64 = 0.3;
 
-/// How many leaves are looked at before the caller is asked whether to go on.
-const BATCH: usize = 1024;
 /// Shorter edges of shadows, beside what they cross, are not cut along.
 const SHORT: f64 = 1e-4;
 /// What lies on the rim of a tile within this share of its size is a part of that.
@@ -73,28 +71,34 @@ impl<'s> Direct<'s> {
         }
     }
 
-    /// Finds the light of some of the leaves of which it is not known; true when it is known of all. `sums` is ΣF of the tiles of which it is
-    /// known: a closed room has no sky.
+    /// The leaves of which the light is not known, though there may be some.
+    pub(super) fn unknown(&mut self, tiling: &Tiling<'_>) -> Vec<usize> {
+        self.inherit(tiling);
+        if self.lights.is_empty() {
+            return Vec::new();
+        }
+        tiling.leaves().filter(|&leaf| !self.of_tile[leaf].1).collect()
+    }
+
+    /// Finds the light of some leaves. `sums` is ΣF of the tiles of which it is known: a closed room has no sky.
     ///
     /// # Errors
     /// [`Error::Defect`] when what a light sees cannot be found.
-    pub(super) fn grow(&mut self, tiling: &Tiling<'_>, sums: &[Option<f64>]) -> Result<bool, Error> {
-        self.inherit(tiling);
-        if self.lights.is_empty() {
-            return Ok(true);
-        }
-        let unknown = tiling.leaves().filter(|&leaf| !self.of_tile[leaf].1);
-        let open: Vec<usize> = unknown.take(BATCH).collect();
+    pub(super) fn find(
+        &mut self,
+        tiling: &Tiling<'_>,
+        leaves: &[usize],
+        sums: &[Option<f64>],
+    ) -> Result<(), Error> {
         let find = |&leaf: &usize| {
             let name = &tiling.scene.patches[tiling.tiles[leaf].patch].name;
-            attempt(name, || self.find(tiling, leaf, sums[leaf] == Some(1.0)))
+            attempt(name, || self.of_leaf(tiling, leaf, sums[leaf] == Some(1.0)))
         };
-        let found: Vec<Result<TileLight, Error>> = open.par_iter().map(find).collect();
-        let is_all = open.len() < BATCH;
-        for (leaf, light) in open.into_iter().zip(found) {
+        let found: Vec<Result<TileLight, Error>> = leaves.par_iter().map(find).collect();
+        for (&leaf, light) in leaves.iter().zip(found) {
             self.of_tile[leaf] = (light?, true);
         }
-        Ok(is_all)
+        Ok(())
     }
 
     /// Takes in tiles that were cut since: until their own light is found they have their parents'.
@@ -110,7 +114,7 @@ impl<'s> Direct<'s> {
         }
     }
 
-    fn find(&self, tiling: &Tiling<'_>, leaf: usize, is_closed: bool) -> TileLight {
+    fn of_leaf(&self, tiling: &Tiling<'_>, leaf: usize, is_closed: bool) -> TileLight {
         let tile = &tiling.tiles[leaf];
         let mut light = self.none.clone();
         let linear = |at| tile.outline.linear(tiling.flatten(tile.patch, at));

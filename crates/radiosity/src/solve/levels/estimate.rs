@@ -29,6 +29,24 @@ pub(super) fn estimate(
     found
 }
 
+/// The largest error of each patch's irradiance in a band, as a share of its mean or, where that is darker, of 1 % of the scene's.
+pub(super) fn shares(
+    tiling: &Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    lights: &[BandLight],
+) -> Vec<f64> {
+    let exchanges = exchanges(tiling, links);
+    let mut worst = vec![0.0f64; tiling.scene.patches.len()];
+    for light in lights {
+        let powers = powers(tiling, links, clusters, &exchanges, light);
+        for ((worst, power), unit) in worst.iter_mut().zip(powers).zip(&light.unit) {
+            *worst = worst.max(if *unit > 0.0 { power / unit } else { 0.0 });
+        }
+    }
+    worst
+}
+
 /// The pairs of whole tiles that are linked, and what they exchange.
 fn exchanges(tiling: &Tiling<'_>, links: &[Link]) -> Vec<([usize; 2], f64)> {
     let root_of = tiling.roots();

@@ -58,9 +58,6 @@ pub(super) struct Links {
 }
 
 impl Links {
-    /// How many candidates are measured at a time.
-    pub(super) const BATCH: usize = 4096;
-
     /// No links.
     ///
     /// # Errors

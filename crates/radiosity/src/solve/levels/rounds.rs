@@ -4,7 +4,7 @@ use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
 use super::direct::Direct;
 use super::equilibrium::largest;
-use super::estimate::estimate;
+use super::estimate::{estimate, shares};
 use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link};
@@ -15,7 +15,7 @@ use super::tiling::Tiling;
 use super::totals::Totals;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::solve::{options::Options, solution::Solution, state::State};
+use crate::solve::{options::Options, pace::Pace, solution::Solution, state::State};
 use rayon::prelude::*;
 use std::{ops::ControlFlow, time::Instant};
 
@@ -23,8 +23,16 @@ use std::{ops::ControlFlow, time::Instant};
 const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
 /// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
 const SUM: f64 = 2.0;
-/// So many totals are found before the watcher is asked whether to go on.
-const TOTALS: usize = 16;
+/// What reflection adds to the errors of links, and what is of one sign, may leave a patch's estimate beyond what is asked for. So often its
+/// share is made smaller then: by as much as the estimate is too large and a little more, but not by more than [`LESS`] at once.
+const FINER: usize = 4;
+const A_LITTLE: f64 = 0.9;
+const LESS: f64 = 0.3;
+/// It goes on while what is beyond becomes less than this share of what it was, and this share of the time is left.
+const HELPS: f64 = 0.6;
+const LEFT: f64 = 0.6;
+/// The light changes a little yet: estimates are to be less than what is asked for by so much.
+const NEARLY: f64 = 0.95;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -98,9 +106,35 @@ impl Levels<'_> {
         if !self.total(&lights, state) {
             return Ok(false);
         }
+        let mut lights = lights;
+        let patches = self.tiling.scene.patches.len();
         for times in COARSE {
-            if !self.level(times * SUM * self.options.error, state)? {
+            let Some(found) = self.level(&vec![times * SUM * self.options.error; patches], state)? else {
                 return Ok(false);
+            };
+            lights = found;
+        }
+        self.better(lights, state)
+    }
+
+    /// Refines the patches whose estimates are beyond what is asked for, as far as that helps; false when the run is to end.
+    fn better(&mut self, mut lights: Vec<BandLight>, state: &mut State) -> Result<bool, Error> {
+        let error = NEARLY * self.options.error;
+        let mut allowed = vec![SUM * self.options.error; self.tiling.scene.patches.len()];
+        let mut before = f64::INFINITY;
+        for _ in 0..FINER {
+            let found = shares(&self.tiling, &self.links.all, &self.links.clusters, &lights);
+            let beyond: f64 = found.iter().map(|share| (share - error).max(0.0)).sum();
+            if beyond == 0.0 || beyond > HELPS * before || !self.has_time() {
+                return Ok(true);
+            }
+            before = beyond;
+            for (allowed, share) in allowed.iter_mut().zip(found).filter(|(_, share)| *share > error) {
+                *allowed *= (A_LITTLE * error / share).max(LESS);
+            }
+            match self.level(&allowed, state)? {
+                None => return Ok(false),
+                Some(better) => lights = better,
             }
         }
         Ok(true)
@@ -110,11 +144,13 @@ impl Levels<'_> {
     fn total(&mut self, lights: &[BandLight], state: &State) -> bool {
         let wanted = self.links.wanted(&self.tiling, lights, self.options.error);
         let mut totals = Totals::default();
-        for first in (0..wanted.len()).step_by(TOTALS) {
+        let (mut done, mut pace) = (0, Pace::new());
+        while done < wanted.len() {
             if self.report(state).is_break() {
                 return false;
             }
-            let batch = first..wanted.len().min(first + TOTALS);
+            let batch = pace.batch(done, wanted.len());
+            done = batch.end;
             totals.find(&self.tiling, &self.links.all[batch.clone()], &wanted[batch]);
         }
         if !wanted.is_empty() {
@@ -123,29 +159,38 @@ impl Levels<'_> {
         true
     }
 
-    /// Refines until the errors of every patch's links add up to no more than a share of its light; false when the run is to end.
-    fn level(&mut self, share: f64, state: &mut State) -> Result<bool, Error> {
+    /// Whether there is time to refine once more, and to show the light after that.
+    fn has_time(&self) -> bool {
+        let seconds = self.start.elapsed().as_secs_f64();
+        self.options.max_seconds.is_none_or(|limit| seconds < (1.0 - LEFT) * limit)
+    }
+
+    /// Refines until the errors of every patch's links add up to no more than its share of its light; gives the light, or nothing when the
+    /// run is to end.
+    fn level(&mut self, shares: &[f64], state: &mut State) -> Result<Option<Vec<BandLight>>, Error> {
         loop {
             if !self.shine(state)? {
-                return Ok(false);
+                return Ok(None);
             }
             let mut lights = self.settle(FEW, false);
-            match self.refine(&mut lights, share, state)? {
-                None => return Ok(false),
+            match self.refine(&mut lights, shares, state)? {
+                None => return Ok(None),
                 Some(true) => {}
-                Some(false) => return Ok(true),
+                Some(false) => return Ok(Some(lights)),
             }
         }
     }
 
     /// The links of candidates; nothing when the watcher wants to stop or something is found to be broken.
     fn measure(&mut self, candidates: &[Candidate], state: &mut State) -> Result<Option<Vec<Link>>, Error> {
-        let mut links = Vec::new();
-        for batch in candidates.chunks(Links::BATCH) {
+        let (mut links, mut done, mut pace) = (Vec::new(), 0, Pace::new());
+        while done < candidates.len() {
             if self.report(state).is_break() {
                 return Ok(None);
             }
-            match self.links.of(&self.tiling, batch, state) {
+            let batch = pace.batch(done, candidates.len());
+            done = batch.end;
+            match self.links.of(&self.tiling, &candidates[batch], state) {
                 Ok(found) => links.extend(found),
                 Err(defect @ Error::Defect { .. }) => {
                     self.fault = Some(defect);
@@ -161,11 +206,14 @@ impl Levels<'_> {
     fn shine(&mut self, state: &State) -> Result<bool, Error> {
         self.links.enclose(&self.tiling);
         let known = self.links.known(&self.tiling);
-        loop {
-            match self.direct.grow(&self.tiling, &known) {
-                Ok(true) => return Ok(true),
-                Ok(false) if self.report(state).is_continue() => {}
-                Ok(false) => return Ok(false),
+        let unknown = self.direct.unknown(&self.tiling);
+        let (mut done, mut pace) = (0, Pace::new());
+        while done < unknown.len() {
+            let batch = pace.batch(done, unknown.len());
+            done = batch.end;
+            match self.direct.find(&self.tiling, &unknown[batch], &known) {
+                Ok(()) if done == unknown.len() || self.report(state).is_continue() => {}
+                Ok(()) => return Ok(false),
                 Err(defect @ Error::Defect { .. }) => {
                     self.fault = Some(defect);
                     return Ok(false);
@@ -173,6 +221,7 @@ impl Levels<'_> {
                 Err(error) => return Err(error),
             }
         }
+        Ok(true)
     }
 
     /// The links of pairs of clusters; nothing as for [`measure`](Self::measure).
@@ -181,12 +230,14 @@ impl Levels<'_> {
         pairs: &[[usize; 2]],
         state: &State,
     ) -> Result<Option<Vec<ClusterLink>>, Error> {
-        let mut links = Vec::new();
-        for batch in pairs.chunks(Links::BATCH) {
+        let (mut links, mut done, mut pace) = (Vec::new(), 0, Pace::new());
+        while done < pairs.len() {
             if self.report(state).is_break() {
                 return Ok(None);
             }
-            match self.links.of_clusters(&self.tiling, batch) {
+            let batch = pace.batch(done, pairs.len());
+            done = batch.end;
+            match self.links.of_clusters(&self.tiling, &pairs[batch]) {
                 Ok(found) => links.extend(found),
                 Err(defect) => {
                     self.fault = Some(defect);
@@ -261,10 +312,10 @@ impl Levels<'_> {
     fn refine(
         &mut self,
         lights: &mut [BandLight],
-        share: f64,
+        shares: &[f64],
         state: &mut State,
     ) -> Result<Option<bool>, Error> {
-        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, share);
+        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, shares);
         let mut is_cut = false;
         for leaf in uneven(&self.tiling, lights, &limits) {
             is_cut |= self.cut_tile(leaf, self.direct.axis(leaf))?.is_some();
@@ -377,6 +428,7 @@ impl Levels<'_> {
         let Stand { options, tiling, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
         let estimate = estimate(tiling, &links.all, &links.clusters, &lights, sent.len());
+        let worst = shares(tiling, &links.all, &links.clusters, &lights).into_iter().fold(0.0, f64::max);
         let shown = match is_right.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
@@ -388,7 +440,7 @@ impl Levels<'_> {
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            converged: is_shown && light.is_within(options.tolerance),
+            converged: is_shown && light.is_within(options.tolerance) && worst <= options.error,
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,
             ..solution

@@ -8,14 +8,13 @@ use super::tile::SQUARE;
 use super::tiling::Tiling;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
+use crate::solve::pace::Pace;
 use crate::solve::receivers::{AT_RIM, Receiver, receivers};
 use crate::solve::workers::attempt;
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
-/// So many points are looked from before the caller is asked whether to go on.
-const BATCH: usize = 512;
 
 /// Asks whether to go on.
 pub(super) type Ask<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
@@ -125,11 +124,14 @@ impl<'s> Sights<'s> {
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
         let mut all = Vec::with_capacity(points.len() * (self.sent.len() - 1));
-        for points in points.chunks(BATCH) {
+        let (mut done, mut pace) = (0, Pace::new());
+        while done < points.len() {
             if ask().is_break() {
                 return Ok(None);
             }
-            let found = || points.par_iter().flat_map_iter(|(tile, point)| self.at(*tile, point)).collect();
+            let batch = pace.batch(done, points.len());
+            done = batch.end;
+            let found = || points[batch].par_iter().flat_map_iter(|(tile, point)| self.at(*tile, point)).collect();
             let found: Vec<f64> = attempt("what is shown", found)?;
             all.extend(found);
         }
