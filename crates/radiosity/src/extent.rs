@@ -1,9 +1,10 @@
 //! Boxes around patches, and which of them meet.
+use crate::plane::Plane;
 use crate::scene::patch::Patch;
 use formfactor::PlanarPolygon;
 use glam::DVec3;
 use rstar::{
-    AABB, RTree,
+    AABB, RTree, RTreeObject, SelectionFunction,
     primitives::{GeomWithData, Rectangle},
 };
 
@@ -71,15 +72,36 @@ impl Extent {
         !(self.low.cmpgt(other.high + margin) | other.low.cmpgt(self.high + margin)).any()
     }
 
+    /// Whether another box lies within it.
+    pub(crate) fn holds(&self, other: &Extent) -> bool {
+        self.low.cmple(other.low).all() && other.high.cmple(self.high).all()
+    }
+
     /// The length of the diagonal.
     pub(crate) fn diagonal(&self) -> f64 {
         (self.high - self.low).length()
     }
 }
 
+/// A box with its number.
+type NumberedBox = GeomWithData<Rectangle<[f64; 3]>, usize>;
+
+/// What a box must be to be found.
+struct Crossed<F>(F);
+
+impl<F: Fn(&AABB<[f64; 3]>) -> bool> SelectionFunction<NumberedBox> for Crossed<F> {
+    fn should_unpack_parent(&self, envelope: &AABB<[f64; 3]>) -> bool {
+        (self.0)(envelope)
+    }
+
+    fn should_unpack_leaf(&self, leaf: &NumberedBox) -> bool {
+        (self.0)(&leaf.envelope())
+    }
+}
+
 /// Boxes in a tree: those that meet a box are found in O(log n + k) where they are spread out.
 #[derive(Debug)]
-pub(crate) struct BoxTree(RTree<GeomWithData<Rectangle<[f64; 3]>, usize>>);
+pub(crate) struct BoxTree(RTree<NumberedBox>);
 
 impl BoxTree {
     /// O(n log n).
@@ -89,6 +111,19 @@ impl BoxTree {
             GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index)
         });
         BoxTree(RTree::bulk_load(boxes.collect()))
+    }
+
+    /// The indices of the boxes that a plane passes through, or comes as near as `near`, ascending.
+    pub(crate) fn crossed_by(&self, plane: &Plane, near: f64) -> Vec<usize> {
+        let is_crossed = |envelope: &AABB<[f64; 3]>| {
+            let [low, high] = [envelope.lower(), envelope.upper()].map(DVec3::from);
+            let reach = ((high - low) / 2.0).dot(plane.normal.abs());
+            plane.height(low.midpoint(high)).abs() <= reach + near
+        };
+        let found = self.0.locate_with_selection_function(Crossed(is_crossed));
+        let mut indices: Vec<usize> = found.map(|geometry| geometry.data).collect();
+        indices.sort_unstable();
+        indices
     }
 
     /// The indices of the boxes that meet this one, ascending.

@@ -37,6 +37,7 @@
 pub use formfactor;
 pub use glam;
 
+mod bodies;
 pub mod compare;
 mod coplanar;
 mod error;

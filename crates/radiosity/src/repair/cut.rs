@@ -6,6 +6,7 @@ use crate::mesh::subdivide::can_be_divided;
 use crate::plane::{Plane, slack};
 use crate::scene::{Scene, finding::Finding, patch::Patch};
 use formfactor::PlanarPolygon;
+use glam::DVec3;
 use polycsg::{Csg, Region};
 use std::collections::{BTreeMap, HashSet};
 
@@ -65,24 +66,37 @@ fn rank(scene: &Scene, index: usize) -> (bool, u64, usize) {
 
 /// What the patches above leave of a patch.
 fn rest(scene: &Scene, index: usize, upper: &[usize]) -> Vec<PlanarPolygon> {
-    let patch = &scene.patches[index];
-    let polygon = &patch.polygon;
+    let polygon = &scene.patches[index].polygon;
     let plane = Plane::of(polygon);
     let above: Vec<&PlanarPolygon> = upper.iter().map(|&index| &scene.patches[index].polygon).collect();
     let regions: Vec<Region> = above.iter().map(|polygon| plane.region(polygon)).collect();
     let rest = (Csg::from(&plane.region(polygon)) - Csg::union(&regions)).evaluate();
-    let width = patch.rounding + SINGLE * Extent::around(polygon).diagonal();
     // What lies on the plane is a corner of both, so that no crack opens between them.
     let corners = above.iter().flat_map(|polygon| polygon.loops().flatten());
     let shared = corners.filter(|corner| plane.height(**corner).abs() <= ON_PLANE * slack(&[**corner]));
-    let mut pieces =
-        plane.lift(&without_necks(&rest, width), shared.chain(polygon.loops().flatten()).copied());
+    pieces(&scene.patches[index], &rest, shared.copied())
+}
+
+/// What is left of a patch, without what is thinner than rounding. Corners at a `shared` point, or at one of the patch's, get its place.
+pub(super) fn pieces(
+    patch: &Patch,
+    rest: &Region,
+    shared: impl Iterator<Item = DVec3>,
+) -> Vec<PlanarPolygon> {
+    let width = strip(patch);
+    let corners = patch.polygon.loops().flatten().copied();
+    let mut pieces = Plane::of(&patch.polygon).lift(&without_necks(rest, width), shared.chain(corners));
     pieces.retain(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece));
     pieces
 }
 
+/// How wide a strip along an edge of a patch is rounding.
+pub(super) fn strip(patch: &Patch) -> f64 {
+    patch.rounding + SINGLE * Extent::of(patch).diagonal()
+}
+
 /// The pieces under their names: the patch's own for a single one.
-fn named(patch: &Patch, polygons: Vec<PlanarPolygon>, taken: &mut HashSet<String>) -> Vec<Patch> {
+pub(super) fn named(patch: &Patch, polygons: Vec<PlanarPolygon>, taken: &mut HashSet<String>) -> Vec<Patch> {
     let single = polygons.len() == 1;
     let piece = |(polygon, number): (PlanarPolygon, usize)| {
         let mut name = if single { patch.name.clone() } else { format!("{}.{number}", patch.name) };

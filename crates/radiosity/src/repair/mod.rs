@@ -6,11 +6,11 @@
 //! findings     what is wrong with patches, in words
 //! reflectance  no surface reflects all light
 //! slivers      what is thinner than rounding is left out
+//! solids       what lies within solids is cut away, where they pass through each other
 //! weld         vertices that nearly meet become one
 //! ```
 //!
-//! Solids that pass through each other stay as they are: a point inside a solid sees nothing but the backs of its faces, so exact form
-//! factors keep the parts inside dark, and what stands outside is lit as if they had been cut. Faces of one plane that face opposite ways
+//! Surfaces that pass through each other and are not closed stay as they are: form factors are exact past them. Faces of one plane that face opposite ways
 //! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where
 //! patches touch or pass through each other.
 mod cut;
@@ -18,10 +18,10 @@ pub(crate) mod findings;
 mod necks;
 mod reflectance;
 mod slivers;
-mod weld;
+mod solids;
+pub(crate) mod weld;
 
 pub(crate) use reflectance::BRIGHTEST;
-pub(crate) use weld::{PointKey, Welds, key};
 
 use crate::scene::{Scene, finding::Finding};
 
@@ -44,6 +44,7 @@ pub struct Repaired {
 /// - Vertices that lie beside each other by less than single precision rounds away become one, where polygons stay planar.
 ///   What lies beside each other by rounding of the file's numbers, or of doubles, is not told.
 /// - Slivers and spikes of polygons, which are thinner than rounding, are left out.
+/// - Of surfaces that reach into a solid, a closed body whose faces are turned out, what lies within is cut away: no light comes there.
 /// - Patches that face the same way in one plane are cut out of each other, so that no point is covered twice. An emitter stays whole
 ///   and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal ones the first. Duplicates and
 ///   patches that are covered completely are removed. The pieces of a patch get `.1`, `.2`, … behind its name. Cuts are exact.
@@ -62,7 +63,9 @@ pub fn repair_until(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Repaired> 
     let read = scene.warnings.iter().filter(|warning| warning.kind.remedy().is_some()).cloned();
     let mut repairs: Vec<Finding> = read.collect();
     repairs.extend(reflectance::limit(&mut scene));
-    if put_right(&mut scene, &mut repairs, stop)? {
+    let known = repairs.len();
+    repairs.extend(solids::cut(&mut scene, stop)?);
+    if put_right(&mut scene, &mut repairs, stop)? || repairs.len() > known {
         settle(&mut scene, stop)?;
     }
     Some(Repaired { scene, repairs })
@@ -73,9 +76,6 @@ fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>, stop: &dyn Fn() -> 
     let known = findings.len();
     let is_moved = weld::weld(scene, findings);
     findings.extend(slivers::leave_out(scene, stop)?);
-    if stop() {
-        return None;
-    }
     findings.extend(cut::cut(scene));
     (!stop()).then_some(is_moved || findings.len() > known)
 }

@@ -106,6 +106,8 @@ pub enum Kind {
     EmitterInFace,
     /// Two patches that face the same way and cover each other in part, in one plane.
     Overlap,
+    /// A patch that reaches into a solid.
+    Buried,
     /// A polygon that is not planar and was split into triangles.
     NonPlanar,
     /// A patch so thin that its coordinates' rounding is a share of its width.
@@ -122,7 +124,7 @@ impl Kind {
     /// Whether it changes the light, so that a solution is not that of the scene which the file's author had in mind.
     #[must_use]
     pub fn matters(self) -> bool {
-        !matches!(self, Kind::NoArea | Kind::Crack | Kind::TJunction)
+        !matches!(self, Kind::Buried | Kind::NoArea | Kind::Crack | Kind::TJunction)
     }
 
     /// What reading or [`repair()`](crate::repair()) does about it, in a word or two; `None` where it stays as it is.
@@ -132,7 +134,7 @@ impl Kind {
             Kind::Reflectance => Some("limited"),
             Kind::Duplicate => Some("removed"),
             Kind::EmitterInFace => Some("cut out"),
-            Kind::Overlap => Some("cut"),
+            Kind::Overlap | Kind::Buried => Some("cut"),
             Kind::NonPlanar => Some("split"),
             Kind::Sliver | Kind::NoArea => Some("left out"),
             Kind::Crack => Some("closed"),
@@ -150,6 +152,7 @@ impl Kind {
             Kind::Flipped => "they take and give light on the wrong side",
             Kind::Duplicate | Kind::Overlap => "light from what both cover counts twice",
             Kind::EmitterInFace => "light from the covered part of the face counts beside the emitter's",
+            Kind::Buried => "what lies within is dark",
             Kind::NonPlanar => "their triangles are a guess at the surface",
             Kind::Sliver => "their own light is uncertain",
             Kind::NoArea => "nothing was lost",
@@ -169,6 +172,7 @@ impl Kind {
             Kind::Duplicate => ["duplicate", "duplicates"],
             Kind::EmitterInFace => ["emitter in a face", "emitters in faces"],
             Kind::Overlap => ["overlap", "overlaps"],
+            Kind::Buried => ["surface partly within a solid", "surfaces partly within solids"],
             Kind::NonPlanar => ["surface that is not planar", "surfaces that are not planar"],
             Kind::Sliver => ["sliver", "slivers"],
             Kind::NoArea => ["surface with empty polygons", "surfaces with empty polygons"],

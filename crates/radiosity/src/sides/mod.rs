@@ -1,7 +1,6 @@
 //! Which sides of double-sided surfaces matter.
 //!
 //! ```text
-//! bodies   surfaces that are connected by edges, and which of them are closed
 //! sight    what a ray from a point meets
 //! ```
 //!
@@ -10,12 +9,11 @@
 //!
 //! - A closed body has one side that light can come to, unless light is made within it.
 //! - A lamp before a wall shines away from the wall.
-mod bodies;
 mod sight;
 
-use crate::repair::Welds;
+use crate::bodies::Bodies;
+use crate::repair::weld::Welds;
 use crate::scene::{Scene, patch::Patch};
-use bodies::Bodies;
 use glam::DVec3;
 use sight::SightLines;
 
@@ -44,7 +42,7 @@ pub fn needed_sides(scene: &Scene) -> Scene {
     if !scene.patches.iter().any(|patch| patch.is_back) {
         return scene.clone();
     }
-    let bodies = Bodies::collect(scene, &Welds::of(scene));
+    let bodies = Bodies::of_first_sides(scene, &Welds::of(scene));
     let sight = SightLines::of(scene);
     let shines = |index: usize| {
         let is_sheet = is_pair(scene, index) && bodies.of(index).turned_in.is_none();
@@ -71,7 +69,7 @@ pub fn needed_sides(scene: &Scene) -> Scene {
 
 /// For each patch the number of the closed body that it is a part of, if it is of one.
 pub(crate) fn closed_bodies(scene: &Scene) -> Vec<Option<usize>> {
-    let bodies = Bodies::collect(scene, &Welds::of(scene));
+    let bodies = Bodies::of_first_sides(scene, &Welds::of(scene));
     let is_closed = |patch: usize| bodies.of(patch).turned_in.is_some();
     (0..scene.patches.len()).map(|patch| is_closed(patch).then(|| bodies.of_patch[patch])).collect()
 }

@@ -15,7 +15,6 @@ use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
-
 /// Asks whether to go on.
 pub(super) type Ask<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
@@ -131,7 +130,8 @@ impl<'s> Sights<'s> {
             }
             let batch = pace.batch(done, points.len());
             done = batch.end;
-            let found = || points[batch].par_iter().flat_map_iter(|(tile, point)| self.at(*tile, point)).collect();
+            let found =
+                || points[batch].par_iter().flat_map_iter(|(tile, point)| self.at(*tile, point)).collect();
             let found: Vec<f64> = attempt("what is shown", found)?;
             all.extend(found);
         }

@@ -1,37 +1,47 @@
 //! Surfaces that are connected by edges, and which of them are closed.
-use crate::repair::{PointKey, Welds, key};
-use crate::scene::Scene;
+use crate::repair::weld::{PointKey, Welds, key};
+use crate::scene::{Scene, patch::Patch};
 use crate::union_find::UnionFind;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// Patches that are connected by edges.
 #[derive(Debug)]
-pub(super) struct ConnectedBody {
+pub(crate) struct ConnectedBody {
     /// Its first patch.
-    pub(super) first: usize,
+    pub(crate) first: usize,
     /// For a closed body whose faces are all turned the same way, whether their fronts are turned in.
-    pub(super) turned_in: Option<bool>,
-    pub(super) emits: bool,
+    pub(crate) turned_in: Option<bool>,
+    pub(crate) emits: bool,
 }
 
 /// The bodies of a scene.
 #[derive(Debug)]
-pub(super) struct Bodies {
-    pub(super) bodies: Vec<ConnectedBody>,
-    pub(super) of_patch: Vec<usize>,
+pub(crate) struct Bodies {
+    pub(crate) bodies: Vec<ConnectedBody>,
+    pub(crate) of_patch: Vec<usize>,
 }
 
 /// The patches that have an edge, each with how often more it runs along it forwards than backwards.
 type EdgeUses = BTreeMap<usize, i32>;
 
 impl Bodies {
-    /// The bodies that first sides make. Every edge of a closed body is run along as often one way as the other. Objects of the file that
+    /// The bodies that first sides make.
+    pub(crate) fn of_first_sides(scene: &Scene, welds: &Welds) -> Bodies {
+        Bodies::collect(scene, welds, |patch| !patch.is_back)
+    }
+
+    /// The bodies that all patches make: what has two sides is none that is closed.
+    pub(crate) fn of_all_sides(scene: &Scene, welds: &Welds) -> Bodies {
+        Bodies::collect(scene, welds, |_| true)
+    }
+
+    /// The bodies that patches make of which some count. Every edge of a closed body is run along as often one way as the other. Objects of the file that
     /// are closed at an edge by themselves only touch the others there.
-    pub(super) fn collect(scene: &Scene, welds: &Welds) -> Bodies {
+    fn collect(scene: &Scene, welds: &Welds, counts: impl Fn(&Patch) -> bool) -> Bodies {
         let mut groups = UnionFind::new(scene.patches.len());
         let mut open = Vec::new();
-        for uses in edges(scene, welds).values() {
+        for uses in edges(scene, welds, &counts).values() {
             for connected in connected(scene, uses) {
                 connected.windows(2).for_each(|pair| groups.join(pair[0], pair[1]));
                 let turns: i32 = connected.iter().map(|patch| uses[patch]).sum();
@@ -39,12 +49,12 @@ impl Bodies {
             }
         }
         (1..scene.patches.len())
-            .filter(|&index| scene.patches[index].is_back)
+            .filter(|&index| is_other_side(scene, index))
             .for_each(|index| groups.join(index - 1, index));
         let (of_patch, firsts) = groups.number();
         let mut is_closed = vec![true; firsts.len()];
         open.into_iter().for_each(|patch| is_closed[of_patch[patch]] = false);
-        let volumes = volumes(scene, &of_patch, firsts.len());
+        let volumes = volumes(scene, &of_patch, firsts.len(), &counts);
         let body = |(index, first): (usize, usize)| ConnectedBody {
             first,
             turned_in: (is_closed[index] && volumes[index] != 0.0).then_some(volumes[index] < 0.0),
@@ -56,15 +66,24 @@ impl Bodies {
     }
 
     /// The body of a patch.
-    pub(super) fn of(&self, patch: usize) -> &ConnectedBody {
+    pub(crate) fn of(&self, patch: usize) -> &ConnectedBody {
         &self.bodies[self.of_patch[patch]]
     }
 }
 
-/// The edges of first sides.
-fn edges(scene: &Scene, welds: &Welds) -> BTreeMap<[PointKey; 2], EdgeUses> {
+/// Whether a patch is the second side of the one before it.
+pub(crate) fn is_other_side(scene: &Scene, index: usize) -> bool {
+    let patch = &scene.patches[index];
+    patch.is_back
+        && index > 0
+        && !scene.patches[index - 1].is_back
+        && scene.patches[index - 1].origin == patch.origin
+}
+
+/// The edges of patches that count.
+fn edges(scene: &Scene, welds: &Welds, counts: impl Fn(&Patch) -> bool) -> BTreeMap<[PointKey; 2], EdgeUses> {
     let mut edges: BTreeMap<[PointKey; 2], EdgeUses> = BTreeMap::new();
-    for (patch, _) in scene.patches.iter().enumerate().filter(|(_, patch)| !patch.is_back) {
+    for (patch, _) in scene.patches.iter().enumerate().filter(|(_, patch)| counts(patch)) {
         for [a, b] in sides(scene, patch, welds) {
             let uses = edges.entry([a.min(b), a.max(b)]).or_default();
             *uses.entry(patch).or_default() += if a < b { 1 } else { -1 };
@@ -94,11 +113,11 @@ fn sides(scene: &Scene, patch: usize, welds: &Welds) -> Vec<[PointKey; 2]> {
 }
 
 /// Six times the signed volume of each body: positive where fronts are turned out.
-fn volumes(scene: &Scene, of_patch: &[usize], count: usize) -> Vec<f64> {
+fn volumes(scene: &Scene, of_patch: &[usize], count: usize, counts: impl Fn(&Patch) -> bool) -> Vec<f64> {
     let mut volumes = vec![0.0; count];
     let [low, high] = scene.extent();
     let origin = low.midpoint(high);
-    for (patch, &body) in scene.patches.iter().zip(of_patch).filter(|(patch, _)| !patch.is_back) {
+    for (patch, &body) in scene.patches.iter().zip(of_patch).filter(|(patch, _)| counts(patch)) {
         let corner = patch.polygon.loops().flatten().next().copied().unwrap_or(origin);
         volumes[body] += 2.0 * patch.polygon.area() * (corner - origin).dot(patch.polygon.normal());
     }
