@@ -85,7 +85,8 @@ pub(super) fn pieces(
 ) -> Vec<PlanarPolygon> {
     let width = strip(patch);
     let corners = patch.polygon.loops().flatten().copied();
-    let mut pieces = Plane::of(&patch.polygon).lift(&without_necks(rest, width), shared.chain(corners));
+    let mut pieces =
+        Plane::of(&patch.polygon).lift(&without_necks(rest, width, patch.slack()), shared.chain(corners));
     pieces.retain(|piece| piece.area() > width * perimeter(piece) && can_be_divided(piece));
     pieces
 }
