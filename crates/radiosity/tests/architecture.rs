@@ -21,7 +21,7 @@ const ORDER: [&str; 247] = [
     "io/collada/patches", "io/collada/unread", "io/collada/material", "io/collada/images", "io/collada/lights", "io/collada/spectra",
     "io/collada/primitive", "io/collada/camera", "io/collada/walk", "io/collada/transform",
     "io/collada/file", "io/collada/lit_mesh", "io/collada/encoding", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
-    "io/surface/changes", "io/surface/sidedness", "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
+    "io/surface/changes", "io/surface/sidedness", "io/surface/place", "io/surface/planar", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
     "io/surface/polygon", "io/photometry", "io/photometry/ies", "io/photometry/ldt", "io/photometry/angles", "io/words", "io/save", "io/error",
     "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",

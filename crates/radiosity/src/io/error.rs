@@ -204,9 +204,14 @@ pub enum Fault {
     /// A ratio of width to height that no picture has.
     #[error("no picture is {0} times as wide as high; correct the ratio, or the angles")]
     Ratio(f64),
-    /// A colour below zero.
-    #[error("the colour {0} is negative; give 0 or more")]
-    Negative(f64),
+    /// A number below zero.
+    #[error("the {what} {value} is negative; give 0 or more")]
+    Negative {
+        /// What it is of: `colour`, `intensity`.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
     /// A node that contains itself.
     #[error("the node instances itself; remove one of the <instance_node>")]
     Cycle,

@@ -1,16 +1,18 @@
 //! Lights of `KHR_lights_punctual`.
 //!
-//! The extension is photometric: candela, and lux of a directional light. Blender multiplies its watts with 683 lm/W, the efficacy of green
-//! light of 555 nm, and spreads them over a sphere; in its files that is undone.
+//! The extension is photometric: candela, and lux of a directional light. Blender makes 683 lm of a watt of a lamp, or leaves it at watts, or
+//! at watts that are not spread over a sphere: that is a choice of whoever exports, and the file does not say which one it was.
+use super::document::GltfFile;
 use super::material::as_written;
+use crate::io::error::Fault;
 use crate::io::surface::lamps::LampPose;
+use crate::scene::finding::Finding;
 use crate::scene::lamp::{Cone, Distribution, Lamp, Rim};
 use crate::scene::sky::Sun;
 use crate::scene::units::Units;
 use gltf::khr_lights_punctual::{Kind, Light};
+use std::f64::consts::PI;
 
-/// Lumens that Blender makes of a watt.
-const BLENDER: f64 = 683.0;
 /// The least difference of cosines between the inner and the outer cone, as the extension recommends.
 const RIM: f64 = 1e-3;
 
@@ -20,32 +22,66 @@ pub(super) enum ReadLight {
     Sun(Sun),
 }
 
-/// The units of a file's lights: as in Blender where that wrote them, else photometric.
-pub(super) fn units(document: &gltf::Document) -> Units {
-    let generator = document.as_json().asset.generator.as_deref().unwrap_or_default();
-    let is_blender = generator.contains("Blender");
-    let has_lights = document.lights().is_some_and(|mut lights| lights.next().is_some());
-    if has_lights && !is_blender { Units::Luminous } else { Units::Radiant }
+/// The units of a file: photometric where it has lights. Of Blender's it is noted what else they may be.
+pub(super) fn units(file: &GltfFile, name: &str, warnings: &mut Vec<Finding>) -> Units {
+    let has_lights = file.document.lights().is_some_and(|mut lights| lights.next().is_some());
+    if !has_lights {
+        return Units::Radiant;
+    }
+    let generator = file.document.as_json().asset.generator.as_deref().unwrap_or_default();
+    if generator.contains("Blender") {
+        let what = "lights are taken as cd and lx, emission as cd/m², as the format has them; Blender's lighting mode Standard makes 683 lm of \
+                    each W of a lamp and leaves emission in W";
+        let repair = "for watts as in Blender, export with the lighting mode Unitless and give --units W";
+        Finding::note(warnings, name, what, repair);
+    }
+    Units::Luminous
 }
 
 /// The light of a node that stands so; nothing where it has none, or numbers that no light has.
-pub(super) fn read(light: &Light<'_>, name: &str, pose: LampPose, units: Units) -> Option<ReadLight> {
-    let factor = if units == Units::Radiant { 1.0 / BLENDER } else { 1.0 };
-    let strength = factor * as_written(light.intensity());
-    let bands: Vec<f64> = light.color().map(|band| strength * as_written(band)).to_vec();
-    let is_sound = bands.iter().all(|band| *band >= 0.0 && band.is_finite());
-    if !is_sound || bands.iter().all(|band| *band == 0.0) {
-        return None;
+pub(super) fn read(
+    light: &Light<'_>,
+    name: &str,
+    pose: LampPose,
+    warnings: &mut Vec<Finding>,
+) -> Result<Option<ReadLight>, Fault> {
+    let bands = bands(light)?;
+    if bands.iter().all(|band| *band == 0.0) {
+        return Ok(None);
     }
     let name = name.to_owned();
-    Some(match light.kind() {
+    let lamp = |name, distribution| ReadLight::Lamp(pose.lamp(name, distribution, bands.clone()));
+    Ok(Some(match light.kind() {
         Kind::Directional => ReadLight::Sun(Sun { name, direction: pose.ahead(), irradiance: bands }),
-        Kind::Point => ReadLight::Lamp(pose.lamp(name, Distribution::Even, bands)),
+        Kind::Point => lamp(name, Distribution::Even),
         Kind::Spot { inner_cone_angle, outer_cone_angle } => {
-            let outer = as_written(outer_cone_angle).cos();
-            let inner = as_written(inner_cone_angle).cos().max(outer + RIM).min(1.0);
-            let cone = Cone { exponent: 0.0, inner, outer: outer.min(inner), rim: Rim::Squared };
-            ReadLight::Lamp(pose.lamp(name, Distribution::Cone(cone), bands))
+            let [inner, outer] = [inner_cone_angle, outer_cone_angle].map(as_written);
+            if inner > outer {
+                let what = "an inner cone is wider than the outer one; the outer one alone is taken";
+                Finding::note(warnings, name.as_str(), what, "correct the angles");
+            }
+            lamp(name, Distribution::Cone(cone(inner.min(outer), outer)?))
         }
-    })
+    }))
+}
+
+/// Its intensity, or its irradiance, per band.
+fn bands(light: &Light<'_>) -> Result<Vec<f64>, Fault> {
+    let strength = as_written(light.intensity());
+    let colour = light.color().map(as_written);
+    let negative = |what, value: f64| if value < 0.0 { Err(Fault::Negative { what, value }) } else { Ok(()) };
+    negative("intensity", strength)?;
+    colour.into_iter().try_for_each(|band| negative("colour", band))?;
+    let bands: Vec<f64> = colour.map(|band| strength * band).to_vec();
+    if bands.iter().all(|band| band.is_finite()) { Ok(bands) } else { Err(Fault::Huge("the intensity")) }
+}
+
+/// The cone between two angles to the axis.
+fn cone(inner: f64, outer: f64) -> Result<Cone, Fault> {
+    if let Some(angle) = [inner, outer].into_iter().find(|angle| !(0.0..=PI).contains(angle)) {
+        return Err(Fault::Angle(angle.to_degrees()));
+    }
+    let edge = outer.cos();
+    let inner = inner.cos().max(edge + RIM).min(1.0);
+    Ok(Cone { exponent: 0.0, inner, outer: edge.min(inner), rim: Rim::Squared })
 }

@@ -43,7 +43,7 @@ pub(super) fn read(
     file: &str,
     gltf: &GltfFile,
     folder: Option<&Path>,
-    warnings: Vec<Finding>,
+    mut warnings: Vec<Finding>,
 ) -> Result<(Scene, Vec<ReadPrimitive>), FileError> {
     let buffers = Buffers::load(file, gltf, folder)?;
     let mut reader = Reader {
@@ -53,7 +53,7 @@ pub(super) fn read(
         cameras: Vec::new(),
         lamps: Vec::new(),
         suns: Vec::new(),
-        units: lights::units(&gltf.document),
+        units: lights::units(gltf, file, &mut warnings),
         warnings,
         instances: 0,
         primitives: Vec::new(),
@@ -116,7 +116,7 @@ impl Reader<'_> {
             self.look(&camera, &name, world);
         }
         if let Some(light) = node.light() {
-            self.shine(&light, &name, world);
+            self.shine(&light, &name, world)?;
         }
         let Some(mesh) = node.mesh() else { return Ok(()) };
         if node.skin().is_some() || mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
@@ -131,9 +131,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn shine(&mut self, light: &gltf::khr_lights_punctual::Light<'_>, name: &str, world: DMat4) {
-        let read = LampPose::of(world).and_then(|pose| lights::read(light, name, pose, self.units));
-        match read {
+    fn shine(
+        &mut self,
+        light: &gltf::khr_lights_punctual::Light<'_>,
+        name: &str,
+        world: DMat4,
+    ) -> Result<(), FileError> {
+        let read = match LampPose::of(world) {
+            Some(pose) => lights::read(light, name, pose, &mut self.warnings),
+            None => Ok(None),
+        };
+        match read.map_err(|fault| self.fault(format!("light {}", light.index()), fault))? {
             Some(ReadLight::Lamp(lamp)) => self.lamps.push(lamp),
             Some(ReadLight::Sun(sun)) => self.suns.push(sun),
             None => {
@@ -141,6 +149,7 @@ impl Reader<'_> {
                 self.note(name, "a light without strength or direction is left out", repair);
             }
         }
+        Ok(())
     }
 
     /// The patches of a primitive.

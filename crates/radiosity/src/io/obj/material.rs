@@ -96,7 +96,7 @@ fn colour(statement: &Statement<'_>) -> Result<[f64; 3], Wrong> {
         _ => statement.vector()?.to_array(),
     };
     match colour.into_iter().find(|value| *value < 0.0) {
-        Some(value) => Err((statement.line, Fault::Negative(value))),
+        Some(value) => Err((statement.line, Fault::Negative { what: "colour", value })),
         None => Ok(colour),
     }
 }

@@ -200,7 +200,7 @@ impl PlyVertex {
 fn tint(colour: &mut [Option<f64>; 3], name: &str, kind: NumberType, number: f64) -> Result<(), Fault> {
     let Some(band) = ["red", "green", "blue"].iter().position(|known| *known == name) else { return Ok(()) };
     if number < 0.0 {
-        return Err(Fault::Negative(number));
+        return Err(Fault::Negative { what: "colour", value: number });
     }
     colour[band] = Some(match kind {
         NumberType::U8 => image_file::linear(number / 255.0),
