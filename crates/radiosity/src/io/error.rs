@@ -147,6 +147,9 @@ pub enum Fault {
     /// An attribute is missing.
     #[error("the attribute {0} is missing; add it")]
     Attribute(&'static str),
+    /// A property of an element is missing.
+    #[error("it has no property {0}; export the file again")]
+    Property(&'static str),
     /// A child element is missing.
     #[error("a child <{0}> is missing; add it")]
     Child(&'static str),
@@ -180,6 +183,14 @@ pub enum Fault {
     Index {
         /// The index.
         index: usize,
+        /// Number of things it may point to.
+        len: usize,
+    },
+    /// An index that counts back from the end, beyond the start of what it points into.
+    #[error("index -{back} is out of range: there are {len}; correct it")]
+    FromEnd {
+        /// How far back, from 1.
+        back: usize,
         /// Number of things it may point to.
         len: usize,
     },

@@ -3,7 +3,7 @@ use super::container::chunks;
 use super::prepare::prepare;
 use crate::io::error::{Fault, FileError};
 use crate::scene::finding::Finding;
-use gltf::json::Root;
+use gltf::json::{Root, validation::Validate};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -34,28 +34,38 @@ pub(super) fn check(name: &str, (document, blob): Prepared) -> Result<GltfFile, 
     let root = Root::deserialize(&document).map_err(|error| unreadable(name, error))?;
     check_root(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
     // What must be there was seen to; the rest is in the way of what can be read.
-    let checked = gltf::Document::from_json(Root { extensions_required: Vec::new(), ..root });
-    let checked = checked.map_err(|error| first_fault(name, &document, error))?;
-    Ok(GltfFile { document: checked, blob })
+    let root = Root { extensions_required: Vec::new(), ..root };
+    let faults = faults(&root);
+    match faults.first() {
+        Some((path, fault)) => {
+            let (part, value) = found(&document, path);
+            let value = value.filter(|value| !value.is_object() && !value.is_array());
+            let value = value.map(|value| format!(" {value}").chars().take(60).collect::<String>());
+            let reason = format!("{fault}{} ({} such in all)", value.unwrap_or_default(), faults.len());
+            Err(FileError::Part { file: name.into(), part, fault: Fault::Invalid(reason) })
+        }
+        None => Ok(GltfFile { document: gltf::Document::from_json_without_validation(root), blob }),
+    }
 }
 
 fn unreadable(name: &str, error: serde_json::Error) -> FileError {
     FileError::Gltf { file: name.into(), source: Box::new(gltf::Error::Deserialize(error)) }
 }
 
-/// The first of the faults that the crate found: others may be many, and mostly follow from it.
-fn first_fault(name: &str, document: &Value, error: gltf::Error) -> FileError {
-    match error {
-        gltf::Error::Validation(faults) if !faults.is_empty() => {
-            let (path, fault) = &faults[0];
-            let (part, value) = found(document, path.as_str());
-            let value = value.filter(|value| !value.is_object() && !value.is_array());
-            let value = value.map(|value| format!(" {value}").chars().take(60).collect::<String>());
-            let reason = format!("{fault}{} ({} such in all)", value.unwrap_or_default(), faults.len());
-            FileError::Part { file: name.into(), part, fault: Fault::Invalid(reason) }
+/// What the crate finds wrong, with the paths: others may be many, and mostly follow from the first. An accessor without a view is none: all
+/// its numbers are 0.
+fn faults(root: &Root) -> Vec<(String, gltf::json::validation::Error)> {
+    let mut all = Vec::new();
+    root.validate(root, gltf::json::Path::new, &mut |path, fault| {
+        let path = path().to_string();
+        let is_bare = |path: &str| {
+            path.starts_with("accessors[") && path.split_once('.').is_some_and(|(_, key)| key == "bufferView")
+        };
+        if !(fault == gltf::json::validation::Error::Missing && is_bare(&path)) {
+            all.push((path, fault));
         }
-        other => FileError::Gltf { file: name.into(), source: Box::new(other) },
-    }
+    });
+    all
 }
 
 /// The path of the crate with the keys of the file, and the value there: `extensions.khrLightsPunctual.lights[0]` of the crate is

@@ -5,8 +5,11 @@ use crate::io::surface::finish::Finish;
 use crate::scene::{finding::Finding, texture::Image};
 use glam::{DAffine2, DVec2};
 use gltf::material::AlphaMode;
-use gltf::texture::{Info, TextureTransform};
+use gltf::texture::{Info, TextureTransform, WrappingMode};
 use std::{collections::HashMap, path::Path, sync::Arc};
+
+/// Places so far beyond a picture's rim, in shares of it, are still on the rim.
+const RIM: f64 = 1e-3;
 
 /// A material as patches need it.
 #[derive(Clone)]
@@ -16,7 +19,19 @@ pub(super) struct ReadMaterial {
     pub(super) places: u32,
     /// From these coordinates to those in the picture.
     pub(super) laid: DAffine2,
+    /// Whether the picture repeats to the right and down.
+    repeats: [bool; 2],
     pub(super) two_sided: bool,
+}
+
+impl ReadMaterial {
+    /// Whether a place is beyond the rim of a picture that does not repeat there.
+    pub(super) fn is_beyond(&self, place: DVec2) -> bool {
+        let is_outside = |at: f64| !(-RIM..=1.0 + RIM).contains(&at);
+        let outside = place.to_array().map(is_outside);
+        self.finish.image.is_some()
+            && outside.iter().zip(self.repeats).any(|(outside, repeats)| *outside && !repeats)
+    }
 }
 
 /// The materials met so far.
@@ -76,6 +91,7 @@ impl<'f> Materials<'f> {
         ReadMaterial {
             finish,
             places: texture.as_ref().map_or(0, places),
+            repeats: texture.as_ref().map_or([true; 2], repeats),
             laid: texture
                 .as_ref()
                 .and_then(Info::texture_transform)
@@ -109,6 +125,12 @@ impl<'f> Materials<'f> {
 /// The set of coordinates: a transform may name another one.
 fn places(info: &Info<'_>) -> u32 {
     info.texture_transform().and_then(|laid| laid.tex_coord()).unwrap_or_else(|| info.tex_coord())
+}
+
+/// Whether a picture repeats to the right and down.
+fn repeats(info: &Info<'_>) -> [bool; 2] {
+    let sampler = info.texture().sampler();
+    [sampler.wrap_s(), sampler.wrap_t()].map(|mode| mode == WrappingMode::Repeat)
 }
 
 /// Scaled, turned, moved; u to the right and v down, as KHR_texture_transform has it.

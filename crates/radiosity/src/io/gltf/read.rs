@@ -165,6 +165,10 @@ impl Reader<'_> {
         let place = format!("{}: {part}", self.file);
         let kind = self.materials.kind(&primitive.material(), &mut self.warnings);
         let corners = self.corners(primitive, &kind)?;
+        if corners.iter().any(|corner| kind.is_beyond(corner.place)) {
+            let what = "a picture repeats where its sampler clamps or mirrors it";
+            self.note(&place, what, "keep its coordinates between 0 and 1, or let it repeat");
+        }
         let triangles = self.triangles(primitive, corners.len(), &part)?;
         let polygons: Vec<Polygon> =
             triangles.iter().map(|picks| vec![picks.map(|index| corners[index]).to_vec()]).collect();

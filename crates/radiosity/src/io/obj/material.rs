@@ -123,7 +123,8 @@ fn map(statement: &Statement<'_>) -> Result<(DVec2, DVec2, String), Wrong> {
         }
         at += count;
     }
-    Ok((scale, offset, statement.words[at.min(statement.words.len())..].join(" ")))
+    let name = statement.words[at.min(statement.words.len())..].join(" ");
+    Ok((scale, offset, name.trim_matches('"').to_owned()))
 }
 
 /// Notes what would change the light and is not read.

@@ -16,11 +16,16 @@ use glam::DVec3;
 use polycsg::{FillRule, Region};
 
 /// Planar polygons, numbered from 1 where they are pieces.
-type Pieces = Vec<(Option<usize>, PlanarPolygon)>;
+type PlanarPieces = Vec<(Option<usize>, PlanarPolygon)>;
 
 /// The polygon as it is or, where it is not planar or has no front, its pieces; nothing where it has no area. Its vertices may be so far
 /// from their places as `rounding` says.
-pub(super) fn planar(loops: &Polygon, rounding: f64, name: &str, flaws: &mut Flaws) -> Result<Pieces, Error> {
+pub(super) fn planar(
+    loops: &Polygon,
+    rounding: f64,
+    name: &str,
+    flaws: &mut Flaws,
+) -> Result<PlanarPieces, Error> {
     let points: Vec<Vec<DVec3>> = loops.iter().map(|ring| points(ring)).collect();
     let error = match PlanarPolygon::new(&points) {
         Ok(polygon) => return Ok(vec![(None, polygon)]),
@@ -45,7 +50,7 @@ pub(super) fn planar(loops: &Polygon, rounding: f64, name: &str, flaws: &mut Fla
     }
 }
 
-fn numbered(pieces: Vec<PlanarPolygon>) -> Pieces {
+fn numbered(pieces: Vec<PlanarPolygon>) -> PlanarPieces {
     pieces.into_iter().zip(1..).map(|(piece, number)| (Some(number), piece)).collect()
 }
 
