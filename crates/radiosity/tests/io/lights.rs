@@ -179,7 +179,7 @@ fn lights_of_blender_are_candela_as_in_any_file_and_a_note_says_what_else_they_m
     assert!((read.luminous(&read.lamps[0].intensity) - candela).abs() < 1e-2);
     assert_eq!(read.warnings.len(), 1, "{:?}", read.warnings);
     let note = read.warnings[0].to_string();
-    assert!(note.contains("683 lm") && note.contains("Unitless") && note.contains("--units W"), "{note}");
+    assert!(note.contains("683 lm") && note.contains("Unitless") && note.contains("--units w"), "{note}");
     assert!(gltf("by hand", &json!([{"type": "point", "intensity": 1}])).warnings.is_empty());
 }
 

@@ -32,7 +32,7 @@ pub(super) fn units(file: &GltfFile, name: &str, warnings: &mut Vec<Finding>) ->
     if generator.contains("Blender") {
         let what = "lights are taken as cd and lx, emission as cd/m², as the format has them; Blender's lighting mode Standard makes 683 lm of \
                     each W of a lamp and leaves emission in W";
-        let repair = "for watts as in Blender, export with the lighting mode Unitless and give --units W";
+        let repair = "for watts as in Blender, export with the lighting mode Unitless and give --units w";
         Finding::note(warnings, name, what, repair);
     }
     Units::Luminous
