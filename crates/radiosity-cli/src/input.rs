@@ -47,6 +47,9 @@ pub(crate) fn read_repaired(
     let file = path.to_owned();
     let work = move || {
         let (mut scene, source) = scene_and_source(&file)?;
+        if scene.patches.is_empty() {
+            return Err(without_patches(&file, &scene));
+        }
         light(&mut scene)?;
         Ok((repair(&reading.sides.of(&scene)), source))
     };
@@ -61,6 +64,12 @@ pub(crate) fn read_repaired(
         eprintln!("warning: repaired: {}; inspect lists them, --strict refuses them", counts(&repairs));
     }
     Ok(RepairedInput { scene, source, repairs })
+}
+
+/// Why a scene without patches is refused: what the reader had to say may be the cause.
+fn without_patches(path: &Path, scene: &Scene) -> Failure {
+    let notes = in_one_line(&scene.warnings).map(|line| format!(" ({line})")).unwrap_or_default();
+    Failure::scene(format!("{}: {}{notes}", path.display(), radiosity::Error::NoPatches))
 }
 
 /// One line on stderr for all that the reader had to say.

@@ -517,6 +517,24 @@ fn bad_scenes_are_3_and_leave_no_file() {
     assert_eq!(folder.names(), ["bad.dae"]);
 }
 
+/// Points are no surfaces: there is nothing that a sky could light.
+#[test]
+fn a_scene_without_patches_is_refused_with_its_file_and_what_was_left_out_of_it() {
+    let folder = Folder::new();
+    let cloud = folder.put(
+        "cloud.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+    );
+    let output = radiosity(&["solve", &cloud, "--json"]);
+    assert_eq!(code(&output), 3, "{}", stderr(&output));
+    let said = stderr(&output);
+    assert!(
+        said.contains("cloud.ply: the scene has no patches") && said.contains("points have no area"),
+        "{said}"
+    );
+    assert!(!said.contains("uniform sky"), "{said}");
+}
+
 /// The Cornell box with its lamp off, and its open side.
 fn dark(folder: &Folder) -> String {
     let scene = String::from_utf8(radiosity(&["scene", "cornell-box"]).stdout).expect("text");

@@ -22,7 +22,18 @@ pub(crate) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, Str
     }
     let path = local(address).ok_or("it is not a file of this machine; save it beside the scene")?;
     let folder = folder.ok_or("the scene is in no folder")?;
-    regular(&folder.join(&path)).map_err(|error| format!("{}: {error}", path.display()))
+    let read = regular(&folder.join(&path)).or_else(|error| match foreign(&path) {
+        Some(names) => names.iter().find_map(|name| regular(&folder.join(name)).ok()).ok_or(error),
+        None => Err(error),
+    });
+    read.map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// A path as Windows has it, and its last part alone: the file may be beside the scene. Nothing for a path of this machine.
+fn foreign(path: &Path) -> Option<[String; 2]> {
+    let turned = path.to_str().filter(|path| path.contains('\\'))?.replace('\\', "/");
+    let last = turned.rsplit('/').next()?.to_owned();
+    Some([turned, last])
 }
 
 /// The bytes of a regular file: what else a scene may name, a device or a pipe, need not end.

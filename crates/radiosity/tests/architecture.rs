@@ -9,11 +9,11 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 249] = [
+const ORDER: [&str; 251] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
-    "io", "io/repaired_file", "io/source", "io/scene_file", "io/format", "io/gltf", "io/gltf/compose", "io/gltf/write", "io/gltf/exposed", "io/gltf/repaired", "io/gltf/dimmed", "io/gltf/read", "io/gltf/lights", "io/gltf/lit",
+    "io", "io/repaired_file", "io/source", "io/scene_file", "io/format", "io/gltf", "io/gltf/compose", "io/gltf/write", "io/gltf/exposed", "io/gltf/repaired", "io/gltf/embedded", "io/gltf/dimmed", "io/gltf/read", "io/gltf/lights", "io/gltf/lit",
     "io/gltf/material", "io/gltf/accessor", "io/gltf/document", "io/gltf/prepare", "io/gltf/container", "io/gltf/buffer",
     "io/obj", "io/obj/write", "io/obj/read", "io/obj/material", "io/obj/statements",
     "io/ply", "io/ply/write", "io/ply/read", "io/ply/body", "io/ply/header", "io/stl", "io/stl/write", "io/stl/binary", "io/stl/text", "io/stl/solid",
@@ -21,8 +21,8 @@ const ORDER: [&str; 249] = [
     "io/collada/patches", "io/collada/unread", "io/collada/material", "io/collada/images", "io/collada/lights", "io/collada/spectra",
     "io/collada/primitive", "io/collada/camera", "io/collada/walk", "io/collada/transform",
     "io/collada/file", "io/collada/lit_mesh", "io/collada/encoding", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
-    "io/surface/changes", "io/surface/sidedness", "io/surface/place", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
-    "io/surface/polygon", "io/photometry", "io/photometry/ies", "io/photometry/ldt", "io/photometry/angles", "io/words", "io/save", "io/error",
+    "io/surface/changes", "io/surface/sidedness", "io/surface/place", "io/surface/planar", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
+    "io/surface/polygon", "io/photometry", "io/photometry/ies", "io/photometry/ldt", "io/photometry/angles", "io/upright", "io/words", "io/save", "io/error",
     "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error",
     "inspect", "inspect/openness", "inspect/cost", "inspect/junction", "inspect/overlap",
     "inspect/orientation", "inspect/summary", "inspect/surface",

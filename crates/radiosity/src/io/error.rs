@@ -147,6 +147,9 @@ pub enum Fault {
     /// An attribute is missing.
     #[error("the attribute {0} is missing; add it")]
     Attribute(&'static str),
+    /// A property of an element is missing.
+    #[error("it has no property {0}; export the file again")]
+    Property(&'static str),
     /// A child element is missing.
     #[error("a child <{0}> is missing; add it")]
     Child(&'static str),
@@ -183,6 +186,14 @@ pub enum Fault {
         /// Number of things it may point to.
         len: usize,
     },
+    /// An index that counts back from the end, beyond the start of what it points into.
+    #[error("index -{back} is out of range: there are {len}; correct it")]
+    FromEnd {
+        /// How far back, from 1.
+        back: usize,
+        /// Number of things it may point to.
+        len: usize,
+    },
     /// An accessor or input whose numbers cannot be right.
     #[error("{0} is too large; correct it")]
     Huge(&'static str),
@@ -204,9 +215,14 @@ pub enum Fault {
     /// A ratio of width to height that no picture has.
     #[error("no picture is {0} times as wide as high; correct the ratio, or the angles")]
     Ratio(f64),
-    /// A colour below zero.
-    #[error("the colour {0} is negative; give 0 or more")]
-    Negative(f64),
+    /// A number below zero.
+    #[error("the {what} {value} is negative; give 0 or more")]
+    Negative {
+        /// What it is of: `colour`, `intensity`.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
     /// A node that contains itself.
     #[error("the node instances itself; remove one of the <instance_node>")]
     Cycle,

@@ -74,7 +74,9 @@ fn by_lines(bytes: &[u8]) -> Option<Format> {
         return Some(Format::Stl);
     }
     let text = std::str::from_utf8(bytes).ok()?;
-    if text.trim_start().starts_with("solid") && text.contains("facet") {
+    let text = text.trim_start_matches('\u{feff}');
+    let start = text.trim_start().get(..5).unwrap_or_default();
+    if start.eq_ignore_ascii_case("solid") && text.to_ascii_lowercase().contains("facet") {
         return Some(Format::Stl);
     }
     let counts = |words: &[&str], count: usize| words.len() == count;

@@ -14,6 +14,7 @@
 //! vs3            View3D's input, read
 //! photometry     IES and EULUMDAT files of luminaires, read
 //! surface        what all readers do with polygons
+//! upright        to the up axis of formats that have none of their own
 //! words          lists and numbers as text
 //! save           whole files or none
 //! error          what can go wrong
@@ -31,6 +32,7 @@ mod scene_file;
 mod source;
 pub mod stl;
 mod surface;
+mod upright;
 pub mod vs3;
 mod words;
 

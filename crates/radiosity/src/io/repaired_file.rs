@@ -24,7 +24,8 @@ pub struct RepairedFile {
 impl Source {
     /// Writes this file with the polygons of a repaired scene. A COLLADA file stays COLLADA, and glTF stays glTF: polygons that were cut,
     /// split or left out give way to their pieces, and everything else stays, see [`Collada::repaired`](super::collada::Collada::repaired)
-    /// and [`Gltf::repaired`](super::gltf::Gltf::repaired). Other formats, and another extension than the file's own, are written anew by
+    /// and [`Gltf::repaired`](super::gltf::Gltf::repaired); glTF that goes to another folder takes the files that it names with it, inside. Other
+    /// formats, and another extension than the file's own, are written anew by
     /// [`save_scene`].
     ///
     /// Formats round. So what is to be written is read again, seen by `sides` as [`needed_sides`](crate::needed_sides) and repaired, until
@@ -71,7 +72,8 @@ impl Source {
         let source = match self {
             Self::Collada(file) if extension == "dae" => Self::Collada(file.with_repaired(before, after)?),
             Self::Gltf(file) if extension == file.extension() => {
-                Self::Gltf(file.with_repaired(before, after)?)
+                let folder = path.parent().unwrap_or(Path::new(""));
+                Self::Gltf(file.with_repaired(before, after)?.moved_to(folder)?)
             }
             _ => {
                 let left_out = save_scene(after, path)?;

@@ -6,7 +6,8 @@ use crate::scene::Scene;
 use std::path::Path;
 
 /// Writes a scene in the format of the file's extension: COLLADA (`.dae`), glTF (`.glb`), OBJ (`.obj`, with a file of materials and
-/// pictures beside it), PLY (`.ply`) or STL (`.stl`). COLLADA alone holds everything; returns what the others cannot hold of this scene, a
+/// pictures beside it), PLY (`.ply`) or STL (`.stl`). Where a format has no up axis, the scene is turned to that which readers take for
+/// granted. COLLADA alone holds everything; returns what the others cannot hold of this scene, a
 /// clause each.
 ///
 /// # Errors
@@ -55,10 +56,7 @@ fn left_out(scene: &Scene, extension: &str) -> Vec<&'static str> {
         (plain, "names of patches"),
         (extension != "dae" && has_bands, "bands that are not red, green and blue"),
         (matches!(extension, "obj" | "ply" | "stl") && !scene.cameras.is_empty(), "cameras"),
-        (
-            extension == "obj" && scene.asset != crate::scene::asset::Asset::default(),
-            "the unit and the up axis",
-        ),
+        (matches!(extension, "obj" | "ply" | "stl") && scene.asset.unit != 1.0, "the unit"),
     ];
     lossy.into_iter().filter(|(is_lost, _)| *is_lost).map(|(_, what)| what).collect()
 }

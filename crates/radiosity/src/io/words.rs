@@ -4,6 +4,9 @@ use std::fmt::{Display, Write};
 /// What files say they were made with.
 pub(crate) const TOOL: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
 
+/// The byte order mark that some programs put before UTF-8.
+pub(super) const MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Words with a space between them.
 pub(crate) fn list(words: impl Iterator<Item = impl Display>) -> String {
     let mut text = String::new();

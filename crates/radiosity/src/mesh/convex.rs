@@ -15,7 +15,7 @@ const STRAIGHT: f64 = 1e-9;
 type PlacedCorner = (DVec2, DVec3);
 
 /// The convex parts of a polygon, counter-clockwise. It is cut through its reflex corners, along the axes of its frame, those nearest to
-/// its middle first.
+/// its middle first. Its holes may run either way.
 pub(crate) fn convex_parts(
     polygon: &PlanarPolygon,
     frame: &Frame,
@@ -26,9 +26,10 @@ pub(crate) fn convex_parts(
     for (flat, place) in rings.iter().flatten().zip(polygon.loops().flatten()) {
         places.insert(key(*flat), *place);
     }
-    let mut open = vec![rings];
+    let least = SLIVER * rings.iter().map(|ring| area(ring).abs()).fold(0.0, f64::max);
+    // Only of holes that run against their outline is it known which corners are reflex.
+    let mut open = if rings.len() > 1 { rings_of(&region(&rings)?) } else { vec![rings] };
     let mut parts = Vec::new();
-    let least = SLIVER * open[0].iter().map(|ring| area(ring).abs()).fold(0.0, f64::max);
     while let Some(rings) = open.pop() {
         match cut_of(&rings) {
             Some(line) => open.extend(halves(&rings, line)?),
@@ -81,23 +82,27 @@ fn is_reflex([a, b, c]: [DVec2; 3]) -> bool {
 
 /// The parts on both sides of a line along an axis.
 fn halves(rings: &[Vec<DVec2>], [point, way]: [DVec2; 2]) -> Result<Vec<Vec<Vec<DVec2>>>, MeshRefusal> {
-    let refused =
-        |error: &dyn std::fmt::Display| MeshRefusal(format!("it cannot be cut in convex parts ({error})"));
-    let flat = |ring: &Vec<DVec2>| ring.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
-    let whole =
-        Region::from_rings(rings.iter().map(flat), FillRule::EvenOdd).map_err(|error| refused(&error))?;
+    let whole = region(rings)?;
     let far = 4.0 * rings.iter().flatten().map(|p| p.distance(point)).fold(0.0, f64::max);
     let mut parts = Vec::new();
     for side in [way.perp(), -way.perp()] {
         let corners =
             [point - way * far, point + way * far, point + (way + side) * far, point + (side - way) * far];
-        let half = Region::from_rings([corners.map(|p| [p.x, p.y]).to_vec()], FillRule::NonZero)
-            .map_err(|error| refused(&error))?;
-        let rings = |polygon: polycsg::Polygon<'_>| {
-            let rings = std::iter::once(polygon.outer()).chain(polygon.holes());
-            rings.map(|ring| ring.iter().map(|p| DVec2::new(p.x, p.y)).collect()).collect()
-        };
-        parts.extend(whole.intersection(&half).polygons().map(rings));
+        parts.extend(rings_of(&whole.intersection(&region(&[corners.to_vec()])?)));
     }
     Ok(parts)
+}
+
+/// What is inside an odd number of rings.
+fn region(rings: &[Vec<DVec2>]) -> Result<Region, MeshRefusal> {
+    Region::from_rings(rings, FillRule::EvenOdd)
+        .map_err(|error| MeshRefusal(format!("it cannot be cut in convex parts ({error})")))
+}
+
+/// The rings of each polygon of a region: the outline counter-clockwise, then its holes clockwise.
+fn rings_of(region: &Region) -> Vec<Vec<Vec<DVec2>>> {
+    let rings = |polygon: polycsg::Polygon<'_>| {
+        std::iter::once(polygon.outer()).chain(polygon.holes()).map(<[DVec2]>::to_vec).collect()
+    };
+    region.polygons().map(rings).collect()
 }

@@ -110,6 +110,8 @@ pub enum Kind {
     Buried,
     /// A polygon that is not planar and was split into triangles.
     NonPlanar,
+    /// A polygon that crosses itself and has no front, which was split into its lobes.
+    Crossed,
     /// A patch so thin that its coordinates' rounding is a share of its width.
     Sliver,
     /// A polygon without area, which was left out.
@@ -135,7 +137,7 @@ impl Kind {
             Kind::Duplicate => Some("removed"),
             Kind::EmitterInFace => Some("cut out"),
             Kind::Overlap | Kind::Buried => Some("cut"),
-            Kind::NonPlanar => Some("split"),
+            Kind::NonPlanar | Kind::Crossed => Some("split"),
             Kind::Sliver | Kind::NoArea => Some("left out"),
             Kind::Crack => Some("closed"),
             Kind::Dark | Kind::File | Kind::Flipped | Kind::TJunction => None,
@@ -154,6 +156,7 @@ impl Kind {
             Kind::EmitterInFace => "light from the covered part of the face counts beside the emitter's",
             Kind::Buried => "what lies within is dark",
             Kind::NonPlanar => "their triangles are a guess at the surface",
+            Kind::Crossed => "which of their sides is lit is a guess",
             Kind::Sliver => "their own light is uncertain",
             Kind::NoArea => "nothing was lost",
             Kind::Crack => "what leaks is less than rounding of the file",
@@ -174,6 +177,7 @@ impl Kind {
             Kind::Overlap => ["overlap", "overlaps"],
             Kind::Buried => ["surface partly within a solid", "surfaces partly within solids"],
             Kind::NonPlanar => ["surface that is not planar", "surfaces that are not planar"],
+            Kind::Crossed => ["surface that crosses itself", "surfaces that cross themselves"],
             Kind::Sliver => ["sliver", "slivers"],
             Kind::NoArea => ["surface with empty polygons", "surfaces with empty polygons"],
             Kind::Crack => ["crack", "cracks"],

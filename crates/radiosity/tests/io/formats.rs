@@ -156,3 +156,29 @@ fn collada_without_what_no_light_depends_on_is_read() {
         assert_eq!((scene.patches.len(), scene.cameras.len(), scene.warnings.len()), (1, 0, 1), "{optics}");
     }
 }
+
+/// A square on the ground, whatever axis points up, is on the ground when it is read again, and faces up.
+#[test]
+fn up_stays_up_in_every_format() {
+    use radiosity::glam::DVec3;
+    use radiosity::{Patch, formfactor::PlanarPolygon};
+    let folder = tempfile::tempdir().unwrap();
+    for up in [DVec3::X, DVec3::Y, DVec3::Z] {
+        let [u, v] = [DVec3::new(up.z, up.x, up.y), DVec3::new(up.y, up.z, up.x)];
+        let base = 0.1 * up;
+        let square = PlanarPolygon::new([[base, base + u, base + u + v, base + v]]).unwrap();
+        assert_eq!(square.normal(), up);
+        let patches = vec![Patch::new("ground", square, vec![0.5; 3], vec![0.0; 3])];
+        let mut scene = Scene { patches, bands: 3, ..Scene::default() };
+        scene.asset.up = up;
+        for format in ["dae", "glb", "obj", "ply", "stl"] {
+            let path = folder.path().join(format!("up.{format}"));
+            let left_out = save_scene(&scene, &path).unwrap();
+            assert!(!left_out.iter().any(|what| what.contains("up")), "{left_out:?}");
+            let again = Source::open(&path).unwrap().scene().unwrap();
+            let (polygon, up) = (&again.patches[0].polygon, again.asset.up);
+            assert!(polygon.normal().distance(up) < 1e-6, "{format}: {} is not {up}", polygon.normal());
+            assert!(polygon.loops().flatten().all(|point| (point.dot(up) - 0.1).abs() < 1e-6), "{format}");
+        }
+    }
+}

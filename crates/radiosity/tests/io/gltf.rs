@@ -349,3 +349,100 @@ fn rows_without_data_are_bounded_by_the_file() {
         assert!(message.contains("accessor 0") && message.contains("60 rows without data"), "{message}");
     }
 }
+
+/// Zeros, by the standard; the other rows are those of a sparse accessor.
+#[test]
+fn an_accessor_without_a_view_is_zeros() {
+    let mut document = square();
+    document["accessors"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({"componentType": 5126, "count": 4, "type": "VEC3"}));
+    document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(2);
+    assert_eq!(read(&document).patches.len(), 1);
+    document["accessors"][0] = json!({
+        "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0],
+        "sparse": {"count": 3, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 3}},
+    });
+    // The second to fourth of the indices, and of the corners.
+    let views = document["bufferViews"].as_array_mut().unwrap();
+    views.push(json!({"buffer": 0, "byteOffset": 50, "byteLength": 6}));
+    views.push(json!({"buffer": 0, "byteOffset": 12, "byteLength": 36}));
+    let sparse = read(&document);
+    assert!(sparse.patches.iter().any(|patch| patch.polygon.loops().flatten().any(|p| *p == DVec3::ZERO)));
+}
+
+#[test]
+fn a_file_that_needs_a_later_version_is_refused_in_a_line() {
+    let mut document = square();
+    document["asset"]["minVersion"] = json!("2.0");
+    assert_eq!(read(&document).patches.len(), 1);
+    for version in ["2.1", "3.0", "?"] {
+        document["asset"]["minVersion"] = json!(version);
+        let refused = refusal(&document);
+        assert!(
+            refused.starts_with(&format!("test.gltf: glTF {version}, the least (minVersion)")),
+            "{refused}"
+        );
+        assert_eq!(refused.lines().count(), 1);
+    }
+}
+
+/// A file and its buffer in one folder, repaired into another one.
+#[test]
+fn what_a_file_names_goes_with_it_to_another_folder() {
+    use radiosity::io::Source;
+    let folder = tempfile::tempdir().unwrap();
+    let mut document = square();
+    let address = document["buffers"][0]["uri"].as_str().unwrap().to_owned();
+    let bytes = base64_decoded(address.split_once(',').unwrap().1);
+    document["buffers"][0]["uri"] = json!("a b.bin");
+    std::fs::write(folder.path().join("a b.bin"), bytes).unwrap();
+    let path = folder.path().join("a.gltf");
+    std::fs::write(&path, document.to_string()).unwrap();
+    std::fs::create_dir(folder.path().join("other")).unwrap();
+    let source = Source::open(&path).unwrap();
+    let scene = source.scene().unwrap();
+    for (target, is_inside) in [("b.gltf", false), ("other/a.gltf", true)] {
+        let target = folder.path().join(target);
+        source.save_repaired([&scene, &scene], &|scene| scene.clone(), &target).unwrap();
+        let text = std::fs::read_to_string(&target).unwrap();
+        assert_eq!(text.contains("data:"), is_inside, "{text}");
+        assert_eq!(Source::open(&target).unwrap().scene().unwrap().patches.len(), 1);
+    }
+}
+
+fn base64_decoded(text: &str) -> Vec<u8> {
+    use ::base64::{Engine, engine::general_purpose::STANDARD};
+    STANDARD.decode(text).unwrap()
+}
+
+/// A picture over the square, twice as wide or within its rim.
+#[test]
+fn a_picture_that_is_clamped_is_noted_where_that_matters() {
+    use ::base64::{Engine, engine::general_purpose::STANDARD};
+    let picture = scenes::scene("chessboard").unwrap().patches[0].texture.clone().unwrap().image;
+    let mut document = square();
+    document["bufferViews"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({"buffer": 0, "byteOffset": 0, "byteLength": 48, "byteStride": 12}));
+    let places = json!({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"});
+    document["accessors"].as_array_mut().unwrap().push(places);
+    document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
+    document["images"] =
+        json!([{"uri": format!("data:image/png;base64,{}", STANDARD.encode(&picture.bytes))}]);
+    document["textures"] = json!([{"source": 0, "sampler": 0}]);
+    for (mode, scale, is_noted) in
+        [(10497, 2.0, false), (33071, 2.0, true), (33648, 2.0, true), (33071, 1.0, false)]
+    {
+        document["samplers"] = json!([{"wrapS": mode, "wrapT": 10497}]);
+        document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({
+            "index": 0, "extensions": {"KHR_texture_transform": {"scale": [scale, 1]}},
+        });
+        let scene = read(&document);
+        assert!(scene.patches[0].texture.is_some());
+        let noted = scene.warnings.iter().any(|note| note.what.contains("sampler clamps or mirrors"));
+        assert_eq!(noted, is_noted, "{mode} {scale}: {:?}", scene.warnings);
+    }
+}

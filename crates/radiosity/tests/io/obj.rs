@@ -114,7 +114,7 @@ fn every_fault_is_named_with_its_line() {
     for (statement, expected) in [
         ("f 1 2 5", "index 5 is out of range: there are 4"),
         ("f 1 2 0", "index 0 is out of range"),
-        ("f 1 2 -5", "index 5 is out of range"),
+        ("f 1 2 -5", "index -5 is out of range: there are 4"),
         ("f 1 2 99999999999999999999", "\"99999999999999999999\" stands where a vertex"),
         ("f 1 2 -9223372036854775808", "out of range"),
         ("f 1/1 2/1 3/1", "index 1 is out of range: there are 0"),
@@ -158,4 +158,23 @@ fn what_never_ends_is_not_read() {
         "{:?}",
         scene.warnings
     );
+}
+
+/// A hostile address is as long as the file: it is no name.
+#[test]
+fn a_fault_of_embedded_materials_is_told_without_their_bytes() {
+    let refused = refusal(&format!("mtllib data:;base64,bmV3bXRsIG0KS2QgLTEK\n{SQUARE}f 1 2 3\n"));
+    assert_eq!(refused, "test.obj:1: embedded:2: the colour -1 is negative; give 0 or more");
+}
+
+/// As programs on Windows name it, with folders that are not here.
+#[test]
+fn a_file_of_materials_is_found_by_names_of_windows() {
+    for name in [".\\a.mtl", "\"a.mtl\"", "C:\\Users\\me\\my scene\\a.mtl", "..\\gone\\a.mtl"] {
+        let text = format!("mtllib {name}\n{SQUARE}usemtl m\nf 1 2 3 4\n");
+        let (_folder, scene) = with_materials("newmtl m\nKd 0.25 0.5 0.75\n", &text);
+        let scene = scene.unwrap();
+        assert_eq!(scene.patches[0].reflectance, [0.25, 0.5, 0.75], "{name}: {:?}", scene.warnings);
+        assert!(scene.warnings.is_empty(), "{name}: {:?}", scene.warnings);
+    }
 }

@@ -106,7 +106,7 @@ fn bad_photometry_is_refused_with_its_line() {
         refused(&format!("{head}90 0\n0\n1 2\n"))
             .contains("bad.ies:4: \"0\" stands where an ascending angle")
     );
-    assert!(refused(&format!("{head}0 90\n0\n1 -2\n")).contains("bad.ies:6: the colour -2 is negative"));
+    assert!(refused(&format!("{head}0 90\n0\n1 -2\n")).contains("bad.ies:6: the intensity -2 is negative"));
     assert!(refused(&format!("{head}0 90\n45\n1 2\n")).contains("bad.ies:5"));
     assert!(refused(&head.replace(" 2 1 1 2", " 2 1 2 2")).contains("type 1 (C)"));
     assert!(refused(&head.replace(" 2 1 1 2", " 1e9 1e9 1 2")).contains("bad.ies:3"));

@@ -134,3 +134,27 @@ fn claims_of_nothing_end_at_once() {
     list.extend([0xff; 4]);
     assert!(refusal(list).contains("face 0: it is cut short"));
 }
+
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    is_square(&read(format!("\u{feff}{}", text())));
+    let source = radiosity::io::Source::from_bytes("standard input", format!("\u{feff}{}", text()));
+    is_square(&source.unwrap().scene().unwrap());
+}
+
+#[test]
+fn vertices_without_an_axis_are_refused_by_its_name() {
+    let refused = refusal(text().replace("property float z\n", "property float height\n"));
+    assert_eq!(refused, "test.ply: vertex: it has no property z; export the file again");
+}
+
+/// A square of two triangles beside one of four corners, which faces another way.
+#[test]
+fn triangles_are_joined_beside_other_faces() {
+    let header = header("ascii", "", "element face 3\nproperty list uchar int vertex_indices\n")
+        .replace("vertex 4", "vertex 6");
+    let points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n";
+    let scene = read(format!("{header}{points}3 0 1 2\n4 1 0 4 5\n3 0 2 3\n"));
+    assert_eq!(scene.patches.len(), 2);
+    assert!(scene.patches.iter().all(|patch| patch.polygon.area() == 1.0));
+}

@@ -80,6 +80,8 @@ fn a_hole_is_cut_out_whichever_way_it_turns() {
         assert_eq!(names(&scene), ["n.1", "n.2"]);
         assert_eq!(scene.patches[0].polygon.area(), 15.0);
         assert_eq!(scene.patches[1].polygon.area(), 1.0);
+        let hole = scene.patches[0].polygon.loops().nth(1).unwrap();
+        assert_eq!((hole[1] - hole[0]).cross(hole[2] - hole[1]), -DVec3::Z, "against the outline");
     }
 }
 
@@ -256,6 +258,23 @@ fn the_pieces_of_a_bent_polygon_with_a_hole_cover_it() {
     let scene = scene(&with_geometry(&bent, &node("n", "", "g")));
     let shadow: f64 = scene.patches.iter().map(|patch| patch.polygon.area() * patch.polygon.normal().z).sum();
     assert!((shadow - 15.0).abs() < 1e-12, "{shadow}");
+}
+
+/// Both lobes of a bow tie are there, also where rounding of its places leaves it no plane and a front that points anywhere.
+#[test]
+fn a_bow_tie_without_a_front_becomes_its_two_lobes() {
+    for turn in ["", "<rotate>1 2 3 40</rotate>", "<scale>1 -1 1</scale>"] {
+        let bow = geometry("g", "0 0 0 2 2 0 2 0 0 0 2 0", &polylist("g", "4", "0 1 2 3"));
+        let scene = scene(&with_geometry(&bow, &node("n", turn, "g")));
+        assert_eq!(names(&scene), ["n.1.1", "n.1.2"], "{turn}");
+        for patch in &scene.patches {
+            assert!((patch.polygon.area() - 1.0).abs() < 1e-9, "{turn}: {}", patch.polygon.area());
+            assert!(patch.polygon.normal().dot(scene.patches[0].polygon.normal()) > 0.99, "{turn}");
+        }
+        let warning = &scene.warnings[0];
+        assert_eq!((warning.kind, warning.patches.len()), (Kind::Crossed, 2), "{warning}");
+        assert!(warning.kind.matters() && warning.what.contains("crosses itself"), "{warning}");
+    }
 }
 
 #[test]

@@ -93,3 +93,24 @@ fn every_fault_is_named_with_its_place() {
     claims[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
     assert!(refusal(claims).contains("84 bytes and 50 for each triangle"));
 }
+
+#[test]
+fn capitals_and_a_byte_order_mark_are_a_text_too() {
+    for text in [text("a").to_uppercase(), format!("\u{feff}{}", text("a"))] {
+        let scene = read(text.clone());
+        assert_eq!((scene.patches.len(), scene.patches[0].polygon.area()), (1, 1.0));
+        let piped = radiosity::io::Source::from_bytes("standard input", text).unwrap().scene().unwrap();
+        assert_eq!(piped.patches.len(), 1);
+    }
+}
+
+#[test]
+fn what_holds_no_triangle_is_refused_with_the_reason() {
+    let mut cut = binary("solid of a binary file", 0);
+    cut.truncate(cut.len() - 1);
+    assert!(
+        refusal(cut)
+            .starts_with("test.stl: not STL: its bytes are no text, and it has not the length of a binary")
+    );
+    assert!(refusal("solid a\nendsolid a\n").starts_with("test.stl: not STL: it has no facet"));
+}

@@ -201,3 +201,11 @@ fn a_quadrangle_that_is_not_planar_is_two_triangles() {
     assert!(warnings[0].starts_with("line 16: roof is not planar by "), "{warnings:?}");
     assert_eq!(scene.warnings[0].patches, ["roof", "roof'"]);
 }
+
+#[test]
+fn a_text_without_a_surface_is_refused() {
+    for text in ["", "random words\n", "T a title\nF 3\nV 1 0 0 0\nEnd\n"] {
+        let refused = Vs3::from_text("test.vs3", text).scene().unwrap_err().to_string();
+        assert!(refused.starts_with("test.vs3: not View3D: it has no surface"), "{refused}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Solving by levels.
 use crate::build::{cube, patch, polygon, room, scene, solved};
-use radiosity::formfactor::{DifferentialArea, Enclosure};
+use radiosity::formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use radiosity::{Error, Method, Options, Patch, Scene, State, glam::DVec3, solve, solve_from};
 use std::ops::ControlFlow;
 
@@ -237,4 +237,34 @@ fn neighbours_share_the_vertices_on_their_edges() {
         };
         assert_eq!(mesh.vertices.iter().find(is_inside), None, "between {from} and {to}");
     }
+}
+
+/// A lamp over a plate with a hole over a floor: the standard leaves open which way holes run.
+#[test]
+fn a_hole_lets_as_much_light_through_whichever_way_it_runs() {
+    let square = |x: f64, half: f64, z: f64| {
+        [[x - half, -half, z], [x - half, half, z], [x + half, half, z], [x + half, -half, z]]
+            .map(DVec3::from)
+    };
+    let light = |is_turned: bool| {
+        let mut hole = square(0.3, 0.5, 1.0).to_vec();
+        if is_turned {
+            hole.reverse();
+        }
+        let plate = PlanarPolygon::new([square(0.0, 2.0, 1.0).to_vec(), hole]).expect("planar");
+        let mut floor = square(0.0, 2.0, 0.0).map(|corner| corner.to_array());
+        floor.reverse();
+        let lamp = square(0.0, 0.5, 2.0).map(|corner| corner.to_array());
+        let patches = vec![
+            patch("floor", &floor, 0.5, 0.0),
+            Patch::new("plate", plate, vec![0.5], vec![1.0]),
+            patch("lamp", &lamp, 0.0, 10.0),
+        ];
+        let solution = solved(&scene(patches), &options(0.01));
+        let areas: f64 = (0..solution.mesh.elements.len()).map(|element| solution.mesh.area(element)).sum();
+        assert!((areas / (16.0 + 15.0 + 1.0) - 1.0).abs() < 1e-12, "{areas}");
+        solution.patch_means(&solution.irradiance, 3)[0][0]
+    };
+    let [along, against] = [true, false].map(light);
+    assert!(along > 0.0 && (along / against - 1.0).abs() < 1e-12, "{along} {against}");
 }

@@ -79,7 +79,7 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
             return Ok(());
         };
         let colour = self.colour(kind)?;
-        let strength = self.strength(kind, colour)?;
+        let strength = self.strength(kind, colour, warnings)?;
         if strength.iter().all(|band| *band == 0.0) {
             return Ok(());
         }
@@ -134,13 +134,18 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
             .first_chunk()
             .ok_or_else(|| self.file.fault(element, Fault::Count { found: numbers.len(), wanted: 3 }))?;
         match [red, green, blue].into_iter().find(|band| *band < 0.0) {
-            Some(band) => Err(self.file.fault(element, Fault::Negative(band))),
+            Some(value) => Err(self.file.fault(element, Fault::Negative { what: "colour", value })),
             None => Ok([red, green, blue]),
         }
     }
 
     /// Its intensity in W/sr, or its irradiance in W/m², per band.
-    fn strength(&self, kind: XmlNode<'a>, colour: [f64; 3]) -> Result<Vec<f64>, FileError> {
+    fn strength(
+        &self,
+        kind: XmlNode<'a>,
+        colour: [f64; 3],
+        warnings: &mut Vec<Finding>,
+    ) -> Result<Vec<f64>, FileError> {
         if let Some(element) = own(self.instance.light).and_then(|own| child(own, "intensity")) {
             return super::spectra::values(self.file, element);
         }
@@ -148,17 +153,34 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
         let factor = match (is_sun, self.blender().is_some()) {
             (true, _) => 1.0,
             (false, true) => 1.0 / (4.0 * PI),
-            (false, false) => self.falloff(kind)?,
+            (false, false) => self.attenuation(kind, warnings)?,
         };
         Ok(colour.map(|band| band * factor).to_vec())
     }
 
-    /// What an attenuation by the square of the distance alone makes of a colour of 1.
-    fn falloff(&self, kind: XmlNode<'a>) -> Result<f64, FileError> {
-        let of = |name: &'static str, otherwise: f64| self.number(kind, name, otherwise);
-        let (constant, square) = (of("constant_attenuation", 1.0)?, of("quadratic_attenuation", 0.0)?);
-        let is_square = constant == 0.0 && square > 0.0;
-        Ok(if is_square { self.unit * self.unit / square } else { 1.0 })
+    /// What the attenuation makes of a colour of 1 at a metre. From there on light falls by the square of the distance, as all light does.
+    fn attenuation(&self, kind: XmlNode<'a>, warnings: &mut Vec<Finding>) -> Result<f64, FileError> {
+        let names = ["constant_attenuation", "linear_attenuation", "quadratic_attenuation"];
+        let is_written = names.iter().any(|name| child(kind, name).is_some());
+        let of = |index: usize, otherwise| self.not_negative(kind, names[index], otherwise);
+        let (constant, linear, square) = (of(0, 1.0)?, of(1, 0.0)?, of(2, 0.0)?);
+        let is_square = constant == 0.0 && linear == 0.0 && square > 0.0;
+        if is_written && !is_square {
+            let what = "an attenuation is not by the square of the distance alone; it is taken so, with the intensity that it has at a metre";
+            Finding::note(warnings, self.file.place(self.instance.light), what, "give a quadratic one alone");
+        }
+        let whole = constant + linear / self.unit + square / (self.unit * self.unit);
+        Ok(if whole > 0.0 { 1.0 / whole } else { 1.0 })
+    }
+
+    /// The same of a number that is not negative.
+    fn not_negative(&self, of: XmlNode<'a>, what: &'static str, otherwise: f64) -> Result<f64, FileError> {
+        let value = self.number(of, what, otherwise)?;
+        if value < 0.0 {
+            let element = child(of, what).unwrap_or(of);
+            return Err(self.file.fault(element, Fault::Negative { what: "number", value }));
+        }
+        Ok(value)
     }
 
     fn distribution(&self, kind: XmlNode<'a>) -> Result<Distribution, FileError> {
@@ -168,7 +190,11 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
         if kind.tag_name().name() != "spot" {
             return Ok(Distribution::Even);
         }
-        let angle = self.number(kind, "falloff_angle", 180.0)?.clamp(0.0, 360.0);
+        let angle = self.number(kind, "falloff_angle", 180.0)?;
+        if !(0.0..=180.0).contains(&angle) {
+            let element = child(kind, "falloff_angle").unwrap_or(kind);
+            return Err(self.file.fault(element, Fault::Angle(angle)));
+        }
         let outer = (angle / 2.0).to_radians().cos();
         Ok(Distribution::Cone(match self.blender() {
             Some(blender) => {
@@ -176,7 +202,7 @@ impl<'a, 'v> LightReader<'a, 'v, '_> {
                 Cone { exponent: 0.0, inner: outer + blend * (1.0 - outer), outer, rim: Rim::Smooth }
             }
             None => {
-                let exponent = self.number(kind, "falloff_exponent", 0.0)?.max(0.0);
+                let exponent = self.not_negative(kind, "falloff_exponent", 0.0)?;
                 Cone { exponent, inner: outer, outer, rim: Rim::Squared }
             }
         }))

@@ -162,7 +162,7 @@ fn rgb<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<[f64; 3], FileError>
     }
     let colour = [red, green, blue];
     match colour.into_iter().find(|value| *value < 0.0) {
-        Some(value) => Err(file.fault(element, Fault::Negative(value))),
+        Some(value) => Err(file.fault(element, Fault::Negative { what: "colour", value })),
         None => Ok(colour),
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn values<'a>(file: &File<'a>, element: XmlNode<'a>) -> Result<Vec<f6
         return Err(file.fault(element, Fault::Count { found: 0, wanted: 1 }));
     }
     match numbers.iter().find(|value| **value < 0.0) {
-        Some(value) => Err(file.fault(element, Fault::Negative(*value))),
+        Some(&value) => Err(file.fault(element, Fault::Negative { what: "value", value })),
         None => Ok(numbers),
     }
 }

@@ -3,7 +3,8 @@ use super::container::chunks;
 use super::prepare::prepare;
 use crate::io::error::{Fault, FileError};
 use crate::scene::finding::Finding;
-use gltf::json::Root;
+use gltf::json::{Root, validation::Validate};
+use serde::Deserialize;
 use serde_json::Value;
 
 /// A document and the bytes of its binary chunk.
@@ -30,28 +31,59 @@ pub(super) fn prepared(name: &str, bytes: &[u8], warnings: &mut Vec<Finding>) ->
 
 /// The document as the `gltf` crate has it.
 pub(super) fn check(name: &str, (document, blob): Prepared) -> Result<GltfFile, FileError> {
-    let root: Root = serde_json::from_value(document).map_err(|error| unreadable(name, error))?;
+    let root = Root::deserialize(&document).map_err(|error| unreadable(name, error))?;
     check_root(&root).map_err(|(part, fault)| FileError::Part { file: name.into(), part, fault })?;
     // What must be there was seen to; the rest is in the way of what can be read.
-    let document = gltf::Document::from_json(Root { extensions_required: Vec::new(), ..root });
-    let document = document.map_err(|error| first_fault(name, error))?;
-    Ok(GltfFile { document, blob })
+    let root = Root { extensions_required: Vec::new(), ..root };
+    let faults = faults(&root);
+    match faults.first() {
+        Some((path, fault)) => {
+            let (part, value) = found(&document, path);
+            let value = value.filter(|value| !value.is_object() && !value.is_array());
+            let value = value.map(|value| format!(" {value}").chars().take(60).collect::<String>());
+            let reason = format!("{fault}{} ({} such in all)", value.unwrap_or_default(), faults.len());
+            Err(FileError::Part { file: name.into(), part, fault: Fault::Invalid(reason) })
+        }
+        None => Ok(GltfFile { document: gltf::Document::from_json_without_validation(root), blob }),
+    }
 }
 
 fn unreadable(name: &str, error: serde_json::Error) -> FileError {
     FileError::Gltf { file: name.into(), source: Box::new(gltf::Error::Deserialize(error)) }
 }
 
-/// The first of the faults that the crate found: others may be many, and mostly follow from it.
-fn first_fault(name: &str, error: gltf::Error) -> FileError {
-    match error {
-        gltf::Error::Validation(faults) if !faults.is_empty() => {
-            let (path, fault) = &faults[0];
-            let reason = format!("{fault} ({} such in all)", faults.len());
-            FileError::Part { file: name.into(), part: path.to_string(), fault: Fault::Invalid(reason) }
+/// What the crate finds wrong, with the paths: others may be many, and mostly follow from the first. An accessor without a view is none: all
+/// its numbers are 0.
+fn faults(root: &Root) -> Vec<(String, gltf::json::validation::Error)> {
+    let mut all = Vec::new();
+    root.validate(root, gltf::json::Path::new, &mut |path, fault| {
+        let path = path().to_string();
+        let is_bare = |path: &str| {
+            path.starts_with("accessors[") && path.split_once('.').is_some_and(|(_, key)| key == "bufferView")
+        };
+        if !(fault == gltf::json::validation::Error::Missing && is_bare(&path)) {
+            all.push((path, fault));
         }
-        other => FileError::Gltf { file: name.into(), source: Box::new(other) },
+    });
+    all
+}
+
+/// The path of the crate with the keys of the file, and the value there: `extensions.khrLightsPunctual.lights[0]` of the crate is
+/// `extensions.KHR_lights_punctual.lights[0]` in it.
+fn found<'d>(document: &'d Value, path: &str) -> (String, Option<&'d Value>) {
+    let (mut keys, mut here) = (Vec::new(), Some(document));
+    for step in path.split('.') {
+        let (key, indices) = step.split_at(step.find('[').unwrap_or(step.len()));
+        let plain = |key: &str| key.replace('_', "").to_lowercase();
+        let member = here.and_then(Value::as_object);
+        let member = member.and_then(|map| map.iter().find(|(name, _)| plain(name) == plain(key)));
+        keys.push(format!("{}{indices}", member.map_or(key, |(name, _)| name.as_str())));
+        here = indices
+            .split(['[', ']'])
+            .filter_map(|index| index.parse::<usize>().ok())
+            .fold(member.map(|(_, value)| value), |list, index| list.and_then(|list| list.get(index)));
     }
+    (keys.join("."), here)
 }
 
 /// What the crate takes for granted: the version, that attributes name accessors, and that images have a source.

@@ -5,8 +5,11 @@ use crate::io::surface::finish::Finish;
 use crate::scene::{finding::Finding, texture::Image};
 use glam::{DAffine2, DVec2};
 use gltf::material::AlphaMode;
-use gltf::texture::{Info, TextureTransform};
+use gltf::texture::{Info, TextureTransform, WrappingMode};
 use std::{collections::HashMap, path::Path, sync::Arc};
+
+/// Places so far beyond a picture's rim, in shares of it, are still on the rim.
+const RIM: f64 = 1e-3;
 
 /// A material as patches need it.
 #[derive(Clone)]
@@ -16,20 +19,34 @@ pub(super) struct ReadMaterial {
     pub(super) places: u32,
     /// From these coordinates to those in the picture.
     pub(super) laid: DAffine2,
+    /// Whether the picture repeats to the right and down.
+    repeats: [bool; 2],
     pub(super) two_sided: bool,
+}
+
+impl ReadMaterial {
+    /// Whether a place is beyond the rim of a picture that does not repeat there.
+    pub(super) fn is_beyond(&self, place: DVec2) -> bool {
+        let is_outside = |at: f64| !(-RIM..=1.0 + RIM).contains(&at);
+        let outside = place.to_array().map(is_outside);
+        self.finish.image.is_some()
+            && outside.iter().zip(self.repeats).any(|(outside, repeats)| *outside && !repeats)
+    }
 }
 
 /// The materials met so far.
 pub(super) struct Materials<'f> {
     pub(super) buffers: &'f Buffers<'f>,
     pub(super) folder: Option<&'f Path>,
+    /// How many of the scene's units there are in one of what the file says that surfaces emit.
+    emitted: f64,
     known: HashMap<Option<usize>, ReadMaterial>,
     images: HashMap<usize, Option<Arc<Image>>>,
 }
 
 impl<'f> Materials<'f> {
-    pub(super) fn new(buffers: &'f Buffers<'f>, folder: Option<&'f Path>) -> Self {
-        Self { buffers, folder, known: HashMap::new(), images: HashMap::new() }
+    pub(super) fn new(buffers: &'f Buffers<'f>, folder: Option<&'f Path>, emitted: f64) -> Self {
+        Self { buffers, folder, emitted, known: HashMap::new(), images: HashMap::new() }
     }
 
     /// A material; its warnings are told when it is met first.
@@ -66,7 +83,7 @@ impl<'f> Materials<'f> {
         }
         let surface = material.pbr_metallic_roughness();
         let [red, green, blue, _] = surface.base_color_factor().map(as_written);
-        let strength = as_written(material.emissive_strength().unwrap_or(1.0));
+        let strength = self.emitted * as_written(material.emissive_strength().unwrap_or(1.0));
         let emission = material.emissive_factor().map(|band| strength * as_written(band));
         let texture = surface.base_color_texture();
         let image = texture.as_ref().and_then(|info| self.image(&info.texture().source(), warnings));
@@ -76,6 +93,7 @@ impl<'f> Materials<'f> {
         ReadMaterial {
             finish,
             places: texture.as_ref().map_or(0, places),
+            repeats: texture.as_ref().map_or([true; 2], repeats),
             laid: texture
                 .as_ref()
                 .and_then(Info::texture_transform)
@@ -109,6 +127,12 @@ impl<'f> Materials<'f> {
 /// The set of coordinates: a transform may name another one.
 fn places(info: &Info<'_>) -> u32 {
     info.texture_transform().and_then(|laid| laid.tex_coord()).unwrap_or_else(|| info.tex_coord())
+}
+
+/// Whether a picture repeats to the right and down.
+fn repeats(info: &Info<'_>) -> [bool; 2] {
+    let sampler = info.texture().sampler();
+    [sampler.wrap_s(), sampler.wrap_t()].map(|mode| mode == WrappingMode::Repeat)
 }
 
 /// Scaled, turned, moved; u to the right and v down, as KHR_texture_transform has it.

@@ -10,6 +10,7 @@ mod compose;
 mod container;
 mod dimmed;
 mod document;
+mod embedded;
 mod exposed;
 mod lights;
 mod lit;
@@ -61,6 +62,22 @@ impl Gltf {
     /// The file repaired, see [`Gltf::repaired`].
     pub(super) fn with_repaired(&self, before: &Scene, after: &Scene) -> Result<Self, FileError> {
         Ok(Self { bytes: self.repaired(before, after)?, ..self.clone() })
+    }
+
+    /// The same file for a folder: with all that it names in it, where it is from another one.
+    pub(super) fn moved_to(self, folder: &Path) -> Result<Self, FileError> {
+        let place = |folder: &Path| {
+            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            folder.canonicalize().ok()
+        };
+        let old = self.folder.as_deref().and_then(place);
+        if old.is_none() || old == place(folder) {
+            return Ok(self);
+        }
+        match embedded::embedded(&self.name, &self.bytes, self.folder.as_deref())? {
+            Some(bytes) => Ok(Self { bytes, ..self }),
+            None => Ok(self),
+        }
     }
 
     /// The extension of its kind.

@@ -48,6 +48,14 @@ fn refuse(name: &str, document: &Value) -> Result<(), FileError> {
     {
         return unread("glTF 1.0".into(), "export the scene as glTF 2.0");
     }
+    let least = &document["asset"]["minVersion"];
+    if let Some(version) = least.as_str().filter(|version| !is_read(version)) {
+        let version: String = version.chars().take(20).collect();
+        return unread(
+            format!("glTF {version}, the least (minVersion) that the file needs,"),
+            "export it as glTF 2.0",
+        );
+    }
     if is_draco(document) {
         return unread("Draco compression (KHR_draco_mesh_compression)".into(), "export without compression");
     }
@@ -65,6 +73,15 @@ fn refuse(name: &str, document: &Value) -> Result<(), FileError> {
             unread(feature, "export without it")
         }
         None => Ok(()),
+    }
+}
+
+/// Whether readers of 2.0 read what needs a version.
+fn is_read(version: &str) -> bool {
+    let (major, minor) = version.split_once('.').unwrap_or((version, "0"));
+    match (major.parse::<u32>(), minor.parse::<u32>()) {
+        (Ok(major), Ok(minor)) => (major, minor) <= (2, 0),
+        _ => false,
     }
 }
 

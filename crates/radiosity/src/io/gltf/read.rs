@@ -43,17 +43,17 @@ pub(super) fn read(
     file: &str,
     gltf: &GltfFile,
     folder: Option<&Path>,
-    warnings: Vec<Finding>,
+    mut warnings: Vec<Finding>,
 ) -> Result<(Scene, Vec<ReadPrimitive>), FileError> {
     let buffers = Buffers::load(file, gltf, folder)?;
     let mut reader = Reader {
         file,
-        materials: Materials::new(&buffers, folder),
+        materials: Materials::new(&buffers, folder, lights::of_emission(gltf, file, &mut warnings)),
         surfaces: Surfaces::in_single_precision(),
         cameras: Vec::new(),
         lamps: Vec::new(),
         suns: Vec::new(),
-        units: lights::units(&gltf.document),
+        units: lights::units(gltf),
         warnings,
         instances: 0,
         primitives: Vec::new(),
@@ -116,7 +116,7 @@ impl Reader<'_> {
             self.look(&camera, &name, world);
         }
         if let Some(light) = node.light() {
-            self.shine(&light, &name, world);
+            self.shine(&light, &name, world)?;
         }
         let Some(mesh) = node.mesh() else { return Ok(()) };
         if node.skin().is_some() || mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
@@ -131,9 +131,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn shine(&mut self, light: &gltf::khr_lights_punctual::Light<'_>, name: &str, world: DMat4) {
-        let read = LampPose::of(world).and_then(|pose| lights::read(light, name, pose, self.units));
-        match read {
+    fn shine(
+        &mut self,
+        light: &gltf::khr_lights_punctual::Light<'_>,
+        name: &str,
+        world: DMat4,
+    ) -> Result<(), FileError> {
+        let read = match LampPose::of(world) {
+            Some(pose) => lights::read(light, name, pose, &mut self.warnings),
+            None => Ok(None),
+        };
+        match read.map_err(|fault| self.fault(format!("light {}", light.index()), fault))? {
             Some(ReadLight::Lamp(lamp)) => self.lamps.push(lamp),
             Some(ReadLight::Sun(sun)) => self.suns.push(sun),
             None => {
@@ -141,6 +149,7 @@ impl Reader<'_> {
                 self.note(name, "a light without strength or direction is left out", repair);
             }
         }
+        Ok(())
     }
 
     /// The patches of a primitive.
@@ -156,6 +165,10 @@ impl Reader<'_> {
         let place = format!("{}: {part}", self.file);
         let kind = self.materials.kind(&primitive.material(), &mut self.warnings);
         let corners = self.corners(primitive, &kind)?;
+        if corners.iter().any(|corner| kind.is_beyond(corner.place)) {
+            let what = "a picture repeats where its sampler clamps or mirrors it";
+            self.note(&place, what, "keep its coordinates between 0 and 1, or let it repeat");
+        }
         let triangles = self.triangles(primitive, corners.len(), &part)?;
         let polygons: Vec<Polygon> =
             triangles.iter().map(|picks| vec![picks.map(|index| corners[index]).to_vec()]).collect();

@@ -4,6 +4,7 @@ use super::lit::{materials, primitives};
 use super::material::as_written;
 use crate::expose::Exposure;
 use crate::io::error::FileError;
+use crate::io::upright::y_up;
 use crate::record::Record;
 use crate::scene::{asset::Asset, camera::Camera};
 use glam::{DMat3, DMat4, DVec3};
@@ -73,14 +74,7 @@ fn held(place: DVec3) -> DVec3 {
 
 /// From the file's units and axes to metres with y up; right stays right where the format has a right.
 pub(super) fn upright(asset: &Asset) -> DMat4 {
-    let turn = if asset.up.z > 0.0 {
-        DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y)
-    } else if asset.up.x > 0.0 {
-        DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z)
-    } else {
-        DMat3::IDENTITY
-    };
-    DMat4::from_mat3(turn * asset.unit.clamp(SMALLEST, LARGEST))
+    DMat4::from_mat3(y_up(asset.up) * asset.unit.clamp(SMALLEST, LARGEST))
 }
 
 pub(super) fn lens(camera: &Camera, near: f64) -> Value {

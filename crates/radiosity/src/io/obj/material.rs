@@ -96,7 +96,7 @@ fn colour(statement: &Statement<'_>) -> Result<[f64; 3], Wrong> {
         _ => statement.vector()?.to_array(),
     };
     match colour.into_iter().find(|value| *value < 0.0) {
-        Some(value) => Err((statement.line, Fault::Negative(value))),
+        Some(value) => Err((statement.line, Fault::Negative { what: "colour", value })),
         None => Ok(colour),
     }
 }
@@ -123,7 +123,8 @@ fn map(statement: &Statement<'_>) -> Result<(DVec2, DVec2, String), Wrong> {
         }
         at += count;
     }
-    Ok((scale, offset, statement.words[at.min(statement.words.len())..].join(" ")))
+    let name = statement.words[at.min(statement.words.len())..].join(" ");
+    Ok((scale, offset, name.trim_matches('"').to_owned()))
 }
 
 /// Notes what would change the light and is not read.

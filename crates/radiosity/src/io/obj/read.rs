@@ -101,7 +101,7 @@ impl ObjReader<'_> {
     /// The materials of the files that a statement names; a name may hold spaces.
     fn library(&mut self, statement: &Statement<'_>) -> Result<(), Wrong> {
         let whole = statement.name();
-        let read = |name: &str| image_file::bytes(name, self.folder);
+        let read = |name: &str| image_file::bytes(name.trim_matches('"'), self.folder);
         let files: Vec<(String, Result<Vec<u8>, String>)> = match read(&whole) {
             Err(_) if statement.words.len() > 1 => {
                 statement.words.iter().map(|name| ((*name).to_owned(), read(name))).collect()
@@ -112,11 +112,12 @@ impl ObjReader<'_> {
             match bytes {
                 Ok(bytes) => {
                     let text = String::from_utf8_lossy(&bytes);
-                    let known = materials(&name, &text, self.folder, &mut self.warnings).map_err(
+                    let name = if name.starts_with("data:") { "embedded" } else { &name };
+                    let known = materials(name, &text, self.folder, &mut self.warnings).map_err(
                         |(line, fault)| {
                             (
                                 statement.line,
-                                Fault::Within { file: name.clone(), line, fault: Box::new(fault) },
+                                Fault::Within { file: name.into(), line, fault: Box::new(fault) },
                             )
                         },
                     )?;
@@ -190,7 +191,9 @@ fn pick<'r, T>(rows: &'r [T], word: &str) -> Option<Result<&'r T, Fault>> {
     let counted = usize::try_from(number.unsigned_abs()).ok()?;
     let index = if number < 0 { len.checked_sub(counted) } else { counted.checked_sub(1) };
     let row = index.and_then(|index| rows.get(index));
-    Some(row.ok_or(Fault::Index { index: counted, len }))
+    let fault =
+        if number < 0 { Fault::FromEnd { back: counted, len } } else { Fault::Index { index: counted, len } };
+    Some(row.ok_or(fault))
 }
 
 /// A polygon with its places in the material's picture, v down.

@@ -2,10 +2,11 @@
 use crate::expose::{Exposure, srgb};
 use crate::io::collada::model::{Material, Model};
 use crate::io::surface::cut;
+use crate::io::upright::y_up;
 use crate::io::words::{TOOL, decimal, list};
 use crate::record::Record;
 use crate::scene::{Scene, patch::Patch};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use std::fmt::Write;
 
 /// A scene as OBJ, and the files that go beside it.
@@ -20,17 +21,17 @@ pub struct ObjFiles {
     pub pictures: Vec<(String, Vec<u8>)>,
 }
 
-/// A scene with an object for each patch. Patches with holes are cut into triangles. The files that go beside are named after the stem.
+/// A scene, turned to y up, with an object for each patch. Patches with holes are cut into triangles. The files that go beside are named after the stem.
 #[must_use]
 pub fn text(scene: &Scene, stem: &str) -> ObjFiles {
     let model = Model::of(scene);
     let mtl_name = format!("{stem}.mtl");
     let mut obj = format!("# {TOOL}\nmtllib {mtl_name}\n");
-    let mut counts = [0, 0];
+    let (mut counts, turn) = ([0, 0], y_up(scene.asset.up));
     for (patch, face) in scene.patches.iter().zip(&model.faces) {
         // Writing to a string cannot fail.
         let _ = writeln!(obj, "o {}\nusemtl {}", patch.name, model.materials[face.material].name);
-        object(&mut obj, patch, &mut counts);
+        object(&mut obj, patch, &turn, &mut counts);
     }
     let textured = model.materials.iter().filter_map(|material| Some((material, material.texture.as_ref()?)));
     let pictures =
@@ -41,7 +42,7 @@ pub fn text(scene: &Scene, stem: &str) -> ObjFiles {
 }
 
 /// A patch's vertices and faces; `counts` are those of all vertices and places in pictures so far.
-fn object(text: &mut String, patch: &Patch, counts: &mut [usize; 2]) {
+fn object(text: &mut String, patch: &Patch, turn: &DMat3, counts: &mut [usize; 2]) {
     let outline: Vec<DVec3> = patch.polygon.loops().next().unwrap_or_default().to_vec();
     let is_whole = patch.polygon.loops().count() == 1;
     let rings: Vec<Vec<DVec3>> = match is_whole {
@@ -51,7 +52,8 @@ fn object(text: &mut String, patch: &Patch, counts: &mut [usize; 2]) {
     for ring in rings {
         let mut face = Vec::new();
         for point in &ring {
-            let _ = writeln!(text, "v {}", list(point.to_array().iter().map(decimal)));
+            let place = *turn * *point;
+            let _ = writeln!(text, "v {}", list(place.to_array().iter().map(decimal)));
             counts[0] += 1;
             if let Some(texture) = &patch.texture {
                 let DVec2 { x, y } = texture.place(*point);
@@ -83,16 +85,18 @@ fn picture_name(stem: &str, material: &Material) -> String {
     format!("{stem}-{}.{}", material.name, mime.trim_start_matches("image/"))
 }
 
-/// A lit mesh: behind each vertex's position its exposed colour in sRGB, 0 to 1, as many programs read it.
+/// A lit mesh, turned to y up: behind each vertex's position its exposed colour in sRGB, 0 to 1, as many programs read it.
 #[must_use]
 pub fn lit(record: &Record, exposure: Exposure) -> String {
     let mut text = format!("# {TOOL}: light of {}\n", record.scene.replace(['\n', '\r'], " "));
+    let turn = y_up(record.asset.up);
     for (point, colour) in record.vertices.iter().zip(record.colours()) {
+        let place = turn * *point;
         let shown = exposure.intensity(colour).map(srgb);
         let _ = writeln!(
             text,
             "v {} {}",
-            list(point.to_array().iter().map(decimal)),
+            list(place.to_array().iter().map(decimal)),
             list(shown.iter().map(|band| format!("{band:.4}")))
         );
     }

@@ -21,8 +21,8 @@ pub(super) fn table(
 ) -> Result<Photometry, LineFault> {
     ascending(heights, 180.0)?;
     ascending(azimuths, 360.0)?;
-    if let Some((line, value)) = candela.iter().find(|(_, value)| *value < 0.0) {
-        return Err((*line, Fault::Negative(*value)));
+    if let Some(&(line, value)) = candela.iter().find(|(_, value)| *value < 0.0) {
+        return Err((line, Fault::Negative { what: "intensity", value }));
     }
     let beyond = |number: &&Number| number.1 * factor > MOST || !(number.1 * factor).is_finite();
     if let Some((line, _)) = candela.iter().find(beyond) {

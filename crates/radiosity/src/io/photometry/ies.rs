@@ -73,7 +73,10 @@ impl Words {
         }
         let factor = multiplier * ballast;
         if factor < 0.0 {
-            return Err((head[2].0, Fault::Negative(factor)));
+            return Err((
+                head[2].0,
+                Fault::Negative { what: "product of multiplier and ballast", value: factor },
+            ));
         }
         let [heights, azimuths] = [count(head[3])?, count(head[4])?];
         let (gammas, planes) = (self.take(heights)?, self.take(azimuths)?);

@@ -32,7 +32,7 @@ pub(super) fn parse(text: &str) -> Result<Photometry, LineFault> {
     let (flux, conversion) = (lines.at(SETS + 1 + FLUX)?, lines.at(CONVERSION)?);
     let factor = flux.1 / 1000.0 * if conversion.1 > 0.0 { conversion.1 } else { 1.0 };
     if factor < 0.0 {
-        return Err((flux.0, Fault::Negative(flux.1)));
+        return Err((flux.0, Fault::Negative { what: "flux", value: flux.1 }));
     }
     table(&gammas, &azimuths[kept], &candela, factor, symmetry)
 }

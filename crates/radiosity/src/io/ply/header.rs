@@ -64,6 +64,17 @@ impl Header {
         Err((header.lines, Fault::Word { found: "the end of the file".into(), wanted: "end_header" }))
     }
 
+    /// Finds what faces need and the header does not have.
+    pub(super) fn check(&self) -> Result<(), (&'static str, Fault)> {
+        let named = |name: &str| self.elements.iter().find(|element| element.name == name);
+        let Some(vertex) = named("vertex").filter(|vertex| vertex.count > 0) else { return Ok(()) };
+        let has = |element: &PlyElement, name: &str| element.properties.iter().any(|one| one.name == name);
+        match ["x", "y", "z"].into_iter().find(|axis| !has(vertex, axis)) {
+            Some(axis) => Err(("vertex", Fault::Property(axis))),
+            None => Ok(()),
+        }
+    }
+
     fn read(&mut self, words: &[&str]) -> Result<(), Fault> {
         match *words {
             [] | ["ply" | "obj_info", ..] => {}

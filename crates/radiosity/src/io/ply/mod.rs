@@ -9,7 +9,7 @@
 //! ```
 //! Read: points, normals and places in the picture that a comment `TextureFile` names; the colour of a face, or the mean of its vertices'
 //! colours, as its reflectance: whole numbers are sRGB, others linear. Without a colour it is 0.5. Triangles of a plane and a colour are
-//! joined where there are no other faces. A warning tells what is not read. The format has no unit and no up axis: metres and y.
+//! joined. A warning tells what is not read. The format has no unit and no up axis: metres and y.
 //!
 //! The rows are ours to read: the libraries that we tried tell no place of a fault in one line, and misread a header that names a thing
 //! twice.
@@ -22,6 +22,7 @@ pub use write::{lit, ply};
 
 use super::error::FileError;
 use super::save::bytes_of;
+use super::words::MARK;
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -63,10 +64,11 @@ impl Ply {
     /// # Errors
     /// [`FileError::Garbled`] for bytes that are not PLY, [`FileError::Line`] and [`FileError::Part`] with the line or the row.
     pub fn scene(&self) -> Result<Scene, FileError> {
-        if !(self.bytes.starts_with(b"ply\n") || self.bytes.starts_with(b"ply\r")) {
+        let bytes = self.bytes.strip_prefix(MARK).unwrap_or(&self.bytes);
+        if !(bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")) {
             let reason = "its first line is not the word ply";
             return Err(FileError::Garbled { file: self.name.clone(), wanted: "PLY", reason });
         }
-        read::scene(&self.name, &self.bytes, self.folder.as_deref())
+        read::scene(&self.name, bytes, self.folder.as_deref())
     }
 }

@@ -1,12 +1,12 @@
-//! Vertices and faces to patches: one surface for all faces of a colour.
+//! Vertices and faces to patches: of each colour one surface for all triangles, and one for all other faces.
 use super::body::{PlyBody, whole};
 use super::header::{Header, NumberType, PlyElement, Property};
 use crate::image_file;
 use crate::io::error::{Fault, FileError};
+use crate::io::surface::facets;
 use crate::io::surface::finish::{Finish, Surface};
 use crate::io::surface::place::Surfaces;
 use crate::io::surface::polygon::{Corner, Polygon};
-use crate::io::surface::{facets, is_cut};
 use crate::scene::{Scene, finding::Finding, patch::Origin, texture::Image};
 use glam::{DMat4, DVec2};
 use std::collections::BTreeMap;
@@ -20,15 +20,16 @@ pub(super) fn scene(file: &str, bytes: &[u8], folder: Option<&Path>) -> Result<S
     let (mut warnings, mut surfaces) = (Vec::new(), Surfaces::default());
     mesh.tell(file, &mut warnings);
     let image = mesh.picture.as_ref().and_then(|name| picture(file, name, folder, &mut warnings));
-    let mut groups: BTreeMap<[u64; 3], Vec<Polygon>> = BTreeMap::new();
+    let mut groups: BTreeMap<([u64; 3], bool), Vec<Polygon>> = BTreeMap::new();
     for (polygon, colour) in mesh.polygons(file)? {
-        groups.entry(colour.map(f64::to_bits)).or_default().push(vec![polygon]);
+        let is_triangle = polygon.len() == 3;
+        groups.entry((colour.map(f64::to_bits), is_triangle)).or_default().push(vec![polygon]);
     }
-    for (primitive, (colour, polygons)) in groups.into_iter().enumerate() {
+    for (primitive, ((colour, is_cut), polygons)) in groups.into_iter().enumerate() {
         let reflectance = if image.is_some() { [1.0; 3] } else { colour.map(f64::from_bits) };
         let (material, emission) = ("".into(), [0.0; 3]);
         let finish = Finish { material, reflectance, emission, image: image.clone(), spectra: None };
-        let facets = facets(&polygons, is_cut(&polygons), image.is_some());
+        let facets = facets(&polygons, is_cut, image.is_some());
         let origin = Origin { instance: 0, primitive, polygon: 0 };
         let (name, place, world) = ("patch", file, DMat4::IDENTITY);
         let surface = Surface { name, place, facets: &facets, world, finish, two_sided: false, origin };
@@ -87,6 +88,7 @@ impl PlyMesh {
             line,
             fault,
         })?;
+        header.check().map_err(|(element, fault)| part(file, element, fault))?;
         let mut mesh = PlyMesh { picture: header.picture.clone(), ..PlyMesh::default() };
         let mut body = PlyBody::new(bytes, &header);
         for element in &header.elements {
@@ -200,7 +202,7 @@ impl PlyVertex {
 fn tint(colour: &mut [Option<f64>; 3], name: &str, kind: NumberType, number: f64) -> Result<(), Fault> {
     let Some(band) = ["red", "green", "blue"].iter().position(|known| *known == name) else { return Ok(()) };
     if number < 0.0 {
-        return Err(Fault::Negative(number));
+        return Err(Fault::Negative { what: "colour", value: number });
     }
     colour[band] = Some(match kind {
         NumberType::U8 => image_file::linear(number / 255.0),

@@ -2,13 +2,14 @@
 use crate::expose::{Exposure, srgb};
 use crate::io::collada::model::Model;
 use crate::io::surface::cut;
+use crate::io::upright::y_up;
 use crate::io::words::TOOL;
 use crate::record::Record;
 use crate::scene::{Scene, patch::Patch};
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// A scene: the reflectance of each patch, in sRGB, is the colour of its faces. Patches with holes, and those of more than 255 vertices,
+/// A scene, turned to y up: the reflectance of each patch, in sRGB, is the colour of its faces. Patches with holes, and those of more than 255 vertices,
 /// are cut into triangles. The format has no light, no textures and no names.
 #[must_use]
 pub fn ply(scene: &Scene) -> Vec<u8> {
@@ -33,8 +34,9 @@ pub fn ply(scene: &Scene) -> Vec<u8> {
         faces.len(),
         "property uchar red\nproperty uchar green\nproperty uchar blue\n",
     );
+    let turn = y_up(scene.asset.up);
     for point in points {
-        bytes.extend(point.to_array().into_iter().flat_map(f64::to_le_bytes));
+        bytes.extend((turn * point).to_array().into_iter().flat_map(f64::to_le_bytes));
     }
     for (corners, colour) in faces {
         add_face(&mut bytes, &corners);
@@ -52,14 +54,15 @@ fn rings(patch: &Patch) -> Vec<Vec<DVec3>> {
     }
 }
 
-/// A lit mesh: at each vertex the exposed colour in sRGB, and the radiosity itself, W/m², as `radiosity_red` and so on.
+/// A lit mesh, turned to y up: at each vertex the exposed colour in sRGB, and the radiosity itself, W/m², as `radiosity_red` and so on.
 #[must_use]
 pub fn lit(record: &Record, exposure: Exposure) -> Vec<u8> {
     let colours = "property uchar red\nproperty uchar green\nproperty uchar blue\n\
                    property float radiosity_red\nproperty float radiosity_green\nproperty float radiosity_blue\n";
     let mut bytes = header(record.vertices.len(), colours, record.elements.len(), "");
+    let turn = y_up(record.asset.up);
     for (point, colour) in record.vertices.iter().zip(record.colours()) {
-        bytes.extend(point.to_array().into_iter().flat_map(f64::to_le_bytes));
+        bytes.extend((turn * *point).to_array().into_iter().flat_map(f64::to_le_bytes));
         bytes.extend(exposure.intensity(colour).map(byte));
         bytes.extend(colour.into_iter().flat_map(|band| single(band).to_le_bytes()));
     }

@@ -23,6 +23,7 @@ use super::error::{Fault, FileError};
 use super::save::bytes_of;
 use super::surface::finish::{Finish, Surface};
 use super::surface::{facets, place::Surfaces};
+use super::words::MARK;
 use crate::scene::{Scene, finding::Finding, patch::Origin};
 use glam::{DMat4, DVec3};
 use solid::Solid;
@@ -84,14 +85,26 @@ impl Stl {
 
     fn solids(&self, warnings: &mut Vec<Finding>) -> Result<Vec<Solid>, FileError> {
         let (file, bytes) = (&self.name, self.bytes.as_slice());
+        let garbled = |reason| Err(FileError::Garbled { file: file.clone(), wanted: "STL", reason });
         if let Some(rows) = binary::rows(bytes) {
             return binary::solid(file, rows, warnings).map(|solid| vec![solid]);
         }
-        if bytes.trim_ascii_start().starts_with(b"solid") {
-            let solids = text::solids(&String::from_utf8_lossy(bytes));
-            return solids.map_err(|(line, fault)| FileError::Line { file: file.clone(), line, fault });
+        let text = bytes.strip_prefix(MARK).unwrap_or(bytes).trim_ascii_start();
+        if !text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
+            return garbled(
+                "it neither begins with the word solid nor has the length of a binary file, 84 bytes and 50 for each triangle",
+            );
         }
-        let reason = "it neither begins with the word solid nor has the length of a binary file, 84 bytes and 50 for each triangle";
-        Err(FileError::Garbled { file: file.clone(), wanted: "STL", reason })
+        if text.contains(&0) {
+            return garbled(
+                "its bytes are no text, and it has not the length of a binary file: it may be cut short",
+            );
+        }
+        let solids = text::solids(&String::from_utf8_lossy(text))
+            .map_err(|(line, fault)| FileError::Line { file: file.clone(), line, fault })?;
+        if solids.iter().all(|solid| solid.triangles.is_empty()) {
+            return garbled("it has no facet");
+        }
+        Ok(solids)
     }
 }

@@ -6,6 +6,8 @@ use crate::scene::finding::{Finding, Kind};
 pub(super) struct Flaws {
     /// The pieces of those that are not planar, and how far off a plane the worst of these is.
     bent: (Vec<String>, f64),
+    /// The lobes of those that cross themselves and have no front.
+    crossed: Vec<String>,
     /// Those that have no area.
     empty: Vec<String>,
 }
@@ -15,6 +17,11 @@ impl Flaws {
     pub(super) fn bend(&mut self, pieces: impl Iterator<Item = String>, distance: f64) {
         self.bent.0.extend(pieces);
         self.bent.1 = self.bent.1.max(distance);
+    }
+
+    /// A polygon crossed itself, had no front and became its lobes.
+    pub(super) fn cross(&mut self, lobes: impl Iterator<Item = String>) {
+        self.crossed.extend(lobes);
     }
 
     /// A polygon had no area.
@@ -35,6 +42,17 @@ impl Flaws {
             repair: "move the vertices into one plane, or triangulate it yourself".into(),
             places: Vec::new(),
         });
+        let crossed = (!self.crossed.is_empty()).then(|| Finding {
+            kind: Kind::Crossed,
+            what: format!(
+                "{place}: as much to the left as to the right of an outline that crosses itself; split into {} lobes, which all face \
+                 the same way",
+                self.crossed.len()
+            ),
+            patches: self.crossed,
+            repair: "give each lobe an outline of its own".into(),
+            places: Vec::new(),
+        });
         let empty = (!self.empty.is_empty()).then(|| Finding {
             kind: Kind::NoArea,
             what: format!("{place}: {} without area; left out", self.empty.len()),
@@ -42,6 +60,6 @@ impl Flaws {
             repair: "remove what has no area".into(),
             places: Vec::new(),
         });
-        bent.into_iter().chain(empty)
+        bent.into_iter().chain(crossed).chain(empty)
     }
 }

@@ -1,7 +1,8 @@
 //! What all readers do with the polygons of a file.
 //!
 //! ```text
-//! place     into the world; non-planar polygons are split, those without area left out, with a warning; patches are named
+//! place     into the world, with names
+//! planar    non-planar polygons and bow ties are split, those without area left out, with a warning
 //! flaws     what was wrong with a surface's polygons, told once
 //! merge     triangles that form a planar polygon become that polygon, when exact
 //! split     a polygon cut into triangles
@@ -17,6 +18,7 @@ mod flaws;
 pub(super) mod lamps;
 mod merge;
 pub(super) mod place;
+mod planar;
 pub(super) mod polygon;
 mod sidedness;
 pub(super) mod split;

@@ -1,7 +1,11 @@
 //! Into the world: transformed, checked, split where needed, named.
 use super::finish::{Finish, Spectra, Surface};
-use super::polygon::{Corner, Facet, Polygon, bits};
-use super::{flaws::Flaws, split::split};
+use super::polygon::{Corner, Facet, Polygon, bits, points};
+use super::{
+    flaws::Flaws,
+    planar::planar,
+    split::{newell, split},
+};
 use crate::io::error::Fault;
 use crate::plane::slack;
 use crate::scene::{
@@ -101,10 +105,11 @@ impl Surfaces {
         let number = *count;
         let (polygon, name) = (facet.number, format!("{}.{number}", surface.name));
         let loops = transformed(&facet.loops, &surface.world);
-        let pieces = planar(&loops, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
+        let rounding = self.rounding(facet, surface);
+        let pieces =
+            planar(&loops, rounding, &name, flaws).map_err(|source| Refusal::Shape { polygon, source })?;
         let is_whole = matches!(pieces.as_slice(), [(None, _)]);
         let texture = texture(&loops, facet, surface);
-        let rounding = self.rounding(facet, surface);
         let origin = Origin { polygon, ..surface.origin };
         let draft = |(piece, polygon, is_back)| {
             let patch = finished(polygon, &surface.finish, texture.clone());
@@ -204,36 +209,8 @@ fn texture(loops: &Polygon, facet: &Facet, surface: &Surface<'_>) -> Option<Text
     Some(Texture { image, factor: surface.finish.reflectance, map })
 }
 
-/// The polygon as it is, or, where it is not planar, its pieces, numbered from 1; nothing where it has no area.
-fn planar(
-    loops: &Polygon,
-    name: &str,
-    flaws: &mut Flaws,
-) -> Result<Vec<(Option<usize>, PlanarPolygon)>, formfactor::Error> {
-    let points = loops.iter().map(|ring| ring.iter().map(|corner| corner.point).collect::<Vec<_>>());
-    match PlanarPolygon::new(points) {
-        Ok(polygon) => Ok(vec![(None, polygon)]),
-        Err(formfactor::Error::NotPlanar { distance, .. }) => {
-            let triangles = split(loops).into_iter().map(|part| part.map(|corner| corner.point));
-            let pieces = triangles.filter_map(|corners| PlanarPolygon::new([corners]).ok());
-            let pieces: Vec<_> = pieces.zip(1..).map(|(piece, number)| (Some(number), piece)).collect();
-            flaws.bend((1..=pieces.len()).map(|number| format!("{name}.{number}")), distance);
-            Ok(pieces)
-        }
-        Err(
-            formfactor::Error::ZeroArea
-            | formfactor::Error::TooSmall
-            | formfactor::Error::NoLoops
-            | formfactor::Error::TooFewVertices { .. },
-        ) => {
-            flaws.empty(name);
-            Ok(Vec::new())
-        }
-        Err(other) => Err(other),
-    }
-}
-
-/// Into the world, without repeated vertices and holes of fewer than three; a mirrored solid keeps its outside outside.
+/// Into the world, without repeated vertices and holes of fewer than three; a mirrored solid keeps its outside outside, and holes run
+/// against their outline, so that the inside is to the left of every edge.
 fn transformed(loops: &Polygon, world: &DMat4) -> Polygon {
     let mirrored = world.determinant() < 0.0;
     let turn = |ring: &Vec<Corner>| {
@@ -248,7 +225,18 @@ fn transformed(loops: &Polygon, world: &DMat4) -> Polygon {
         corners
     };
     let loops = loops.iter().map(turn).enumerate();
-    loops.filter(|(index, corners)| *index == 0 || corners.len() > 2).map(|(_, corners)| corners).collect()
+    let mut loops: Polygon = loops
+        .filter(|(index, corners)| *index == 0 || corners.len() > 2)
+        .map(|(_, corners)| corners)
+        .collect();
+    if let Some((outline, holes)) = loops.split_first_mut().filter(|(outline, _)| !outline.is_empty()) {
+        let front = newell(&points(outline));
+        holes
+            .iter_mut()
+            .filter(|hole| newell(&points(hole)).dot(front) > 0.0)
+            .for_each(|hole| hole.reverse());
+    }
+    loops
 }
 
 fn moved(corner: Corner, world: &DMat4) -> Corner {

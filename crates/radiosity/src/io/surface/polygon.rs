@@ -26,6 +26,11 @@ pub(crate) struct Facet {
     pub(crate) members: Vec<usize>,
 }
 
+/// The points of a ring.
+pub(super) fn points(ring: &[Corner]) -> Vec<DVec3> {
+    ring.iter().map(|corner| corner.point).collect()
+}
+
 /// A point as a key; −0 and 0 are one.
 pub(crate) fn bits(point: DVec3) -> [u64; 3] {
     point.to_array().map(|number| (number + 0.0).to_bits())

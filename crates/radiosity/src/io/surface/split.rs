@@ -1,5 +1,5 @@
 //! A polygon cut into triangles: one that is not planar, since they always are, or one that shows a picture.
-use super::polygon::{Corner, Polygon};
+use super::polygon::{Corner, Polygon, points};
 use crate::predicates::ray_crosses;
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
@@ -9,7 +9,7 @@ use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation
 /// Where outlines cross each other, the later edge is left out of the triangulation.
 pub(crate) fn split(loops: &Polygon) -> Vec<[Corner; 3]> {
     let Some(outline) = loops.first().filter(|outline| outline.len() > 2) else { return Vec::new() };
-    let axes = kept_axes(newell(outline));
+    let axes = kept_axes(newell(&points(outline)));
     let flat = |corner: &Corner| DVec2::new(corner.point[axes[0]], corner.point[axes[1]]);
     let mut mesh = ConstrainedDelaunayTriangulation::<Vertex>::new();
     let edges: Vec<[DVec2; 2]> = loops.iter().flat_map(|ring| edges(ring, flat)).collect();
@@ -59,8 +59,9 @@ fn edges(ring: &[Corner], flat: impl Fn(&Corner) -> DVec2) -> impl Iterator<Item
     (0..ring.len()).map(move |index| [flat(&ring[index]), flat(&ring[(index + 1) % ring.len()])])
 }
 
-fn newell(ring: &[Corner]) -> DVec3 {
-    let spoke = |corner: Corner| corner.point - ring[0].point;
+/// Twice the area of a ring as a vector, which points to where the ring runs counter-clockwise.
+pub(super) fn newell(ring: &[DVec3]) -> DVec3 {
+    let spoke = |point: DVec3| point - ring[0];
     ring[1..].windows(2).map(|pair| spoke(pair[0]).cross(spoke(pair[1]))).sum()
 }
 

@@ -61,9 +61,13 @@ impl Vs3 {
     /// The scene: one band, z up (the format has no up axis).
     ///
     /// # Errors
-    /// [`FileError::Line`], with the line.
+    /// [`FileError::Line`], with the line; [`FileError::Garbled`] for a text without a surface.
     pub fn scene(&self) -> Result<Scene, FileError> {
         let Rows { surfaces, warnings, .. } = self.rows()?;
+        if surfaces.is_empty() {
+            let reason = "it has no surface, a line that begins with S";
+            return Err(FileError::Garbled { file: self.name.clone(), wanted: "View3D", reason });
+        }
         let mut scene = Scene { bands: 1, warnings, ..Scene::default() };
         scene.asset.up = DVec3::Z;
         let mut taken = HashSet::new();
@@ -98,7 +102,7 @@ impl Vs3 {
     }
 
     fn rows(&self) -> Result<Rows, FileError> {
-        Rows::parse(&self.text).map_err(|wrong| self.fault(wrong))
+        Rows::parse(self.text.trim_start_matches('\u{feff}')).map_err(|wrong| self.fault(wrong))
     }
 
     fn fault(&self, (line, fault): Wrong) -> FileError {
