@@ -135,6 +135,9 @@ fn lights_are_the_same_when_they_are_written_and_read() {
     assert_eq!(read.suns[0].irradiance, sun.irradiance);
 }
 
+/// (0, 0, 0), (1, 0, 0) and (0, 1, 0) in single precision.
+const TRIANGLE: &str = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+
 /// The scene of a document of lights alone, all at (0, 0, 5).
 fn gltf(generator: &str, lights: &Value) -> Scene {
     source(generator, lights).scene().unwrap()
@@ -181,6 +184,31 @@ fn lights_of_blender_are_candela_and_a_note_says_what_else_they_may_be() {
     let note = read.warnings[0].to_string();
     assert!(note.contains("683 lm") && note.contains("Unitless"), "{note}");
     assert!(gltf("by hand", &json!([{"type": "point", "intensity": 1}])).warnings.is_empty());
+}
+
+/// A triangle that emits, beside lights or without any.
+#[test]
+fn what_surfaces_emit_beside_lights_of_blender_is_in_their_units() {
+    let of = |generator: &str, has_lights: bool| {
+        let lights = json!({"lights": if has_lights { json!([{"type": "point"}]) } else { json!([]) }});
+        let node = if has_lights { json!({"KHR_lights_punctual": {"light": 0}}) } else { json!({}) };
+        let document = json!({
+            "asset": {"version": "2.0", "generator": generator},
+            "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0}, {"extensions": node}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            "materials": [{"emissiveFactor": [1, 0.5, 0]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": TRIANGLE}],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": lights},
+        });
+        Gltf::from_bytes("test.gltf", document.to_string()).scene().unwrap().patches[0].emission.clone()
+    };
+    assert_eq!(of("Khronos glTF Blender I/O v4.2.57", true), [683.0, 341.5, 0.0]);
+    assert_eq!(of("Khronos glTF Blender I/O v4.2.57", false), [1.0, 0.5, 0.0]);
+    assert_eq!(of("by hand", true), [1.0, 0.5, 0.0]);
 }
 
 /// The message about a light that is refused.
