@@ -15,14 +15,17 @@ mod progress;
 mod solve_outputs;
 mod steps;
 
+use crate::clashes;
 use crate::failure::Failure;
 use crate::input;
+use crate::messages::say;
 use crate::outputs::{Output, is_stream, print};
 use interrupt::{Follower, resume};
 use lights::{light, warn_of_darkness};
 use options::{Solve, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -39,6 +42,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json && arguments.output.iter().any(|path| is_stream(path)) {
         return Err(Failure::usage("--json and -o - both write to stdout; leave out one of them"));
     }
+    refuse_clashes(arguments)?;
     let (start, mut options) = (Instant::now(), options(arguments)?);
     let outputs = Output::all(&arguments.output, &arguments.format)?;
     let lights = arguments.lights.clone();
@@ -61,8 +65,17 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
         print(&figures)?;
     }
     report(scene, &solution);
-    warn_of_darkness(&solution.ledger.emitted);
+    warn_of_darkness(scene, &solution);
     Ok(follower.code(&solution))
+}
+
+/// The state that a run goes on from may be the one that it writes; all else that is read stays.
+fn refuse_clashes(arguments: &Solve) -> Result<(), Failure> {
+    let (state, resume) = (arguments.state(), arguments.resume.as_deref());
+    let results = || arguments.output.iter().chain(&arguments.steps).map(PathBuf::as_path);
+    clashes::refuse(resume, results())?;
+    let read = std::iter::once(arguments.scene.as_path()).chain(arguments.lights.files());
+    clashes::refuse(read, results().chain(state.as_deref()))
 }
 
 /// One line for people.
@@ -73,7 +86,7 @@ fn report(scene: &Scene, solution: &Solution) {
     let estimate = estimate.map_or_else(String::new, |(share, patch)| {
         format!(", light within {:.2} % (patch {patch}; an estimate)", 100.0 * share)
     });
-    eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s{estimate}");
+    say!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s{estimate}");
 }
 
 /// The largest estimated error of a patch, as a share of its mean irradiance or of 1 % of the scene's, and the patch's name.
