@@ -13,9 +13,9 @@ const ORDER: [&str; 36] = [
     "arguments",
     "commands", "commands/compare", "commands/expose", "commands/factors", "commands/factors/format", "commands/factors/npz",
     "commands/factors/matrix", "commands/factors/pairs", "commands/factors/tally",
-    "commands/factors/journal", "commands/factors/row", "commands/factors/names", "commands/inspect", "commands/patience", "commands/plot", "commands/report", "commands/scene",
+    "commands/factors/journal", "commands/factors/row", "commands/factors/names", "commands/inspect", "commands/view", "commands/patience", "commands/plot", "commands/report", "commands/scene",
     "commands/solve", "commands/solve/interrupt", "commands/solve/solve_outputs",
-    "commands/solve/progress", "commands/solve/steps", "commands/solve/options", "commands/solve/lights", "commands/view",
+    "commands/solve/progress", "commands/solve/steps", "commands/solve/options", "commands/solve/lights",
     "clashes", "outputs", "view_options", "input", "waiting", "json", "digits", "parse", "failure", "messages",
 ];
 

@@ -4,6 +4,7 @@ use serde_json::Value;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 fn radiosity(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
     let mut program = Command::new(env!("CARGO_BIN_EXE_radiosity"))
@@ -273,6 +274,94 @@ fn a_file_that_takes_longer_to_read_than_there_is_time_is_not_waited_for() {
     }
     let names: Vec<_> = std::fs::read_dir(folder.path()).expect("a folder").collect();
     assert_eq!(names.len(), 1);
+}
+
+/// Both take far longer: none of what they do before a row is found, nor rows that have not begun, goes on when the time is up.
+#[test]
+fn factors_of_a_large_scene_end_in_time() {
+    let folder = folder();
+    std::fs::write(folder.path().join("ground.obj"), ground(100)).expect("a file");
+    for more in [&["--area", "1e-3"][..], &[]] {
+        let start = Instant::now();
+        let late = radiosity(folder.path(), &[&["factors", "ground.obj", "--time", "4"], more].concat(), b"");
+        let told = String::from_utf8_lossy(&late.stderr).into_owned();
+        assert_eq!(late.status.code(), Some(4), "{more:?}: {told}");
+        assert!(start.elapsed() < Duration::from_secs(10), "{more:?}: {:?}", start.elapsed());
+        assert!(late.stdout.is_empty());
+    }
+}
+
+/// The solution comes through a pipe that nobody closes.
+#[test]
+fn view_does_not_wait_for_longer_than_there_is_time() {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_radiosity"))
+        .args(["view", "-", "--time", "0.6"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let pipe = program.stdin.take().expect("a pipe");
+    let (start, mut ended) = (Instant::now(), None);
+    while ended.is_none() && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(20));
+        ended = program.try_wait().expect("a child");
+    }
+    drop(pipe);
+    let _ = program.wait();
+    assert_eq!(ended.and_then(|status| status.code()), Some(4));
+}
+
+#[test]
+fn a_run_that_was_stopped_before_light_was_looked_for_does_not_call_the_scene_dark() {
+    let folder = folder();
+    std::fs::write(folder.path().join("ground.obj"), ground(5)).expect("a file");
+    let solve = ["solve", "ground.obj", "--method", "mesh", "--json", "--sky"];
+    let told = |more: &[&str]| {
+        let output = radiosity(folder.path(), &[&solve, more].concat(), b"");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, stopped) = told(&["uniform", "--time", "1e-9"]);
+    assert!(code == Some(4) && !stopped.contains("dark"), "{stopped}");
+    let (code, dark) = told(&["none"]);
+    assert!(code == Some(0) && dark.contains("so the scene is dark"), "{dark}");
+}
+
+/// `--emit` names a material.
+#[test]
+fn a_scene_without_materials_is_not_told_to_let_one_emit() {
+    let folder = folder();
+    let text = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    std::fs::write(folder.path().join("a.stl"), text).expect("a file");
+    let face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wall\nf 1 2 3\n";
+    std::fs::write(folder.path().join("a.obj"), format!("mtllib a.mtl\n{face}")).expect("a file");
+    std::fs::write(folder.path().join("a.mtl"), "newmtl wall\nKd 0.5 0.5 0.5\n").expect("a file");
+    // Names a material that is nowhere.
+    std::fs::write(folder.path().join("b.obj"), face).expect("a file");
+    for (name, has_materials) in [("a.stl", false), ("a.obj", true), ("b.obj", false)] {
+        for more in
+            [&["solve", name, "--json"][..], &["solve", name, "--json", "--sky", "none"], &["inspect", name]]
+        {
+            let output = radiosity(folder.path(), more, b"");
+            let told = [&output.stderr[..], &output.stdout].concat();
+            let told = String::from_utf8_lossy(&told).into_owned();
+            done(output);
+            assert_eq!(told.contains("--emit"), has_materials, "{more:?}: {told}");
+            assert!(told.contains("--sky"), "{more:?}: {told}");
+        }
+    }
+}
+
+/// What is shown is cut further than what is solved for; the page and the JSON count the pieces.
+#[test]
+fn the_last_line_counts_elements_as_the_page_does() {
+    let folder = folder();
+    done(radiosity(folder.path(), &["scene", "cornell-box", "-o", "box.dae"], b""));
+    let output = radiosity(folder.path(), &["solve", "box.dae", "--quality", "draft", "--json"], b"");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let figures: Value = serde_json::from_slice(&done(output)).expect("JSON");
+    let shown = figures["elements"].as_u64().expect("a number");
+    assert!(told.contains(&format!(" elements shown as {shown}, ")), "{told}");
 }
 
 #[test]

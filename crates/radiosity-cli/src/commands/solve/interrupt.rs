@@ -91,29 +91,25 @@ impl<'o> Follower<'o> {
         if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Ends the following: the state of a run that was stopped is saved; after a full run states of this run or an earlier one are
-    /// removed. A run without a solution leaves what there is.
+    /// Ends the following: the state of a run that was stopped is saved. A run without a solution leaves what there is.
     pub(super) fn end(&mut self, state: &State, solution: Option<&Solution>) -> Result<(), Failure> {
         self.bar.clear();
         if let Some(failure) = self.failure.take() {
             return Err(failure);
         }
-        match solution {
-            Some(solution) if !solution.converged => self.save(state)?,
-            Some(_) => self.remove_states()?,
-            None => {}
+        if solution.is_some_and(|solution| !solution.converged) {
+            self.save(state)?;
         }
         self.steps.save()
     }
 
-    /// Removes what nobody will go on from: the states beside the outputs, and, where there are any, the one that this run went on from.
-    fn remove_states(&self) -> Result<(), Failure> {
+    /// After a full run whose result is written, removes what nobody will go on from: the states beside the outputs, and, where there are
+    /// any, the one that this run went on from.
+    pub(super) fn remove_states(&self, solution: &Solution) -> Result<(), Failure> {
         let Solve { output, resume, .. } = self.outputs.arguments;
-        let states = output
-            .iter()
-            .filter_map(|path| state_beside(path))
-            .chain(resume.clone().filter(|_| self.state.is_some()));
-        states.filter(|path| is_state(path)).try_for_each(|path| {
+        let beside = output.iter().filter_map(|path| state_beside(path));
+        let states = beside.chain(resume.clone().filter(|_| self.state.is_some()));
+        states.filter(|path| solution.converged && is_state(path)).try_for_each(|path| {
             let refused =
                 |error| Failure::internal(format!("{}: cannot be removed: {error}", path.display()));
             std::fs::remove_file(&path).map_err(refused)
