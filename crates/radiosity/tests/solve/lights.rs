@@ -204,7 +204,7 @@ fn a_sealed_room_is_dark_under_any_sky_and_costs_nothing() {
     let sealed = scene(room([0., 0., 0.], [4., 3., 2.5], 1, 0.5, 0.0));
     let sealed = Scene { asset: Asset { up: DVec3::Y, unit: 1.0 }, ..sealed };
     for kind in [SkyKind::Uniform, SkyKind::Overcast] {
-        let options = Options { method: Method::Mesh, elements: 3000, ..Options::default() };
+        let options = Options { method: Method::Mesh, ..Options::default() };
         let solution = solved(&under(kind, sealed.clone()), &options);
         assert!(solution.converged && solution.ledger.emitted == [0.0], "{:?}", solution.ledger.emitted);
         assert_eq!(solution.shots, 0);
