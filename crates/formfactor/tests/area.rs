@@ -260,6 +260,15 @@ fn a_bad_tolerance_is_refused_and_a_cancelled_matrix_is_none() {
 }
 
 #[test]
+fn a_stop_holds_for_pairs_that_take_no_evaluation() {
+    let room = squares(None);
+    assert_eq!(room.area_form_factor(0, 1, 1e-9, &Limits::default()).unwrap().unwrap().evaluations, 0);
+    let stopped = Limits { stop: &|| true, ..Limits::default() };
+    assert_eq!(room.area_form_factor(0, 1, 1e-9, &stopped), Ok(None));
+    assert_eq!(room.exchange_row(0, 1e-9, &stopped), Ok(None));
+}
+
+#[test]
 fn many_points_see_what_each_sees() {
     // With one thing in between, and with many.
     let lidded = squares(Some(rectangle([0.3, 0.7], [0.2, 0.9], 0.35)));

@@ -7,10 +7,11 @@ use crate::commands::overlay::{self, Overlay};
 use crate::commands::repair::{self, Repair};
 use crate::commands::validate::{self, Validate};
 use crate::failure::Failure;
+use crate::input::warn;
 use crate::interrupt::Interrupt;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use std::process::ExitCode;
+use std::{num::NonZero, process::ExitCode};
 
 /// Exact overlay, dissolve, clip and repair of the polygons in files.
 ///
@@ -24,10 +25,13 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// Number of threads; the result does not depend on it [default: one per core]
+    /// Number of threads, at most 8 per core; the result does not depend on it [default: one per core]
     #[arg(short = 'j', long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 }
+
+/// Results are the same for any number of threads: whoever tries that on few cores gets more threads than these.
+const PER_CORE: usize = 8;
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -54,7 +58,7 @@ enum Command {
 /// Runs the command.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let interrupt = Interrupt::listen()?;
-    let threads = arguments.threads.map_or(0, usize::from);
+    let threads = arguments.threads.map_or(0, |threads| few(threads.into()));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool =
         pool.map_err(|error| Failure::File(format!("the threads cannot be started: {error}; try -j 1")))?;
@@ -69,6 +73,15 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     });
     // What is stopped may fail in many ways.
     if interrupt.is_set() && result.is_err() { Err(Failure::Interrupted) } else { result }
+}
+
+/// So many threads, but no more than the machine has use for: thousands take longer to start than most runs.
+fn few(threads: usize) -> usize {
+    let most = PER_CORE * std::thread::available_parallelism().map_or(1, NonZero::get);
+    if threads > most {
+        warn(format_args!("-j {threads} is more than {PER_CORE} threads per core; {most} are started"));
+    }
+    threads.min(most)
 }
 
 /// Prints a shell's completions.

@@ -1,4 +1,5 @@
 //! What went wrong, and the exit code that says so.
+use crate::messages::say;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -39,7 +40,7 @@ impl Failure {
             Failure::Data(message) => (3, message.as_str()),
             Failure::Interrupted => (130, "stopped by Ctrl-C or a signal; nothing was written"),
         };
-        eprintln!("error: {message}");
+        say!("error: {message}");
         ExitCode::from(code)
     }
 }

@@ -1,6 +1,7 @@
 //! Files and stdin to read from, and what is said of them.
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::messages::say;
 use crate::progress::Progress;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};
@@ -103,5 +104,5 @@ impl<R: Read> Read for Watched<R> {
 
 /// Says on stderr what a user should know, though the command goes on.
 pub(crate) fn warn(message: impl std::fmt::Display) {
-    eprintln!("warning: {message}");
+    say!("warning: {message}");
 }

@@ -10,8 +10,10 @@
 //! progress      bars on a terminal
 //! layer         features in batches, their columns, and the system of their coordinates
 //! interrupt     Ctrl-C
+//! messages      what is said on stderr
 //! failure       what went wrong, and the exit code that says so
 //! ```
+#![deny(clippy::print_stderr, reason = "it panics where stderr is closed or full; `say!` does not")]
 use clap::Parser;
 use std::process::ExitCode;
 
@@ -25,6 +27,7 @@ pub mod fuzzing;
 mod input;
 mod interrupt;
 mod layer;
+mod messages;
 mod operands;
 mod output;
 mod progress;

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 45] = [
+const ORDER: [&str; 46] = [
     "fuzzing",
     "arguments",
     "commands", "commands/overlay", "commands/pairs", "commands/dissolve", "commands/clip", "commands/repair",
@@ -24,7 +24,7 @@ const ORDER: [&str; 45] = [
     "formats/lines", "formats/wkb", "formats/values", "formats/writer", "formats/reader",
     "input", "output", "progress",
     "layer", "layer/columns", "layer/batch", "layer/crs", "layer/areas",
-    "interrupt", "failure",
+    "interrupt", "failure", "messages",
 ];
 
 fn package() -> &'static Path {

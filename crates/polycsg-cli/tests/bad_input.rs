@@ -313,3 +313,30 @@ fn ctrl_c_ends_it_and_leaves_nothing() {
     assert_eq!(code(&output), 130, "{}", stderr(&output));
     assert_eq!(folder.names(), Vec::<String>::new());
 }
+
+#[test]
+fn more_threads_than_a_machine_has_use_for_are_not_started() {
+    let folder = Folder::new();
+    let file = folder.put("a.wkt", "POLYGON ((0 0, 1 0, 1 1, 0 0))\n");
+    let output = polycsg(&["-j", "60000", "area", &file]);
+    assert!(stderr(&output).contains("-j 60000"));
+    assert_eq!(code(&output), 0);
+}
+
+/// Messages go to a full disk, or nowhere: the output is written, and the exit code is that of the command.
+#[cfg(target_os = "linux")]
+#[test]
+fn messages_that_cannot_be_written_cost_nothing() {
+    let folder = Folder::new();
+    let file = folder.put("a.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1, 0 0))\n");
+    let out = folder.path("out.wkt");
+    for (command, code) in [("validate \"$1\"", 4), ("repair \"$1\" -o \"$2\"", 0), ("area \"$1.none\"", 1)] {
+        for stderr in ["2> /dev/full", "2>&-"] {
+            let script = format!("exec \"$0\" {command} {stderr}");
+            let run =
+                Command::new("sh").args(["-c", &script, env!("CARGO_BIN_EXE_polycsg"), &file, &out]).status();
+            assert_eq!(run.expect("a shell").code(), Some(code), "{command} {stderr}");
+        }
+    }
+    assert!(std::fs::read_to_string(&out).expect("written").contains("POLYGON"));
+}

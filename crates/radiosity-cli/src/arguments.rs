@@ -9,9 +9,11 @@ use crate::commands::scene::{self, BuiltIn};
 use crate::commands::solve::{self, options::Solve};
 use crate::commands::view::{self, View};
 use crate::failure::Failure;
+use crate::messages::say;
 use crate::outputs::print;
-use clap::{Arg, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
+use std::ffi::{OsStr, OsString};
 use std::{num::NonZero, process::ExitCode};
 
 /// The diffuse light of a scene, by radiosity with exact form factors.
@@ -61,26 +63,48 @@ enum Task {
 }
 
 impl Arguments {
-    /// The arguments of this run. A number below zero is a value of the option before it, which can then say what it wants.
+    /// The arguments of this run. What begins like a number below zero is a value of the option before it, which can then say what it wants.
     pub(crate) fn of_this_run() -> Arguments {
-        let matches = with_negative_numbers(Arguments::command()).get_matches();
-        Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        Arguments::parse_from(with_negative_values(std::env::args_os()))
     }
 }
 
-fn with_negative_numbers(command: Command) -> Command {
-    let takes = |arg: Arg| match arg.get_action().takes_values() && !arg.is_positional() {
-        true => arg.allow_negative_numbers(true),
-        false => arg,
-    };
-    command.mut_args(takes).mut_subcommands(with_negative_numbers)
+/// `--error -1%` as `--error=-1%`, which is not taken for an option.
+fn with_negative_values(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut joined: Vec<OsString> = Vec::new();
+    for word in words {
+        match joined.last_mut().filter(|last| is_negative(&word) && is_option(last)) {
+            Some(option) => {
+                option.push("=");
+                option.push(word);
+            }
+            None => joined.push(word),
+        }
+    }
+    joined
+}
+
+fn is_negative(word: &OsStr) -> bool {
+    let number = word.to_str().and_then(|word| word.strip_prefix('-'));
+    let begins = |text: &str| text.starts_with(|first: char| first.is_ascii_digit() || first == '.');
+    number.is_some_and(|text| begins(text) || text.parse::<f64>().is_ok())
+}
+
+/// Whether a word is an option alone, which may want the next one: `--time` or `-k`.
+fn is_option(word: &OsStr) -> bool {
+    let Some(name) = word.to_str().and_then(|word| word.strip_prefix('-')) else { return false };
+    match name.strip_prefix('-') {
+        Some(long) => !long.is_empty() && !long.contains('='),
+        None => name.chars().count() == 1,
+    }
 }
 
 /// Runs the command; the exit code is 0, 4 when a solution was stopped early, or 5 when two differ too much.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     let threads = arguments.threads.map_or(0, |threads| few(threads.into()));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::threads)?;
-    pool.install(|| match arguments.command {
+    // For threads outside of the pool, too: those that are waited for.
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Failure::threads)?;
+    match arguments.command {
         Task::Solve(arguments) => solve::run(&arguments),
         Task::Expose(arguments) => expose::run(&arguments),
         Task::View(arguments) => view::run(&arguments),
@@ -91,14 +115,14 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Task::Report(arguments) => report::run(&arguments),
         Task::Scene(arguments) => scene::run(&arguments),
         Task::Completions { shell } => completions(shell),
-    })
+    }
 }
 
 /// So many threads, but no more than the machine has use for: thousands take longer to start than most runs.
 fn few(threads: usize) -> usize {
     let most = PER_CORE * std::thread::available_parallelism().map_or(1, NonZero::get);
     if threads > most {
-        eprintln!("warning: -j {threads} is more than {PER_CORE} threads per core; {most} are started");
+        say!("warning: -j {threads} is more than {PER_CORE} threads per core; {most} are started");
     }
     threads.min(most)
 }

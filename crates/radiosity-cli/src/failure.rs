@@ -1,4 +1,5 @@
 //! What went wrong, and the exit code that says so.
+use crate::messages::say;
 use radiosity::io::FileError;
 use std::process::ExitCode;
 
@@ -30,15 +31,15 @@ impl Failure {
         Failure::internal(format!("the threads cannot be started: {}; try -j 1", error.to_string()))
     }
 
-    /// The time was up before a scene was read: exit code 4.
-    pub(crate) fn unread() -> Failure {
-        let message = "the time was up before the scene was read; allow more seconds, or take a part of it";
-        Failure { code: 4, message: message.into() }
+    /// The time was up before something was done: exit code 4.
+    pub(crate) fn late(undone: &str) -> Failure {
+        let message = format!("the time was up before {undone}; allow more seconds, or take a part of it");
+        Failure { code: 4, message }
     }
 
     /// Prints the message on stderr; gives the exit code.
     pub(crate) fn report(&self) -> ExitCode {
-        eprintln!("error: {}", self.message);
+        say!("error: {}", self.message);
         ExitCode::from(self.code)
     }
 }

@@ -1,5 +1,6 @@
 //! Scenes and solutions from files, or from standard input.
 use crate::failure::Failure;
+use crate::messages::say;
 use crate::waiting::wait;
 use clap::Args;
 use radiosity::inspect::{Finding, KindSummary, in_one_line, summary};
@@ -9,6 +10,9 @@ use std::{io::Read, path::Path};
 
 /// The name that stands for standard input and output.
 pub(crate) const STREAM: &str = "-";
+
+/// What is not there when the time is up.
+const UNREAD: &str = "the scene was read";
 
 /// How scenes are read for a solution.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -53,7 +57,7 @@ pub(crate) fn read_repaired(
         light(&mut scene)?;
         Ok((repair(&reading.sides.of(&scene)), source))
     };
-    let (Repaired { scene, repairs, .. }, source) = wait(work, is_late)?;
+    let (Repaired { scene, repairs, .. }, source) = wait(work, is_late, UNREAD)?;
     if reading.strict && !repairs.is_empty() {
         return Err(refusal(path, &repairs));
     }
@@ -61,7 +65,7 @@ pub(crate) fn read_repaired(
     tell(path, &notes.collect::<Vec<_>>());
     let repairs = summary(&repairs);
     if !repairs.is_empty() {
-        eprintln!("warning: repaired: {}; inspect lists them, --strict refuses them", counts(&repairs));
+        say!("warning: repaired: {}; inspect lists them, --strict refuses them", counts(&repairs));
     }
     Ok(RepairedInput { scene, source, repairs })
 }
@@ -79,7 +83,7 @@ fn tell(path: &Path, notes: &[Finding]) {
             [_] => String::new(),
             _ => format!("; `radiosity inspect {}` says where, and what to do", path.display()),
         };
-        eprintln!("warning: {line}{more}");
+        say!("warning: {line}{more}");
     }
 }
 
@@ -136,7 +140,7 @@ pub(crate) fn read_quietly<T: Send + 'static>(
         let made = more(&scene);
         Ok((scene, source, made))
     };
-    wait(work, is_late)
+    wait(work, is_late, UNREAD)
 }
 
 fn scene_and_source(path: &Path) -> Result<(Scene, Source), Failure> {

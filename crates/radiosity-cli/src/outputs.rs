@@ -98,7 +98,12 @@ impl Output {
 
     /// Writes the file, whole or not at all.
     pub(crate) fn write(&self, contents: &Contents<'_>) -> Result<(), Failure> {
-        let bytes = match self.kind {
+        save(&self.path, &self.bytes(contents)?)
+    }
+
+    /// What the file will hold.
+    pub(crate) fn bytes(&self, contents: &Contents<'_>) -> Result<Vec<u8>, Failure> {
+        Ok(match self.kind {
             FileKind::Picture => contents.picture()?,
             FileKind::Linear(format) => contents.linear_picture(format)?,
             FileKind::Collada => contents.collada()?,
@@ -109,8 +114,7 @@ impl Output {
             FileKind::Ply => ply::lit(contents.record, contents.exposure()?),
             FileKind::Patches => patch_table(contents.record).into_bytes(),
             FileKind::Elements => element_table(contents.record).into_bytes(),
-        };
-        save(&self.path, &bytes)
+        })
     }
 }
 
@@ -174,7 +178,6 @@ impl Contents<'_> {
 
 /// Refuses a path that is a folder, or whose folder is missing or takes no files.
 pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let refused =
         |reason: String| Failure::internal(format!("{}: cannot be written: {reason}", path.display()));
     if path.is_dir() {
@@ -183,10 +186,15 @@ pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
     if is_stream(path) || (path.exists() && !path.is_file()) {
         return Ok(());
     }
-    match tempfile::tempfile_in(folder) {
+    match tempfile::tempfile_in(folder(path)) {
         Ok(_) => Ok(()),
         Err(error) => Err(refused(format!("{error}; check the folder and its permissions"))),
     }
+}
+
+/// The folder of a file.
+pub(crate) fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Prints text on stdout.

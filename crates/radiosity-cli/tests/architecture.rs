@@ -9,14 +9,14 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 34] = [
+const ORDER: [&str; 36] = [
     "arguments",
     "commands", "commands/compare", "commands/expose", "commands/factors", "commands/factors/format", "commands/factors/npz",
     "commands/factors/matrix", "commands/factors/pairs", "commands/factors/tally",
-    "commands/factors/journal", "commands/factors/row", "commands/factors/names", "commands/inspect", "commands/patience", "commands/plot", "commands/report", "commands/scene",
+    "commands/factors/journal", "commands/factors/row", "commands/factors/names", "commands/inspect", "commands/view", "commands/patience", "commands/plot", "commands/report", "commands/scene",
     "commands/solve", "commands/solve/interrupt", "commands/solve/solve_outputs",
-    "commands/solve/progress", "commands/solve/steps", "commands/solve/options", "commands/solve/lights", "commands/view",
-    "outputs", "view_options", "input", "waiting", "json", "digits", "parse", "failure",
+    "commands/solve/progress", "commands/solve/steps", "commands/solve/options", "commands/solve/lights",
+    "clashes", "outputs", "view_options", "input", "waiting", "json", "digits", "parse", "failure", "messages",
 ];
 
 fn package() -> &'static Path {

@@ -264,7 +264,6 @@ fn what_cannot_be_done_is_refused_by_name() {
         (&["--area", "1e-3", "--format", "npz"], "-o FILE.npz"),
         (&["--area", "1e-3", "--group", "floor,wall"], "no patch is named wall"),
         (&["--area", "1e-3", "--drop-below", "0"], "above 0"),
-        (&["--time", "3"], "--area"),
     ] {
         let (code, stderr) = refused(ROOM, arguments);
         assert_eq!(code, Some(2), "{arguments:?}");

@@ -4,6 +4,7 @@ use serde_json::Value;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 fn radiosity(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
     let mut program = Command::new(env!("CARGO_BIN_EXE_radiosity"))
@@ -118,6 +119,10 @@ fn a_number_below_zero_is_a_value() {
         ["solve", "a.dae", "--json", "--elements", "-5"],
         ["expose", "a.json", "-oa.png", "-k", "-2"],
         ["factors", "a.dae", "--json", "--area", "-1"],
+        ["solve", "a.dae", "--json", "--error", "-1%"],
+        ["solve", "a.dae", "--json", "--sky", "-.5,"],
+        ["solve", "a.dae", "--json", "--time", "-inf"],
+        ["solve", "a.dae", "--json", "-k", "-1x"],
     ] {
         let message = refused(&run(&arguments));
         assert!(message.contains(&format!("invalid value '{}'", arguments[4])), "{message}");
@@ -141,6 +146,45 @@ fn a_full_run_leaves_no_state() {
     std::fs::write(&state, "my notes").expect("a file");
     done(run(&["solve", "wall.dae", "--method", "shoot", "-o", "a.json"]));
     assert_eq!(std::fs::read(&state).expect("still there"), b"my notes");
+}
+
+/// Named beside the first output of the run that was stopped; the run that goes on names others, or in another order.
+#[test]
+fn a_full_run_leaves_no_state_whatever_its_outputs_are_called() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    let names = |end: &str| {
+        let all = std::fs::read_dir(folder.path()).expect("a folder");
+        all.filter(|entry| entry.as_ref().expect("an entry").file_name().to_string_lossy().ends_with(end))
+            .count()
+    };
+    done(run(&["scene", "wall", "-o", "wall.dae"]));
+    let solve = |more: &[&str]| run(&[&["solve", "wall.dae", "--method", "shoot"], more].concat());
+    let stop =
+        || assert_eq!(solve(&["--max-shots", "1", "-o", "a.json", "-o", "a.png"]).status.code(), Some(4));
+    for more in [&["-o", "a.png", "-o", "a.json"][..], &["--resume", "a.json.state", "-o", "b.json"]] {
+        stop();
+        assert_eq!(names(".state"), 1);
+        done(solve(more));
+        assert_eq!(names(".state"), 0, "{more:?}");
+    }
+    stop();
+    done(solve(&["--resume", "a.json.state", "--json"]));
+    assert_eq!(names(".state"), 1, "a run that writes no file takes none away");
+}
+
+#[test]
+fn a_stopped_run_without_a_file_says_that_it_cannot_go_on() {
+    let folder = folder();
+    let scene = done(radiosity(folder.path(), &["scene", "wall"], b""));
+    let solve = ["solve", "-", "--method", "shoot", "--max-shots", "1"];
+    for (output, is_lost) in [(&["--json"][..], true), (&["-o", "-"], true), (&["-o", "a.json"], false)] {
+        let stopped = radiosity(folder.path(), &[&solve, output].concat(), &scene);
+        assert_eq!(stopped.status.code(), Some(4));
+        let told = String::from_utf8_lossy(&stopped.stderr).into_owned();
+        assert_eq!(told.contains("no state was written"), is_lost, "{told}");
+        assert_eq!(told.contains("continue with --resume a.json.state"), !is_lost, "{told}");
+    }
 }
 
 #[test]
@@ -232,6 +276,94 @@ fn a_file_that_takes_longer_to_read_than_there_is_time_is_not_waited_for() {
     assert_eq!(names.len(), 1);
 }
 
+/// Both take far longer: none of what they do before a row is found, nor rows that have not begun, goes on when the time is up.
+#[test]
+fn factors_of_a_large_scene_end_in_time() {
+    let folder = folder();
+    std::fs::write(folder.path().join("ground.obj"), ground(100)).expect("a file");
+    for more in [&["--area", "1e-3"][..], &[]] {
+        let start = Instant::now();
+        let late = radiosity(folder.path(), &[&["factors", "ground.obj", "--time", "4"], more].concat(), b"");
+        let told = String::from_utf8_lossy(&late.stderr).into_owned();
+        assert_eq!(late.status.code(), Some(4), "{more:?}: {told}");
+        assert!(start.elapsed() < Duration::from_secs(10), "{more:?}: {:?}", start.elapsed());
+        assert!(late.stdout.is_empty());
+    }
+}
+
+/// The solution comes through a pipe that nobody closes.
+#[test]
+fn view_does_not_wait_for_longer_than_there_is_time() {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_radiosity"))
+        .args(["view", "-", "--time", "0.6"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let pipe = program.stdin.take().expect("a pipe");
+    let (start, mut ended) = (Instant::now(), None);
+    while ended.is_none() && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(20));
+        ended = program.try_wait().expect("a child");
+    }
+    drop(pipe);
+    let _ = program.wait();
+    assert_eq!(ended.and_then(|status| status.code()), Some(4));
+}
+
+#[test]
+fn a_run_that_was_stopped_before_light_was_looked_for_does_not_call_the_scene_dark() {
+    let folder = folder();
+    std::fs::write(folder.path().join("ground.obj"), ground(5)).expect("a file");
+    let solve = ["solve", "ground.obj", "--method", "mesh", "--json", "--sky"];
+    let told = |more: &[&str]| {
+        let output = radiosity(folder.path(), &[&solve, more].concat(), b"");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, stopped) = told(&["uniform", "--time", "1e-9"]);
+    assert!(code == Some(4) && !stopped.contains("dark"), "{stopped}");
+    let (code, dark) = told(&["none"]);
+    assert!(code == Some(0) && dark.contains("so the scene is dark"), "{dark}");
+}
+
+/// `--emit` names a material.
+#[test]
+fn a_scene_without_materials_is_not_told_to_let_one_emit() {
+    let folder = folder();
+    let text = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    std::fs::write(folder.path().join("a.stl"), text).expect("a file");
+    let face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wall\nf 1 2 3\n";
+    std::fs::write(folder.path().join("a.obj"), format!("mtllib a.mtl\n{face}")).expect("a file");
+    std::fs::write(folder.path().join("a.mtl"), "newmtl wall\nKd 0.5 0.5 0.5\n").expect("a file");
+    // Names a material that is nowhere.
+    std::fs::write(folder.path().join("b.obj"), face).expect("a file");
+    for (name, has_materials) in [("a.stl", false), ("a.obj", true), ("b.obj", false)] {
+        for more in
+            [&["solve", name, "--json"][..], &["solve", name, "--json", "--sky", "none"], &["inspect", name]]
+        {
+            let output = radiosity(folder.path(), more, b"");
+            let told = [&output.stderr[..], &output.stdout].concat();
+            let told = String::from_utf8_lossy(&told).into_owned();
+            done(output);
+            assert_eq!(told.contains("--emit"), has_materials, "{more:?}: {told}");
+            assert!(told.contains("--sky"), "{more:?}: {told}");
+        }
+    }
+}
+
+/// What is shown is cut further than what is solved for; the page and the JSON count the pieces.
+#[test]
+fn the_last_line_counts_elements_as_the_page_does() {
+    let folder = folder();
+    done(radiosity(folder.path(), &["scene", "cornell-box", "-o", "box.dae"], b""));
+    let output = radiosity(folder.path(), &["solve", "box.dae", "--quality", "draft", "--json"], b"");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let figures: Value = serde_json::from_slice(&done(output)).expect("JSON");
+    let shown = figures["elements"].as_u64().expect("a number");
+    assert!(told.contains(&format!(" elements shown as {shown}, ")), "{told}");
+}
+
 #[test]
 fn more_threads_than_a_machine_has_use_for_are_not_started() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -250,4 +382,123 @@ fn a_mark_before_the_text_of_obj_and_mtl_loses_nothing() {
     let output = done(radiosity(folder.path(), &["inspect", "a.obj"], b""));
     let text = String::from_utf8_lossy(&output);
     assert!(text.lines().any(|line| line.starts_with("emitter")), "{text}");
+}
+
+/// What stands in the files before and after.
+fn unchanged(folder: &Path, files: &[&str], arguments: &[&str]) -> String {
+    let read =
+        || files.iter().map(|file| std::fs::read(folder.join(file)).expect("a file")).collect::<Vec<_>>();
+    let count = || std::fs::read_dir(folder).expect("a folder").count();
+    let before = (read(), count());
+    let message = refused(&radiosity(folder, arguments, b""));
+    assert!(before == (read(), count()), "{arguments:?}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    message
+}
+
+#[cfg(unix)]
+#[test]
+fn an_output_that_is_an_input_is_refused() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    for name in ["a.dae", "a.obj", "a.glb"] {
+        done(run(&["scene", "wall", "-o", name]));
+        std::os::unix::fs::symlink(name, folder.path().join(format!("to-{name}"))).expect("a link");
+    }
+    done(run(&["solve", "a.dae", "--quality", "draft", "-o", "a.json", "-o", "a.png"]));
+    let cases: [&[&str]; 11] = [
+        &["solve", "a.obj", "-o", "a.obj"],
+        &["solve", "a.glb", "-o", "./a.glb"],
+        &["solve", "a.glb", "-o", "b.png", "-o", "to-a.glb"],
+        &["solve", "to-a.dae", "-o", "a.dae"],
+        &["solve", "a.dae", "--json", "--steps", "a.dae"],
+        &["solve", "a.dae", "-o", "a.obj", "--photometry", "lamp=a.obj"],
+        &["solve", "a.dae", "--resume", "a.json", "-o", "a.json"],
+        &["factors", "a.dae", "-o", "a.dae"],
+        &["inspect", "a.obj", "--repair", "-o", "a.obj"],
+        &["view", "a.json", "-o", "a.json"],
+        &["expose", "a.glb", "-o", "a.glb"],
+    ];
+    for arguments in cases {
+        let message = unchanged(folder.path(), &["a.dae", "a.obj", "a.glb", "a.json"], arguments);
+        let is_kind = arguments[0] == "view" && message.contains("name it .html");
+        assert!(message.contains("it is an input") || is_kind, "{arguments:?}: {message}");
+    }
+    for name in ["a.dae", "a.glb"] {
+        done(run(&["inspect", name, "--repair", "-o", name]));
+    }
+}
+
+#[test]
+fn outputs_that_are_one_file_are_refused() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    done(run(&["scene", "wall", "-o", "a.dae"]));
+    let cases: [&[&str]; 4] = [
+        &["-o", "q.json", "--steps", "q.json"],
+        &["-o", "q.json", "-o", "q.json"],
+        &["-o", "q.json", "-o", "./q.json"],
+        &["-o", "q.json", "--steps", "q.json.state"],
+    ];
+    for outputs in cases {
+        let message = unchanged(folder.path(), &["a.dae"], &[&["solve", "a.dae"], outputs].concat());
+        assert!(message.contains("two outputs go to this file"), "{message}");
+    }
+    if cfg!(unix) {
+        let null = ["-o", "/dev/null", "--format", "json", "--steps", "/dev/null"];
+        assert!(
+            !String::from_utf8_lossy(&run(&[&["solve", "a.dae"], &null[..]].concat()).stderr)
+                .contains("two outputs")
+        );
+    }
+}
+
+/// An OBJ file is written with materials of its name beside it.
+#[test]
+fn materials_of_other_files_stay() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    put("a.mtl", "newmtl mine\nKd 0.1 0.2 0.3\n");
+    put("b.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl mine\nf 1 2 3\n");
+    for arguments in [&["scene", "wall", "-o", "a.obj"][..], &["inspect", "b.obj", "--repair", "-o", "a.obj"]]
+    {
+        let message = unchanged(folder.path(), &["a.mtl", "b.obj"], arguments);
+        assert!(message.starts_with("error: a.mtl: a.obj needs a file of this name"), "{message}");
+    }
+    // A file that names them is replaced with them.
+    for _ in 0..2 {
+        done(run(&["scene", "wall", "-o", "c.obj"]));
+    }
+    assert!(folder.path().join("c.mtl").exists());
+}
+
+/// Messages go to a full disk, or to a reader that has gone: the result is written, and the exit code is that of the run.
+#[cfg(target_os = "linux")]
+#[test]
+fn messages_that_cannot_be_written_cost_nothing() {
+    let folder = folder();
+    done(radiosity(folder.path(), &["scene", "wall", "-o", "a.dae"], b""));
+    let stopped = "solve a.dae --method shoot --max-shots 1 -o a.json";
+    for (line, code) in
+        [("solve a.dae -o a.json", 0), (stopped, 4), ("solve none.dae -o b.json", 1), ("solve a.dae", 2)]
+    {
+        for stderr in ["2> /dev/full", "2>&-"] {
+            let script = format!("exec \"$0\" {line} {stderr}");
+            let shell = Command::new("sh")
+                .args(["-c", &script, env!("CARGO_BIN_EXE_radiosity")])
+                .current_dir(folder.path())
+                .status();
+            assert_eq!(shell.expect("a shell").code(), Some(code), "{line} {stderr}");
+            let _ = std::fs::remove_file(folder.path().join("b.json"));
+            let is_written = std::fs::remove_file(folder.path().join("a.json")).is_ok();
+            assert_eq!(is_written, line.ends_with("-o a.json"), "{line} {stderr}");
+        }
+    }
+    let full = Command::new("sh")
+        .args(["-c", "exec \"$0\" scene wall > /dev/full", env!("CARGO_BIN_EXE_radiosity")])
+        .output();
+    let full = full.expect("a shell");
+    assert_eq!(full.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&full.stderr).starts_with("error: stdout cannot be written"));
 }

@@ -232,6 +232,10 @@ impl Enclosure {
         if !first.faces(second) {
             return Some(None);
         }
+        // Among many polygons what stands in between is not found in a moment, and few pairs are integrated.
+        if (limits.stop)() {
+            return None;
+        }
         let area = first.surface.area.min(second.surface.area);
         // Squares of independent errors add up: those of the shares of all entries give the row's.
         let allowed = Allowed {

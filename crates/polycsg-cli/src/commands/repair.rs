@@ -6,6 +6,7 @@ use crate::formats;
 use crate::interrupt::Interrupt;
 use crate::layer::areas::Areas;
 use crate::layer::batch::Batch;
+use crate::messages::say;
 use crate::operands::{each, evaluated, operand};
 use clap::Args;
 use polycsg::{Error, Scratch};
@@ -60,7 +61,7 @@ pub(crate) fn run(arguments: &Repair, interrupt: &Interrupt) -> Result<ExitCode,
     writer.finish()?;
     let nothing =
         if lost > 0 { format!("; of {lost} nothing is left, as they had no area") } else { String::new() };
-    eprintln!("{changed} of {count} features were repaired{nothing}");
+    say!("{changed} of {count} features were repaired{nothing}");
     Ok(ExitCode::SUCCESS)
 }
 

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::layer::areas::{Areas, rings};
 use crate::layer::columns::named;
+use crate::messages::say;
 use crate::operands::each;
 use clap::Args;
 use polycsg::{Flaw, Scratch, flaw};
@@ -45,7 +46,7 @@ pub(crate) fn run(arguments: &Validate, interrupt: &Interrupt) -> Result<ExitCod
         }
         print(&lines)
     })?;
-    eprintln!("{invalid} of {count} features are not valid");
+    say!("{invalid} of {count} features are not valid");
     Ok(if invalid == 0 { ExitCode::SUCCESS } else { ExitCode::from(INVALID) })
 }
 

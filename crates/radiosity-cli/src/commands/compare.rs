@@ -1,5 +1,6 @@
 //! `radiosity compare`
 use crate::failure::Failure;
+use crate::messages::say;
 use crate::outputs::print;
 use crate::{input, json};
 use clap::Args;
@@ -44,7 +45,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<ExitCode, Failure> {
     let above = arguments.fail_above.filter(|most| comparison.largest() > *most);
     Ok(match above {
         Some(most) => {
-            eprintln!("{:.3e} is above {most:.3e}", comparison.largest());
+            say!("{:.3e} is above {most:.3e}", comparison.largest());
             ExitCode::from(ABOVE)
         }
         None => ExitCode::SUCCESS,

@@ -1,4 +1,5 @@
 //! `radiosity expose`
+use crate::clashes;
 use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{self, Contents, Output, is_stream};
@@ -30,6 +31,7 @@ pub(crate) struct Expose {
 
 /// Intensity = 1 - exp(-K B), written into copies of a solution.
 pub(crate) fn run(arguments: &Expose) -> Result<ExitCode, Failure> {
+    clashes::refuse([arguments.solution.as_path()], arguments.output.iter().map(PathBuf::as_path))?;
     let outputs = Output::all(&arguments.output, &arguments.format)?;
     let exposure = arguments.view.exposure.and_then(Exposure::new);
     match end(&arguments.solution).as_str() {

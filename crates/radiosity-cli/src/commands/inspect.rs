@@ -1,15 +1,21 @@
 //! `radiosity inspect`
 use super::patience::Patience;
+use crate::clashes;
 use crate::digits::{own_digits, six_digits};
 use crate::failure::Failure;
 use crate::input::{self, Sides};
 use crate::json;
+use crate::messages::say;
 use crate::outputs::print;
 use crate::parse::positive;
 use clap::Args;
 use radiosity::inspect::{Finding, Inspection, KindSummary, in_one_line, inspect_until, summary};
-use radiosity::{Scene, io::RepairedFile};
-use std::{fmt::Write, path::PathBuf, process::ExitCode};
+use radiosity::{Scene, io::RepairedFile, repair_until};
+use std::{
+    fmt::Write,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 /// How many emitters are listed for people.
 const EMITTERS: usize = 20;
@@ -42,6 +48,7 @@ pub(crate) struct Inspect {
 /// Prints what a scene is and what will trouble a solution; writes it repaired, if asked.
 pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
     let patience = Patience::new(arguments.time);
+    arguments.output.iter().try_for_each(|output| check(&arguments.scene, output))?;
     let sides = arguments.sides;
     let (_, source, scene) =
         input::read_quietly(&arguments.scene, move |scene| sides.of(scene), || patience.is_over())?;
@@ -50,25 +57,39 @@ pub(crate) fn run(arguments: &Inspect) -> Result<ExitCode, Failure> {
     print(&if arguments.json { json::line(&inspection) } else { text(&inspection) })?;
     if inspection.stopped {
         let unwritten = arguments.output.as_ref().map_or("", |_| "; nothing was written");
-        eprintln!("stopped: not all was looked at{unwritten}");
+        say!("stopped: not all was looked at{unwritten}");
         return Ok(patience.code());
     }
     if let Some(path) = &arguments.output {
-        let repaired = radiosity::repair(&scene);
+        let Some(repaired) = repair_until(&scene, &|| patience.is_over()) else {
+            say!("stopped: nothing was written");
+            return Ok(patience.code());
+        };
         let sides = |scene: &Scene| arguments.sides.of(scene);
         let RepairedFile { left_out, remaining, .. } =
             source.save_repaired([&scene, &repaired.scene], &sides, path)?;
         let repairs = summary(&repaired.repairs);
         let what = if repairs.is_empty() { "nothing".to_owned() } else { input::counts(&repairs) };
-        eprintln!("repaired: {what}; written to {}", path.display());
+        say!("repaired: {what}; written to {}", path.display());
         if let Some(line) = in_one_line(&remaining) {
-            eprintln!("warning: {}: not all could be repaired: {line}", path.display());
+            say!("warning: {}: not all could be repaired: {line}", path.display());
         }
         if !left_out.is_empty() {
-            eprintln!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
+            say!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses to write over the scene but where all else in it stays: COLLADA and glTF may be repaired in place; other formats are written
+/// anew, without what is not read of them.
+fn check(scene: &Path, output: &Path) -> Result<(), Failure> {
+    let end = |path: &Path| path.extension().unwrap_or_default().to_ascii_lowercase();
+    let stays = ["dae", "glb", "gltf"].iter().any(|kept| end(scene) == *kept) && end(scene) == end(output);
+    if !stays {
+        clashes::refuse([scene], [output])?;
+    }
+    clashes::refuse_materials_of_others(output, Some(scene))
 }
 
 /// Lines for people.

@@ -1,4 +1,5 @@
 //! `radiosity plot`
+use crate::clashes;
 use crate::failure::Failure;
 use crate::input;
 use crate::outputs::{is_stream, print, probe, save};
@@ -41,6 +42,7 @@ fn place(text: &str) -> Result<DVec3, String> {
 
 /// Writes radiosity along a line.
 pub(crate) fn run(arguments: &Plot) -> Result<ExitCode, Failure> {
+    clashes::refuse([arguments.solution.as_path()], arguments.output.iter().map(PathBuf::as_path))?;
     let forms = arguments.output.iter().map(|path| form(path)).collect::<Result<Vec<Form>, Failure>>()?;
     let record = input::solution(&arguments.solution)?;
     let found = profile(&record, [arguments.from, arguments.to], arguments.on.as_deref());

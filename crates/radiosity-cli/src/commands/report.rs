@@ -1,6 +1,8 @@
 //! `radiosity report`
+use crate::clashes;
 use crate::failure::Failure;
 use crate::input::{self, Reading};
+use crate::messages::say;
 use crate::outputs::Output;
 use clap::Args;
 use radiosity::{Scene, io, scenes};
@@ -26,8 +28,14 @@ pub(crate) struct Report {
     peers: Option<PathBuf>,
 }
 
+/// What the folder gets.
+const FILES: [&str; 3] = ["report.html", "report.jsonl", "tables.md"];
+
 /// Measures every method on every scene; writes the page, the lines and the tables.
 pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
+    let written = FILES.map(|name| arguments.output.join(name));
+    let read = arguments.scenes.iter().map(Path::new).chain(arguments.peers.as_deref());
+    clashes::refuse(read, written.iter().map(PathBuf::as_path))?;
     let peers = arguments.peers.as_deref().map(peers).transpose()?;
     let plan = plan(arguments)?;
     let folder = &arguments.output;
@@ -36,16 +44,12 @@ pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Failure> {
     })?;
     // Half an hour of work is not begun for a folder that takes no files.
     Output::new(&folder.join("report.html"), "html")?;
-    let report = report(&plan, |next| eprintln!("{next}"))?;
-    let files = [
-        ("report.html", report.page(peers.as_ref())),
-        ("report.jsonl", report.lines()),
-        ("tables.md", report.tables()),
-    ];
-    for (name, text) in files {
-        io::save(folder.join(name), text.as_bytes())?;
+    let report = report(&plan, |next| say!("{next}"))?;
+    let texts = [report.page(peers.as_ref()), report.lines(), report.tables()];
+    for (path, text) in written.iter().zip(texts) {
+        io::save(path, text.as_bytes())?;
     }
-    eprintln!("{}: open it in a browser", folder.join("report.html").display());
+    say!("{}: open it in a browser", folder.join("report.html").display());
     Ok(ExitCode::SUCCESS)
 }
 

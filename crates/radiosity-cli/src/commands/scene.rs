@@ -1,5 +1,7 @@
 //! `radiosity scene`
+use crate::clashes;
 use crate::failure::Failure;
+use crate::messages::say;
 use crate::outputs::{is_stream, print, probe};
 use clap::Args;
 use radiosity::{io, scenes};
@@ -41,13 +43,14 @@ pub(crate) fn run(arguments: &BuiltIn) -> Result<ExitCode, Failure> {
 /// COLLADA is written as it is; other formats are made of the scene, and what they cannot hold is told.
 fn write(text: &str, path: &PathBuf) -> Result<(), Failure> {
     probe(path)?;
+    clashes::refuse_materials_of_others(path, None)?;
     if path.extension().is_some_and(|end| end.eq_ignore_ascii_case("dae")) {
         return Ok(io::save(path, text.as_bytes())?);
     }
     let scene = io::collada::Collada::from_text("scene", text).scene()?;
     let left_out = io::save_scene(&scene, path)?;
     if !left_out.is_empty() {
-        eprintln!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
+        say!("warning: {}: the format has no place for {}", path.display(), left_out.join(", "));
     }
     Ok(())
 }

@@ -1,9 +1,13 @@
 //! `radiosity view`
+use super::patience::Patience;
+use crate::clashes;
 use crate::failure::Failure;
 use crate::input::{self, STREAM};
-use crate::outputs::{Contents, Output, is_stream};
+use crate::messages::say;
+use crate::outputs::{Contents, Output, is_stream, save};
 use crate::parse::positive;
 use crate::view_options::ViewOptions;
+use crate::waiting::wait;
 use clap::Args;
 use std::{path::PathBuf, process::ExitCode};
 
@@ -18,6 +22,9 @@ pub(crate) struct View {
     /// The exposure K to start with: intensity is 1 - exp(-K B) [default: chosen from what the first camera sees]
     #[arg(short = 'k', long, value_name = "K", value_parser = positive)]
     exposure: Option<f64>,
+    /// Stop after so many seconds, without a page; large solutions take some to read
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time: Option<f64>,
 }
 
 /// Writes one page that shows the solution in any browser, without network.
@@ -30,12 +37,18 @@ pub(crate) fn run(arguments: &View) -> Result<ExitCode, Failure> {
     if !is_stream(&path) && path.extension().is_none_or(|end| !end.eq_ignore_ascii_case("html")) {
         return Err(Failure::usage(format!("{}: the output is a page; name it .html", path.display())));
     }
+    clashes::refuse([arguments.solution.as_path()], [path.as_path()])?;
     let output = Output::new(&path, "html")?;
-    let record = input::solution(&arguments.solution)?;
-    let view = ViewOptions { exposure: arguments.exposure, width: 1, camera: None };
-    output.write(&Contents { view: &view, record: &record, source: None, figures: None })?;
+    let patience = Patience::new(arguments.time);
+    let (solution, exposure) = (arguments.solution.clone(), arguments.exposure);
+    let page = move || {
+        let record = input::solution(&solution)?;
+        let view = ViewOptions { exposure, width: 1, camera: None };
+        output.bytes(&Contents { view: &view, record: &record, source: None, figures: None })
+    };
+    save(&path, &wait(page, || patience.is_over(), "the page was made")?)?;
     if !is_stream(&path) {
-        eprintln!("{}: open it in a browser", path.display());
+        say!("{}: open it in a browser", path.display());
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -8,8 +8,9 @@ use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// At most so many patches are looked from, and fewer where there are many to look at.
+/// At most so many patches are looked from, and fewer where there are many to look at: among 15 000 each look takes a second or two.
 const VIEWS: usize = 256;
+const FEWEST: usize = 4;
 /// So many form factors are enough for a look.
 const FACTORS: usize = 30_000;
 /// So many form factors are found before it is asked whether to stop.
@@ -35,6 +36,11 @@ impl Opening {
     }
 }
 
+/// From how many of the patches of a scene it is looked.
+fn looks(patches: usize) -> usize {
+    (FACTORS / patches.max(1)).clamp(FEWEST, VIEWS)
+}
+
 /// The widest opening seen from the middle of up to 256 patches, those looked from before `stop` says to stop, and the cost measured on the
 /// way.
 pub(super) fn openness(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> (Option<Opening>, Cost) {
@@ -46,8 +52,7 @@ pub(super) fn openness(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> (Opti
     let factor = |from: &DifferentialArea, to: usize| {
         enclosure.form_factor_to_part(from, of_patch[to], &scene.patches[to].polygon).value
     };
-    let count = scene.patches.len().max(1);
-    let step = count.div_ceil((FACTORS / count).clamp(8, VIEWS));
+    let step = scene.patches.len().max(1).div_ceil(looks(scene.patches.len()));
     let views: Vec<usize> =
         (0..scene.patches.len()).step_by(step).filter(|patch| !scene.patches[*patch].only_blocks).collect();
     let (start, found) = (Instant::now(), AtomicUsize::new(0));
@@ -71,4 +76,17 @@ pub(super) fn openness(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> (Opti
     let widest = seen.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a });
     let opening = widest.map(|(patch, share)| Opening { patch: scene.patches[patch].name.clone(), share });
     (opening, cost)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FACTORS, FEWEST, looks};
+
+    #[test]
+    fn looks_of_thousands_of_patches_are_few() {
+        for patches in [0, 1, 17, 300, 5000, 15_000, 100_000] {
+            assert!((FEWEST..=256).contains(&looks(patches)));
+            assert!(patches * looks(patches) <= FACTORS.max(4 * patches), "{patches}");
+        }
+    }
 }

@@ -116,7 +116,8 @@ impl Run<'_> {
             let found = self.closure(scene.patches.len());
             closure = self.survive(found)?.flatten();
         }
-        if (last || !converged) && self.turn_to_gather(converged) {
+        let is_dark = converged && self.light.live().next().is_none();
+        if (last || !converged) && !is_dark && self.turn_to_gather(converged) {
             let found = gather(scene, &mut self);
             fine = self.survive(found)?.flatten();
         }

@@ -2,7 +2,9 @@
 use crate::build::{patch, polygon, room, scene, solved};
 use radiosity::formfactor::{DifferentialArea, unoccluded};
 use radiosity::glam::{DMat3, DQuat, DVec3};
-use radiosity::{Asset, Cone, Distribution, Lamp, Method, Options, Rim, Scene, Sky, SkyKind, Solution, Sun};
+use radiosity::{
+    Asset, Cone, Distribution, Lamp, Method, Options, Record, Rim, Scene, Sky, SkyKind, Solution, Sun,
+};
 use std::f64::consts::PI;
 
 const METHODS: [Method; 4] = [Method::Hierarchical, Method::Shoot, Method::Cg, Method::Matrix];
@@ -194,6 +196,21 @@ fn overcast(normal: DVec3) -> f64 {
         }
     }
     sum * 2.0 * PI / f64::from(rings * parts)
+}
+
+/// No rounding is solved for as if it were light.
+#[test]
+fn a_sealed_room_is_dark_under_any_sky_and_costs_nothing() {
+    let sealed = scene(room([0., 0., 0.], [4., 3., 2.5], 1, 0.5, 0.0));
+    let sealed = Scene { asset: Asset { up: DVec3::Y, unit: 1.0 }, ..sealed };
+    for kind in [SkyKind::Uniform, SkyKind::Overcast] {
+        let options = Options { method: Method::Mesh, ..Options::default() };
+        let solution = solved(&under(kind, sealed.clone()), &options);
+        assert!(solution.converged && solution.ledger.emitted == [0.0], "{:?}", solution.ledger.emitted);
+        assert_eq!(solution.shots, 0);
+        let shown = Record::new("sealed", &sealed, &solution).elements.len();
+        assert!(2 * shown < 3 * solution.mesh.elements.len(), "{shown} elements are shown");
+    }
 }
 
 /// A room with a skylight: its ceiling has a hole of side 1 in its middle.

@@ -2,6 +2,7 @@
 use super::names::place;
 use super::row::{Row, Rows};
 use crate::failure::Failure;
+use crate::messages::say;
 use crate::parse::positive;
 use clap::Args;
 use radiosity::Scene;
@@ -77,14 +78,14 @@ pub(super) fn finish(
     if let Some(threshold) = changes.drop_below {
         let before = matrix.values().len();
         matrix = matrix.without_below(threshold);
-        eprintln!("{} of {before} factors left out; their rows' others grew", before - matrix.values().len());
+        say!("{} of {before} factors left out; their rows' others grew", before - matrix.values().len());
     }
     let is_closed = changes.close || asked.closes;
     if is_closed {
         let by = if changes.close { "--close" } else { "encl=1 in the file" };
         let (closed, done) = matrix.closed().map_err(|error| Failure::scene(format!("{by}: {error}")))?;
         let (defect, change) = (done.defect, done.change);
-        eprintln!(
+        say!(
             "{by}: closed by least squares; a row lacked up to {defect:.1e}, factors changed by up to {change:.1e}"
         );
         matrix = closed;
@@ -100,7 +101,7 @@ pub(super) fn finish(
         matrix = matrix
             .with_emittances(&emittances)
             .map_err(|error| Failure::scene(format!("emit=1: {error}")))?;
-        eprintln!("emit=1 in the file: total exchange factors of gray surfaces, with all reflections");
+        say!("emit=1 in the file: total exchange factors of gray surfaces, with all reflections");
     }
     let areas = matrix.areas()[..surfaces.count].to_vec();
     let emittances = emittances[..surfaces.count].to_vec();
@@ -159,7 +160,7 @@ fn report_defects(matrix: &FactorMatrix, surfaces: &Surfaces) {
     let [least, most] =
         [defects.iter().copied().fold(f64::INFINITY, f64::min), defects.iter().copied().fold(0.0, f64::max)];
     let error = errors.fold(0.0, f64::max);
-    eprintln!(
+    say!(
         "{} surfaces, {} factors; rows lack {least:.1e} to {most:.1e} of 1, their estimated errors add to at most {error:.1e}",
         surfaces.count,
         matrix.values().len()

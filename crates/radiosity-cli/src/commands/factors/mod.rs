@@ -19,11 +19,14 @@ mod pairs;
 mod row;
 mod tally;
 
+use crate::clashes;
 use crate::commands::patience::Patience;
 use crate::failure::Failure;
 use crate::input;
+use crate::messages::say;
 use crate::outputs::{is_stream, print, save};
 use crate::parse::positive;
+use crate::waiting::wait;
 use clap::{Args, ValueEnum};
 use format::Table;
 use matrix::Found;
@@ -32,7 +35,7 @@ use radiosity::glam::DVec3;
 use radiosity::inspect::Finding;
 use radiosity::io::Source;
 use radiosity::{Scene, inspect, io};
-use row::Row;
+use row::Origin;
 use std::{path::PathBuf, process::ExitCode};
 
 /// `radiosity factors`
@@ -55,8 +58,8 @@ pub(crate) struct Factors {
     /// What is done to the whole matrix
     #[command(flatten)]
     changes: matrix::Changes,
-    /// Stop after so many seconds; with -o the same command goes on from there
-    #[arg(long, value_name = "SECONDS", value_parser = positive, requires = "area")]
+    /// Stop after so many seconds, without a result; the same command goes on from there with --area, -o and no --row
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
     time: Option<f64>,
     /// The output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -88,33 +91,43 @@ enum Format {
 pub(crate) fn run(arguments: &Factors) -> Result<ExitCode, Failure> {
     let format = if arguments.json { Format::Json } else { arguments.format };
     check(arguments, format)?;
-    // Reading counts. Factors from points are quick, and Ctrl-C ends them.
-    let patience = arguments.area.map(|_| Patience::new(arguments.time));
-    let is_late = || patience.as_ref().is_some_and(Patience::is_over);
+    let output = arguments.output.as_deref().filter(|path| !is_stream(path));
+    let journal = output.and_then(pairs::beside);
+    clashes::refuse([arguments.scene.as_path()], output.into_iter().chain(journal.as_deref()))?;
+    // Reading counts.
+    let patience = Patience::new(arguments.time);
+    let is_late = || patience.is_over();
     let (scene, source, (enclosure, overlaps)) =
         input::read(&arguments.scene, enclosed(arguments.area), is_late)?;
-    patience.iter().try_for_each(Patience::listen)?;
-    let output = arguments.output.as_deref().filter(|path| !is_stream(path));
     overlaps.iter().for_each(|finding| {
-        eprintln!("warning: {}: {finding}", finding.patches.join(" and "));
+        say!("warning: {}: {finding}", finding.patches.join(" and "));
     });
-    let found = match (arguments.area, &patience) {
-        (Some(tolerance), Some(patience)) if is_matrix(arguments) => {
+    let found = match arguments.area {
+        Some(tolerance) if is_matrix(arguments) => {
+            patience.listen()?;
             let request = match &source {
                 Source::Vs3(file) => Some(file.request()?),
                 _ => None,
             };
-            let pairs = pairs::find(&enclosure, tolerance, output, patience)?;
+            let pairs = pairs::find(&enclosure, tolerance, output, &patience)?;
             let Some(pairs) = pairs else { return Ok(patience.code()) };
             matrix::finish(&scene, pairs, request, &arguments.changes)?
         }
-        _ => {
-            let found = rows(arguments, &scene, &enclosure, patience.as_ref())?;
-            if let Some(patience) = patience.as_ref().filter(|_| found.len() < arguments.row.len()) {
-                eprintln!("stopped: {} of {} rows are there", found.len(), arguments.row.len());
+        Some(tolerance) => {
+            patience.listen()?;
+            let named = named(arguments, &scene)?;
+            let found = row::from_areas(&enclosure, &named, tolerance, &patience)?;
+            if found.len() < named.len() {
+                say!("stopped: {} of {} rows are there", found.len(), arguments.row.len());
                 return Ok(patience.code());
             }
             Found::of(&scene, found)
+        }
+        // Ctrl-C ends these at once.
+        None => {
+            let origin = origin(arguments, &scene)?;
+            let found = move || Ok(Found::of(&scene, origin.rows(&scene, &enclosure)));
+            wait(found, is_late, "all factors were found")?
         }
     };
     let table = Table { found: &found, tolerance: arguments.area };
@@ -174,27 +187,22 @@ fn check(arguments: &Factors, format: Format) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The rows asked for, where they are not a whole matrix from area to area.
-fn rows(
-    arguments: &Factors,
-    scene: &Scene,
-    enclosure: &Enclosure,
-    patience: Option<&Patience>,
-) -> Result<Vec<Row>, Failure> {
-    if let Some([x, y, z, nx, ny, nz]) = arguments.from {
-        let place = (DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
-        let mut from = DifferentialArea::new(place.0, place.1).map_err(Failure::usage)?;
-        if let Some(name) = &arguments.on {
-            from = from.owned_by(find(scene, name)?);
-        }
-        return Ok(vec![Row::of_point(enclosure, &from)]);
-    }
-    let named = arguments.row.iter().map(|name| find(scene, name));
-    let named = named.collect::<Result<Vec<_>, _>>()?;
-    match arguments.area.zip(patience) {
-        None => Ok(row::from_middles(scene, enclosure, &named)),
-        Some((tolerance, patience)) => row::from_areas(enclosure, &named, tolerance, patience),
-    }
+/// Where factors are asked for from, exactly.
+fn origin(arguments: &Factors, scene: &Scene) -> Result<Origin, Failure> {
+    let Some([x, y, z, nx, ny, nz]) = arguments.from else {
+        return Ok(Origin::Middles(named(arguments, scene)?));
+    };
+    let from = DifferentialArea::new(DVec3::new(x, y, z), DVec3::new(nx, ny, nz)).map_err(Failure::usage)?;
+    let patch = arguments.on.as_ref().map(|name| find(scene, name)).transpose()?;
+    Ok(Origin::Point(match patch {
+        Some(patch) => from.owned_by(patch),
+        None => from,
+    }))
+}
+
+/// The patches that rows are asked for from.
+fn named(arguments: &Factors, scene: &Scene) -> Result<Vec<usize>, Failure> {
+    arguments.row.iter().map(|name| find(scene, name)).collect()
 }
 
 /// The index of the patch of that name.

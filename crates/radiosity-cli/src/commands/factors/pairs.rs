@@ -26,10 +26,15 @@ pub(super) fn find(
     let missing: Vec<usize> = (0..count).filter(|row| !is_known[*row]).collect();
     let limits = Limits { stop: &|| patience.is_over(), ..Limits::default() };
     let notes = Mutex::new(Notes { journal, tally, rows });
-    missing.par_iter().try_for_each(|from| {
-        let found = enclosure.exchange_row(*from, tolerance, &limits).map_err(Failure::usage)?;
-        found.map_or(Ok(()), |row| notes.lock().unwrap_or_else(PoisonError::into_inner).add(row))
-    })?;
+    // The first row that is stopped ends all: each of the others would look at the whole scene before it stops.
+    let ended = missing.par_iter().try_for_each(|from| {
+        let found = enclosure.exchange_row(*from, tolerance, &limits);
+        let row = found.map_err(|error| Some(Failure::usage(error)))?.ok_or(None)?;
+        notes.lock().unwrap_or_else(PoisonError::into_inner).add(row).map_err(Some)
+    });
+    if let Err(Some(failure)) = ended {
+        return Err(failure);
+    }
     let Notes { journal, tally, rows } = notes.into_inner().unwrap_or_else(PoisonError::into_inner);
     if rows.len() < count {
         tally.stop(journal.is_some());
@@ -56,7 +61,7 @@ impl Notes {
 }
 
 /// The journal's place; none beside what is no file (`/dev/stdout`, a pipe).
-fn beside(output: &Path) -> Option<PathBuf> {
+pub(super) fn beside(output: &Path) -> Option<PathBuf> {
     let mut name = output.to_owned().into_os_string();
     name.push(".rows");
     (!output.exists() || output.is_file()).then(|| name.into())

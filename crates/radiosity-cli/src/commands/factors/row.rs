@@ -26,7 +26,7 @@ pub(super) struct Row {
 
 impl Row {
     /// From a point to every patch.
-    pub(super) fn of_point(enclosure: &Enclosure, from: &DifferentialArea) -> Row {
+    fn of_point(enclosure: &Enclosure, from: &DifferentialArea) -> Row {
         let factors = enclosure.row(from).into_iter().enumerate();
         let entry = |(to, factor): (usize, radiosity::formfactor::FormFactor)| Entry {
             to,
@@ -83,8 +83,25 @@ impl Rows {
     }
 }
 
+/// Where exact form factors start.
+pub(super) enum Origin {
+    Point(DifferentialArea),
+    /// The middles of these patches, or of all.
+    Middles(Vec<usize>),
+}
+
+impl Origin {
+    /// The rows of form factors from there.
+    pub(super) fn rows(&self, scene: &Scene, enclosure: &Enclosure) -> Vec<Row> {
+        match self {
+            Self::Point(point) => vec![Row::of_point(enclosure, point)],
+            Self::Middles(named) => from_middles(scene, enclosure, named),
+        }
+    }
+}
+
 /// From the middle of each of the named patches, or of all that do more than block, exactly.
-pub(super) fn from_middles(scene: &Scene, enclosure: &Enclosure, named: &[usize]) -> Vec<Row> {
+fn from_middles(scene: &Scene, enclosure: &Enclosure, named: &[usize]) -> Vec<Row> {
     let row = |&patch: &usize| match scene.patches[patch].middle() {
         Some(middle) => Row { from: Some(patch), ..Row::of_point(enclosure, &middle.owned_by(patch)) },
         None => Row { from: Some(patch), entries: Vec::new() },

@@ -1,4 +1,5 @@
 //! Progress and the time left: a bar on a terminal, lines in a pipe.
+use crate::messages::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -30,7 +31,7 @@ impl Tally {
         known.for_each(|row| tally.count(row));
         tally.known = tally.pairs_there;
         if tally.rows_there > 0 {
-            eprintln!("going on: {} of {rows} rows are there", tally.rows_there);
+            say!("going on: {} of {rows} rows are there", tally.rows_there);
         }
         tally
     }
@@ -46,7 +47,7 @@ impl Tally {
         self.bar.set_position(self.pairs_there as u64);
         self.bar.set_message(self.line());
         if !std::io::stderr().is_terminal() && self.said.elapsed() >= PAUSE {
-            eprintln!("{}", self.line());
+            say!("{}", self.line());
             self.said = Instant::now();
         }
     }
@@ -68,7 +69,7 @@ impl Tally {
     pub(super) fn stop(&self, is_kept: bool) {
         self.bar.finish_and_clear();
         let next = if is_kept { "the same command goes on" } else { "give -o FILE to be able to go on" };
-        eprintln!("stopped: {} of {} rows are there; {next}", self.rows_there, self.rows);
+        say!("stopped: {} of {} rows are there; {next}", self.rows_there, self.rows);
     }
 }
 

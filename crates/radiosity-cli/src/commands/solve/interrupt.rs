@@ -1,7 +1,12 @@
 //! Interrupt and resume: Ctrl-C, snapshots, and the state that a run goes on from.
-use super::{progress::Bar, solve_outputs::SolveOutputs, steps::Steps};
+use super::{
+    options::{Solve, state_beside},
+    progress::Bar,
+    solve_outputs::SolveOutputs,
+    steps::Steps,
+};
 use crate::failure::Failure;
-use crate::outputs::is_stream;
+use crate::messages::say;
 use radiosity::{Progress, Recorder, Recording, Solution, State, io};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,7 +58,7 @@ impl<'o> Follower<'o> {
             if flag.swap(true, Ordering::SeqCst) {
                 std::process::exit(INTERRUPTED.into());
             }
-            eprintln!("stopping and writing the result so far; Ctrl-C again ends at once");
+            say!("stopping and writing the result so far; Ctrl-C again ends at once");
         };
         ctrlc::set_handler(stop)
             .map_err(|error| Failure::internal(format!("Ctrl-C cannot be handled: {error}")))?;
@@ -62,11 +67,7 @@ impl<'o> Follower<'o> {
             bar: Bar::new(tolerance),
             steps: Steps::new(outputs.arguments.steps.as_deref()),
             recorder: outputs.arguments.record.then(|| Recorder::new(&outputs.input.scene)),
-            state: outputs.arguments.output.iter().find(|path| !is_stream(path)).map(|path| {
-                let mut name = path.clone().into_os_string();
-                name.push(".state");
-                name.into()
-            }),
+            state: outputs.arguments.state(),
             interrupted,
             saved: Instant::now(),
             state_written: false,
@@ -90,23 +91,29 @@ impl<'o> Follower<'o> {
         if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Ends the following: the state of a run that was stopped is saved; after a full run the state beside the output, of this run or an
-    /// earlier one, is removed. A run without a solution leaves what there is.
+    /// Ends the following: the state of a run that was stopped is saved. A run without a solution leaves what there is.
     pub(super) fn end(&mut self, state: &State, solution: Option<&Solution>) -> Result<(), Failure> {
         self.bar.clear();
         if let Some(failure) = self.failure.take() {
             return Err(failure);
         }
-        match solution {
-            Some(solution) if !solution.converged => self.save(state)?,
-            Some(_) => self.state.iter().filter(|path| is_state(path)).try_for_each(|path| {
-                let refused =
-                    |error| Failure::internal(format!("{}: cannot be removed: {error}", path.display()));
-                std::fs::remove_file(path).map_err(refused)
-            })?,
-            None => {}
+        if solution.is_some_and(|solution| !solution.converged) {
+            self.save(state)?;
         }
         self.steps.save()
+    }
+
+    /// After a full run whose result is written, removes what nobody will go on from: the states beside the outputs, and, where there are
+    /// any, the one that this run went on from.
+    pub(super) fn remove_states(&self, solution: &Solution) -> Result<(), Failure> {
+        let Solve { output, resume, .. } = self.outputs.arguments;
+        let beside = output.iter().filter_map(|path| state_beside(path));
+        let states = beside.chain(resume.clone().filter(|_| self.state.is_some()));
+        states.filter(|path| solution.converged && is_state(path)).try_for_each(|path| {
+            let refused =
+                |error| Failure::internal(format!("{}: cannot be removed: {error}", path.display()));
+            std::fs::remove_file(&path).map_err(refused)
+        })
     }
 
     /// The steps of the run, where they were asked for.
@@ -128,8 +135,13 @@ impl<'o> Follower<'o> {
             return ExitCode::SUCCESS;
         }
         match &self.state {
-            Some(path) if self.state_written => eprintln!("continue with --resume {}", path.display()),
-            _ => {}
+            Some(path) if self.state_written => say!("continue with --resume {}", path.display()),
+            Some(_) => {}
+            None => {
+                say!(
+                    "warning: no state was written, as no output is a file; with -o FILE a stopped run can go on"
+                )
+            }
         }
         if let Some(fault) = &solution.fault {
             return Failure::internal(fault).report();
@@ -138,7 +150,7 @@ impl<'o> Follower<'o> {
             return ExitCode::from(INTERRUPTED);
         }
         let (shots, products) = (solution.shots, solution.products);
-        eprintln!(
+        say!(
             "warning: stopped after {shots} shots and {products} products, before the tolerance was reached; raise the \
              limit or the tolerance"
         );

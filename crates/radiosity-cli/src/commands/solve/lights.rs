@@ -1,10 +1,16 @@
 //! Lights that the command line adds to a scene.
 use crate::failure::Failure;
+use crate::messages::say;
 use crate::parse::strength;
 use clap::{Args, ValueEnum};
 use radiosity::io::photometry;
-use radiosity::{Distribution, Scene, Sky, SkyKind, Units};
-use std::{collections::BTreeSet, path::PathBuf, str::FromStr, sync::Arc};
+use radiosity::{Distribution, Scene, Sky, SkyKind, Solution, Units};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+    str::FromStr,
+    sync::Arc,
+};
 
 /// How many names an error lists.
 const NAMES: usize = 12;
@@ -92,6 +98,13 @@ impl FromStr for LampFile {
     }
 }
 
+impl LightOptions {
+    /// The files that are read.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        self.photometry.iter().map(|lamp| lamp.file.as_path())
+    }
+}
+
 /// Adds the lights that are asked for, and a sky where there is no light at all.
 pub(super) fn light(scene: &mut Scene, options: &LightOptions) -> Result<(), Failure> {
     if let Some(units) = options.units {
@@ -108,9 +121,9 @@ pub(super) fn light(scene: &mut Scene, options: &LightOptions) -> Result<(), Fai
         }
         None if !scene.has_light() => {
             scene.sky = Some(Sky { radiance: vec![1.0; scene.bands], kind: SkyKind::Uniform });
-            eprintln!(
-                "warning: nothing in the scene gives light: a uniform sky of radiance 1 lights it; give --sky, or a lamp by \
-                 --emit MATERIAL=L"
+            say!(
+                "warning: nothing in the scene gives light: a uniform sky of radiance 1 lights it; {}",
+                of_lamps(scene)
             );
         }
         None => {}
@@ -118,12 +131,19 @@ pub(super) fn light(scene: &mut Scene, options: &LightOptions) -> Result<(), Fai
     Ok(())
 }
 
-/// Says so where lights reach no surface.
-pub(super) fn warn_of_darkness(emitted: &[f64]) {
-    if emitted.iter().all(|power| *power == 0.0) {
-        eprintln!(
-            "warning: no light reaches any surface, so the scene is dark; let a material emit by --emit MATERIAL=L"
-        );
+/// Says so where lights reach no surface. A run that was stopped may not have looked yet.
+pub(super) fn warn_of_darkness(scene: &Scene, solution: &Solution) {
+    if solution.converged && solution.ledger.emitted.iter().all(|power| *power == 0.0) {
+        say!("warning: no light reaches any surface, so the scene is dark; {}", of_lamps(scene));
+    }
+}
+
+/// How a scene gets lamps.
+fn of_lamps(scene: &Scene) -> &'static str {
+    if scene.patches.iter().any(|patch| !patch.material.is_empty()) {
+        "a material emits by --emit MATERIAL=L, another sky shines by --sky KIND=L"
+    } else {
+        "another sky shines by --sky KIND=L; lamps take a file with materials (.dae, .glb, or .obj with .mtl): this one has none"
     }
 }
 

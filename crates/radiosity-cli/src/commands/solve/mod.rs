@@ -15,14 +15,17 @@ mod progress;
 mod solve_outputs;
 mod steps;
 
+use crate::clashes;
 use crate::failure::Failure;
 use crate::input;
+use crate::messages::say;
 use crate::outputs::{Output, is_stream, print};
 use interrupt::{Follower, resume};
 use lights::{light, warn_of_darkness};
 use options::{Solve, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -39,6 +42,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     if arguments.json && arguments.output.iter().any(|path| is_stream(path)) {
         return Err(Failure::usage("--json and -o - both write to stdout; leave out one of them"));
     }
+    refuse_clashes(arguments)?;
     let (start, mut options) = (Instant::now(), options(arguments)?);
     let outputs = Output::all(&arguments.output, &arguments.format)?;
     let lights = arguments.lights.clone();
@@ -49,31 +53,49 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
-    // Reading and repair count, and so does writing, which takes about as long.
-    options.max_seconds = options.max_seconds.map(|limit| (limit - 2.0 * read.as_secs_f64()).max(0.0));
+    options.max_seconds = options.max_seconds.map(|limit| left(limit, read.as_secs_f64()));
     let solution = radiosity::solve_from(scene, &options, &mut state, |progress| follower.follow(progress));
     let ended = follower.end(&state, solution.as_ref().ok());
     let solution = solution?;
     // What was found is not lost for a state that cannot be written.
-    let figures = writer.write(&solution, follower.recording(&solution))?;
+    let (figures, shown) = writer.write(&solution, follower.recording(&solution))?;
     ended?;
+    follower.remove_states(&solution)?;
     if arguments.json {
         print(&figures)?;
     }
-    report(scene, &solution);
-    warn_of_darkness(&solution.ledger.emitted);
+    report(scene, &solution, shown);
+    warn_of_darkness(scene, &solution);
     Ok(follower.code(&solution))
 }
 
+/// The state that a run goes on from may be the one that it writes; all else that is read stays.
+fn refuse_clashes(arguments: &Solve) -> Result<(), Failure> {
+    let (state, resume) = (arguments.state(), arguments.resume.as_deref());
+    let results = || arguments.output.iter().chain(&arguments.steps).map(PathBuf::as_path);
+    clashes::refuse(resume, results())?;
+    let read = std::iter::once(arguments.scene.as_path()).chain(arguments.lights.files());
+    clashes::refuse(read, results().chain(state.as_deref()))
+}
+
+/// What is left of the time after reading and repair. Writing takes half as long as these. It may end late, by a second or a tenth of
+/// the time: half of that is counted on.
+fn left(limit: f64, read: f64) -> f64 {
+    let (writing, late) = (read / 2.0, (limit / 10.0).max(1.0));
+    (limit - read - (writing - late / 2.0).max(0.0)).max(0.0)
+}
+
 /// One line for people.
-fn report(scene: &Scene, solution: &Solution) {
+fn report(scene: &Scene, solution: &Solution, shown: usize) {
     let (elements, seconds) = (solution.mesh.elements.len(), solution.seconds);
+    // Cut further for what is shown: pages and files hold, and count, the pieces.
+    let pieces = if shown == elements { String::new() } else { format!(" shown as {shown}") };
     let (shots, products) = (solution.shots, solution.products);
     let estimate = worst_estimate(scene, solution);
     let estimate = estimate.map_or_else(String::new, |(share, patch)| {
         format!(", light within {:.2} % (patch {patch}; an estimate)", 100.0 * share)
     });
-    eprintln!("{elements} elements, {shots} shots, {products} products, {seconds:.1} s{estimate}");
+    say!("{elements} elements{pieces}, {shots} shots, {products} products, {seconds:.1} s{estimate}");
 }
 
 /// The largest estimated error of a patch, as a share of its mean irradiance or of 1 % of the scene's, and the patch's name.
@@ -92,4 +114,27 @@ fn worst_estimate<'s>(scene: &'s Scene, solution: &Solution) -> Option<(f64, &'s
         shares.map(|(estimate, of)| (estimate / of, patch.name.as_str())).collect::<Vec<_>>()
     });
     shares.reduce(|a, b| if b.0 > a.0 { b } else { a })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left;
+
+    #[test]
+    fn reading_is_taken_off_once() {
+        assert!(
+            [(3.0, 1.0), (3.0, 0.5), (60.0, 6.0)]
+                .iter()
+                .all(|(limit, read)| left(*limit, *read) == limit - read)
+        );
+    }
+
+    #[test]
+    fn long_writing_is_begun_in_time_and_no_time_is_below_zero() {
+        for (limit, read) in [(3.0, 2.0), (10.0, 6.0), (100.0, 50.0), (100.0, 99.0), (1.0, 40.0)] {
+            let ended: f64 = read + left(limit, read) + read / 2.0;
+            assert!(left(limit, read) >= 0.0);
+            assert!(left(limit, read) == 0.0 || ended <= limit + (limit / 10.0).max(1.0), "{limit} {read}");
+        }
+    }
 }

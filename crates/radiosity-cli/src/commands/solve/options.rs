@@ -2,11 +2,12 @@
 use super::lights::LightOptions;
 use crate::failure::Failure;
 use crate::input::Reading;
+use crate::outputs::is_stream;
 use crate::parse::{count, positive, share};
 use crate::view_options::ViewOptions;
 use clap::{Args, ValueEnum};
 use radiosity::Options;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `radiosity solve`
 #[derive(Args, Debug)]
@@ -167,10 +168,23 @@ fn method(arguments: &Solve) -> Result<radiosity::Method, Failure> {
 const DRAFT_SECONDS: f64 = 55.0;
 
 impl Solve {
+    /// Where the state goes: beside the first output that is a file.
+    pub(super) fn state(&self) -> Option<PathBuf> {
+        self.output.iter().find_map(|path| state_beside(path))
+    }
+
     /// After how many seconds the run stops.
     pub(super) fn seconds(&self) -> Option<f64> {
         self.time.or(matches!(self.quality, Quality::Draft).then_some(DRAFT_SECONDS))
     }
+}
+
+/// Where the state of an output goes; nowhere beside what is no file (stdout, a pipe).
+pub(super) fn state_beside(output: &Path) -> Option<PathBuf> {
+    let mut name = output.to_owned().into_os_string();
+    name.push(".state");
+    let is_file = !is_stream(output) && (!output.exists() || output.is_file());
+    is_file.then(|| name.into())
 }
 
 /// The options of the solver.

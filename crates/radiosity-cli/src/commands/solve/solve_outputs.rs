@@ -15,8 +15,12 @@ pub(super) struct SolveOutputs<'s> {
 }
 
 impl SolveOutputs<'_> {
-    /// Writes every output, with the steps of the run where they are known; gives the figures.
-    pub(super) fn write(&self, solution: &Solution, recording: Option<Recording>) -> Result<String, Failure> {
+    /// Writes every output, with the steps of the run where they are known; gives the figures, and how many elements are shown.
+    pub(super) fn write(
+        &self,
+        solution: &Solution,
+        recording: Option<Recording>,
+    ) -> Result<(String, usize), Failure> {
         let &SolveOutputs { arguments, outputs, input: RepairedInput { scene, source, repairs } } = self;
         let name = arguments.scene.display().to_string();
         let record = &Record { recording, ..Record::new(&name, scene, solution) };
@@ -25,12 +29,13 @@ impl SolveOutputs<'_> {
             let view = &arguments.view;
             let contents = Contents { view, record, source: Some((source, scene)), figures: Some(&figures) };
             // A picture of a stopped run shows what is unshot as if it had spread evenly.
-            let shown = Record::new(&name, scene, &solution.with_ambient());
-            let picture = Contents { record: if solution.converged { record } else { &shown }, ..contents };
+            let is_shown = !solution.converged && outputs.iter().any(Output::is_picture);
+            let shown = is_shown.then(|| Record::new(&name, scene, &solution.with_ambient()));
+            let picture = Contents { record: shown.as_ref().unwrap_or(record), ..contents };
             let write =
                 |output: &Output| output.write(if output.is_picture() { &picture } else { &contents });
             outputs.iter().try_for_each(write)?;
         }
-        Ok(json::line(&figures))
+        Ok((json::line(&figures), record.elements.len()))
     }
 }

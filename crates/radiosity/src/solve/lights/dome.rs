@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 
 /// What a form factor to a side may be off by.
 const ENOUGH: f64 = 1e-9;
+/// A view of less is rounding: what a sealed room lets in would be solved for like any light.
+const ROUNDING: f64 = 1e-12;
 
 /// The sky as a level ceiling above the scene and four walls around it, which go down to the level of whoever looks: of the sky every point
 /// sees what it sees of these past the scene's polygons.
@@ -66,7 +68,7 @@ impl<'s> Dome<'s> {
         let walls = self.ways().map(|way| self.wall(way, level));
         let sides = || std::iter::once(&self.enclosure.polygons()[self.ceiling]).chain(&walls);
         let numbered = || (self.ceiling..).zip(sides());
-        match self.sky.kind {
+        let share = match self.sky.kind {
             SkyKind::Uniform => {
                 let seen = |(id, side)| self.enclosure.form_factor_within(point, id, side, ENOUGH).value;
                 PI * numbered().map(seen).sum::<f64>()
@@ -74,9 +76,10 @@ impl<'s> Dome<'s> {
             SkyKind::Overcast => {
                 let seen = |(id, side)| self.enclosure.visible_boundary(point, id, side);
                 let [even, rising] = self.moments(point, numbered().flat_map(seen));
-                ((even + 2.0 * rising) / 3.0).max(0.0)
+                (even + 2.0 * rising) / 3.0
             }
-        }
+        };
+        if share > ROUNDING { share } else { 0.0 }
     }
 
     /// The integrals of n·ω and of (n·ω)(z·ω) over the directions ω within edges that have them to the left, z up.
