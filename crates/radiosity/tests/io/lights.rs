@@ -136,7 +136,8 @@ fn lights_are_the_same_when_they_are_written_and_read() {
 }
 
 /// (0, 0, 0), (1, 0, 0) and (0, 1, 0) in single precision.
-const TRIANGLE: &str = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+const TRIANGLE: &str =
+    "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
 
 /// The scene of a document of lights alone, all at (0, 0, 5).
 fn gltf(generator: &str, lights: &Value) -> Scene {

@@ -150,10 +150,17 @@ impl<'o> Follower<'o> {
             return ExitCode::from(INTERRUPTED);
         }
         let (shots, products) = (solution.shots, solution.products);
-        say!(
-            "warning: stopped after {shots} shots and {products} products, before the tolerance was reached; raise the \
-             limit or the tolerance"
-        );
+        if solution.estimate.is_some() {
+            say!(
+                "warning: stopped after {products} products, before every patch was within the error asked for; allow more \
+                 --time or a larger --error"
+            );
+        } else {
+            say!(
+                "warning: stopped after {shots} shots and {products} products, before the tolerance was reached; raise the \
+                 limit or the tolerance"
+            );
+        }
         ExitCode::from(4)
     }
 }

@@ -4,7 +4,7 @@ use super::cluster_links::{ClusterLink, ClusterLinks};
 use super::clusters::{Clusters, Pairs};
 use super::equilibrium::Equilibrium;
 use super::link::{Candidate, Link, UNSEEN};
-use super::measure::{between, faces, measure};
+use super::measure::{between, faces, measure, rises};
 use super::tiling::{Tile, Tiling};
 use super::totals::Totals;
 use crate::error::Error;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// With more whole tiles than this, those that are far from each other are linked in clusters.
 const FEW: usize = 300;
-/// A point is in a closed room when ΣF is 1 within this.
+/// A point is in a closed room when ΣF is 1 within this, and covered when it is 0 within this.
 const CLOSED: f64 = 1e-9;
 
 /// Of many tiles so many tell whether all are in closed rooms.
@@ -33,7 +33,8 @@ enum Enclosed {
 
 impl Enclosed {
     fn by(sums: &[f64]) -> Enclosed {
-        let is_covered = sums.iter().all(|sum| *sum == 0.0);
+        // Between the sides of what stands on a tile, rounding may leave a crack.
+        let is_covered = sums.iter().all(|sum| *sum <= CLOSED);
         match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
             5 => Enclosed::Wholly,
             0 if is_covered => Enclosed::Covered,
@@ -289,8 +290,10 @@ fn samples_are_enclosed(tiling: &Tiling<'_>) -> bool {
     samples.par_iter().all(|tile| (sum(tiling, &tile.points[0]) - 1.0).abs() <= CLOSED)
 }
 
-/// ΣF of a point.
+/// ΣF of a point to all that rises above its plane: whether it sees what touches it face to face is up to rounding.
 fn sum(tiling: &Tiling<'_>, point: &DifferentialArea) -> f64 {
-    let surfaces = 0..tiling.enclosure.polygons().len();
+    let polygons = tiling.enclosure.polygons();
+    let is_before = |surface: &usize| polygons[*surface].loops().flatten().any(|place| rises(*place, point));
+    let surfaces = (0..polygons.len()).filter(is_before);
     surfaces.map(|surface| tiling.enclosure.form_factor(point, surface).value).sum()
 }

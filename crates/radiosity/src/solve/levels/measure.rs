@@ -102,7 +102,7 @@ pub(super) fn look(tiling: &Tiling<'_>, point: &DifferentialArea, to: &Tile, amo
 }
 
 /// Whether a place is above the plane of a point.
-fn rises(place: DVec3, point: &DifferentialArea) -> bool {
+pub(super) fn rises(place: DVec3, point: &DifferentialArea) -> bool {
     let way = place - point.position();
     point.normal().dot(way) > NEAR * way.length()
 }
