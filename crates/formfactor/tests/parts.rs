@@ -187,3 +187,17 @@ fn what_is_off_the_plane_is_no_part() {
     let off = wall.part([[[0.0, 0.0, 1e-9], [0.5, 0.0, 0.0], [0.5, 0.25, 0.0]]]);
     assert!(matches!(off, Err(Error::NotPlanar { .. })), "{off:?}");
 }
+
+/// Its corners were rounded where those of the whole are: by more than their own size says.
+#[test]
+fn a_small_part_near_the_origin_is_on_the_plane_of_its_whole() {
+    let turn = glam::DQuat::from_scaled_axis(DVec3::new(0.3, 0.2, -0.5));
+    let whole = [[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]].map(|[x, y]| turn * DVec3::new(x, y, 0.0));
+    let whole = PlanarPolygon::new([whole]).unwrap();
+    let lift = 1e-16 * whole.normal();
+    for size in [1e-1, 1e-3, 1e-6] {
+        let corners = [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]];
+        let place = |[x, y]: [f64; 2]| turn * DVec3::new(x, y, 0.0) + lift;
+        assert!(whole.part([corners.map(place)]).is_ok(), "{size}");
+    }
+}

@@ -1,5 +1,6 @@
 //! Boxes on a grid that pass through each other: what is left of their faces is known cell by cell.
 #![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+#![allow(clippy::cast_possible_truncation, reason = "counts of cells are small")]
 mod random;
 
 use radiosity::formfactor::PlanarPolygon;

@@ -70,7 +70,9 @@ pub(super) fn deviation(
     if points.iter().all(|p| plane.side(*p).sign == Ordering::Equal) {
         return Ok(0.0);
     }
-    let allowed = PLANARITY * ROUNDING * points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    // A small part near the origin was rounded where its whole is.
+    let all = points.iter().chain(&plane.corners);
+    let allowed = PLANARITY * ROUNDING * all.map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let length = plane.normal.round().length();
     let mut worst = 0.0_f64;
     for (index, point) in points.iter().enumerate() {
