@@ -24,13 +24,16 @@ const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
 /// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
 const SUM: f64 = 2.0;
 /// What reflection adds to the errors of links, and what is of one sign, may leave a patch's estimate beyond what is asked for. So often its
-/// share is made smaller then: by as much as the estimate is too large and a little more, but not by more than [`LESS`] at once.
-const FINER: usize = 4;
+/// share is made smaller then, or that of all where this helps no more: by as much as the estimate is too large and a little more, but not by
+/// more than [`LESS`] at once.
+const FINER: usize = 8;
 const A_LITTLE: f64 = 0.9;
 const LESS: f64 = 0.3;
 /// It goes on while what is beyond becomes less than this share of what it was, and this share of the time is left.
 const HELPS: f64 = 0.6;
 const LEFT: f64 = 0.6;
+/// So many times the tiles that budgets of links need may there be in the end.
+const MORE: usize = 4;
 /// The light changes a little yet: estimates are to be less than what is asked for by so much.
 const NEARLY: f64 = 0.95;
 /// How often totals are restored and rooms closed in turn at the end.
@@ -109,7 +112,8 @@ impl Levels<'_> {
         let mut lights = lights;
         let patches = self.tiling.scene.patches.len();
         for times in COARSE {
-            let Some(found) = self.level(&vec![times * SUM * self.options.error; patches], state)? else {
+            let shares = vec![times * SUM * self.options.error; patches];
+            let Some(found) = self.level(&shares, usize::MAX, state)? else {
                 return Ok(false);
             };
             lights = found;
@@ -121,18 +125,25 @@ impl Levels<'_> {
     fn better(&mut self, mut lights: Vec<BandLight>, state: &mut State) -> Result<bool, Error> {
         let error = NEARLY * self.options.error;
         let mut allowed = vec![SUM * self.options.error; self.tiling.scene.patches.len()];
-        let mut before = f64::INFINITY;
+        let (mut before, mut is_own) = (f64::INFINITY, true);
+        let most = MORE * self.tiling.tiles.len();
         for _ in 0..FINER {
             let found = shares(&self.tiling, &self.links.all, &self.links.clusters, &lights);
             let beyond: f64 = found.iter().map(|share| (share - error).max(0.0)).sum();
-            if beyond == 0.0 || beyond > HELPS * before || !self.has_time() {
+            let helps = beyond <= HELPS * before;
+            let is_full = self.tiling.tiles.len() > most;
+            if beyond == 0.0 || !(helps || is_own) || is_full || !self.has_time() {
                 return Ok(true);
             }
+            // What others reflect is left, then.
+            is_own &= helps;
             before = beyond;
-            for (allowed, share) in allowed.iter_mut().zip(found).filter(|(_, share)| *share > error) {
-                *allowed *= (A_LITTLE * error / share).max(LESS);
+            let worst = found.iter().copied().fold(0.0, f64::max);
+            for (allowed, share) in allowed.iter_mut().zip(found) {
+                let share = if is_own { share } else { worst };
+                *allowed *= (A_LITTLE * error / share).clamp(LESS, 1.0);
             }
-            match self.level(&allowed, state)? {
+            match self.level(&allowed, most, state)? {
                 None => return Ok(false),
                 Some(better) => lights = better,
             }
@@ -165,9 +176,14 @@ impl Levels<'_> {
         self.options.max_seconds.is_none_or(|limit| seconds < (1.0 - LEFT) * limit)
     }
 
-    /// Refines until the errors of every patch's links add up to no more than its share of its light; gives the light, or nothing when the
-    /// run is to end.
-    fn level(&mut self, shares: &[f64], state: &mut State) -> Result<Option<Vec<BandLight>>, Error> {
+    /// Refines until the errors of every patch's links add up to no more than its share of its light, or there are more than so many tiles;
+    /// gives the light, or nothing when the run is to end.
+    fn level(
+        &mut self,
+        shares: &[f64],
+        most: usize,
+        state: &mut State,
+    ) -> Result<Option<Vec<BandLight>>, Error> {
         loop {
             if !self.shine(state)? {
                 return Ok(None);
@@ -175,8 +191,8 @@ impl Levels<'_> {
             let mut lights = self.settle(FEW, false);
             match self.refine(&mut lights, shares, state)? {
                 None => return Ok(None),
-                Some(true) => {}
-                Some(false) => return Ok(Some(lights)),
+                Some(true) if self.tiling.tiles.len() <= most => {}
+                Some(_) => return Ok(Some(lights)),
             }
         }
     }
