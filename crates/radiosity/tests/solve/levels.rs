@@ -326,3 +326,37 @@ fn vertices_within_straight_edges_change_no_light() {
         assert!((a - b).abs() <= allowed, "{}: {a} {b}", patch.name);
     }
 }
+
+/// What a vertex at the rim of a wall sees is filled by the tiles beside it, little as they bring to the wall: none of them may be taken from afar.
+#[test]
+fn no_vertex_at_a_rim_is_darker_than_all_around_it() {
+    let scene = radiosity::scenes::scene("cornell-box").unwrap();
+    let solution = solved(&scene, &options(0.01));
+    let shown = solution.vertex_radiosity();
+    let red = |vertex: usize| shown[vertex * solution.bands];
+    let mut around = vec![Vec::new(); solution.mesh.vertices.len()];
+    for element in &solution.mesh.elements {
+        let [a, b, c] = element.corners;
+        for [one, other] in [[a, b], [b, c], [c, a]] {
+            around[one].push(other);
+            around[other].push(one);
+        }
+    }
+    let back = scene.patches.iter().position(|patch| patch.name == "back").unwrap();
+    let of_back = solution.mesh.elements.iter().filter(|element| element.patch == back);
+    let mut top: Vec<usize> = of_back.flat_map(|element| element.corners).collect();
+    let place = |vertex: usize| solution.mesh.vertices[vertex];
+    top.retain(|vertex| (place(*vertex).y - 548.8).abs() < 1e-9 && (60.0..500.0).contains(&place(*vertex).x));
+    top.sort_by(|a, b| place(*a).x.total_cmp(&place(*b).x));
+    top.dedup();
+    assert!(top.len() > 10);
+    for pair in top.windows(2) {
+        let [one, other] = [pair[0], pair[1]].map(red);
+        assert!(one.min(other) > 0.8 * one.max(other), "{}: {one} {other}", place(pair[0]));
+    }
+    // In the corners of a room three walls meet: there it is darker.
+    for (vertex, others) in around.iter().enumerate().filter(|(_, others)| others.len() > 6) {
+        let least = others.iter().map(|other| red(*other)).fold(f64::INFINITY, f64::min);
+        assert!(red(vertex) >= 0.7 * least, "{}: {} {least}", solution.mesh.vertices[vertex], red(vertex));
+    }
+}

@@ -23,7 +23,7 @@ const NEAR: f64 = 1e-9;
 const LEAST: f64 = 1e-4;
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
 /// quicker where no two edges are in line.
-const WITHIN: f64 = 1e-7;
+const WITHIN: f64 = 1e-10;
 
 /// A tile in its tree.
 #[derive(Clone, Debug)]

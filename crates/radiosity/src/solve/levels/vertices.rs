@@ -5,13 +5,15 @@ use super::link::Link;
 use super::links::Links;
 use super::measure::look;
 use super::tile::SQUARE;
-use super::tiling::Tiling;
+use super::tiling::{Tile, Tiling};
 use crate::error::Error;
+use crate::extent::Extent;
 use crate::mesh::element::Mesh;
 use crate::solve::pace::Pace;
 use crate::solve::receivers::{AT_RIM, Receiver, receivers};
 use crate::solve::workers::attempt;
 use formfactor::DifferentialArea;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
@@ -23,6 +25,9 @@ const SMOOTH: f64 = 0.2;
 
 /// Points look at tiles that see so much of theirs: those are near, and what they bring is least linear at the rim.
 const NEAR: f64 = 0.05;
+
+/// And at tiles that are nearer than this share of their size: little of all that a tile receives, and half of what a point at its rim sees.
+const BESIDE: f64 = 0.1;
 
 /// What points of each tile see.
 pub(super) struct Sights<'s> {
@@ -56,18 +61,24 @@ impl<'s> Sights<'s> {
     ) -> Sights<'s> {
         let (known, clusters, links) = (links.known(tiling), &links.clusters, &links.all[..]);
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
-        let sent: Vec<Vec<Linear>> = sent.iter().cloned().chain([even]).collect();
+        let lit =
+            |sent: &Vec<Linear>| tiling.tiles.iter().zip(sent).map(|(tile, sent)| lit(tile, *sent)).collect();
+        let sent: Vec<Vec<Linear>> = sent.iter().map(lit).chain([even]).collect();
         let mut of_tile = vec![Vec::new(); tiling.tiles.len()];
         for (index, link) in links.iter().enumerate() {
             [0, 1].into_iter().for_each(|end| of_tile[link.ends[end]].push((index, end)));
         }
+        let extents: Vec<Extent> =
+            tiling.tiles.iter().map(|tile| Extent::of_points(tile.outline.places())).collect();
         let sight = |(tile, of_tile): (usize, Vec<(usize, usize)>)| {
             let (area, is_crossed) = (tiling.tiles[tile].area, tiling.tiles[tile].is_crossed);
             let flaw = |&(index, end): &(usize, usize)| {
                 let link = &links[index];
                 let smaller =
                     link.ends.map(|end| tiling.tiles[end].area).into_iter().fold(f64::MAX, f64::min);
-                if is_crossed || link.exchange[0] > NEAR * smaller {
+                let other = &extents[link.ends[1 - end]];
+                let is_beside = extents[tile].is_near(other, BESIDE * other.diagonal());
+                if is_crossed || is_beside || link.exchange[0] > NEAR * smaller {
                     return f64::INFINITY;
                 }
                 let wrong = (link.curvature(end) + link.error()) / area;
@@ -176,6 +187,17 @@ impl<'s> Sights<'s> {
         let sum = light.pop().filter(|sum| *sum > 0.0 && self.known[leaf] == Some(1.0)).unwrap_or(1.0);
         light.into_iter().map(|light| (light / sum).max(0.0)).collect()
     }
+}
+
+/// The same mean, with so little slope that no corner of the tile sends less than nothing.
+fn lit(tile: &Tile, [mean, first, second]: Linear) -> Linear {
+    let slope = |(at, _): &(DVec2, DVec3)| {
+        let [a, b] = tile.outline.linear(*at);
+        a * first + b * second
+    };
+    let lowest = tile.outline.corners.iter().map(slope).fold(0.0, f64::min);
+    let share = if mean + lowest < 0.0 { -mean.max(0.0) / lowest } else { 1.0 };
+    [mean, share * first, share * second]
 }
 
 /// What a tile receives across some links.
