@@ -120,6 +120,10 @@ fn what_lies_within_solids_is_cut_away() {
         let is_crossed = blocks.iter().any(|one| blocks.iter().any(|other| one.is_crossed_by(other)));
         let is_told = repaired.repairs.iter().any(|finding| finding.kind == Kind::Buried);
         assert_eq!(is_told, is_crossed, "{seed}");
+        // A side of a block crosses at most two sides of each of the others.
+        let corners = |patch: &Patch| patch.polygon.loops().flatten().count();
+        let most = repaired.scene.patches.iter().map(corners).max().unwrap();
+        assert!(most <= 4 + 8 * (blocks.len() - 1), "{seed}: {most}");
         let again = inspect(&repaired.scene);
         assert!(again.findings.iter().all(|finding| finding.kind != Kind::Buried), "{seed}");
     }

@@ -7,7 +7,9 @@ use glam::DVec3;
 use std::cmp::Ordering;
 
 /// How many roundings of its largest coordinate a polygon's vertex may lie off the polygon's plane.
-const PLANARITY: f64 = 64.0;
+pub(super) const PLANARITY: f64 = 64.0;
+/// And the vertex of a part: it stands between vertices that may lie so far off, and was rounded by whoever put it there.
+pub(super) const OF_PARTS: f64 = 4.0 * PLANARITY;
 
 /// The unit normal of a loop by Newell's sum, in double-double arithmetic.
 pub(super) fn newell(outer: &[DVec3]) -> Result<DVec3, Error> {
@@ -66,13 +68,14 @@ pub(super) fn deviation(
     ends: &[usize],
     plane: &Plane,
     normal: DVec3,
+    planarity: f64,
 ) -> Result<f64, Error> {
     if points.iter().all(|p| plane.side(*p).sign == Ordering::Equal) {
         return Ok(0.0);
     }
     // A small part near the origin was rounded where its whole is.
     let all = points.iter().chain(&plane.corners);
-    let allowed = PLANARITY * ROUNDING * all.map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let allowed = planarity * ROUNDING * all.map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let length = plane.normal.round().length();
     let mut worst = 0.0_f64;
     for (index, point) in points.iter().enumerate() {

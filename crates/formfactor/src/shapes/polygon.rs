@@ -1,5 +1,5 @@
 //! Planar polygons: loops with holes, and the plane that they share.
-use super::plane::{deviation, kept_axes, newell, plane_of};
+use super::plane::{OF_PARTS, PLANARITY, deviation, kept_axes, newell, plane_of};
 use super::{convex, loops};
 use crate::error::Error;
 use crate::numeric::rounding::in_range;
@@ -62,7 +62,7 @@ impl PlanarPolygon {
         let outer = &points[..*ends.first().ok_or(Error::NoLoops)?];
         let normal = newell(outer)?;
         let plane = plane_of(outer, normal)?;
-        Self::on_plane(points, ends, plane, normal)
+        Self::on_plane(points, ends, plane, normal, PLANARITY)
     }
 
     /// A part of this polygon, on the same plane and facing the same way, whichever way its loops run: its vertices, which rounding may have put off that plane, stand for
@@ -91,7 +91,7 @@ impl PlanarPolygon {
             let starts = std::iter::once(0).chain(ends.iter().copied());
             starts.zip(&ends).for_each(|(start, end)| points[start..*end].reverse());
         }
-        Self::on_plane(points, ends, self.plane.clone(), self.normal)
+        Self::on_plane(points, ends, self.plane.clone(), self.normal, OF_PARTS)
     }
 
     /// Whether this is a polygon's [`Self::part`], or the polygon itself: the plane is the same, bit for bit.
@@ -99,9 +99,15 @@ impl PlanarPolygon {
         self.plane.corners == whole.plane.corners
     }
 
-    fn on_plane(points: Vec<DVec3>, ends: Vec<usize>, plane: Plane, normal: DVec3) -> Result<Self, Error> {
+    fn on_plane(
+        points: Vec<DVec3>,
+        ends: Vec<usize>,
+        plane: Plane,
+        normal: DVec3,
+        planarity: f64,
+    ) -> Result<Self, Error> {
         let axes = kept_axes(plane.normal.round());
-        let deviation = deviation(&points, &ends, &plane, normal)?;
+        let deviation = deviation(&points, &ends, &plane, normal, planarity)?;
         let [u, v, w] = axes;
         let slopes = [u, v].map(|axis| plane.normal.0[axis] / plane.normal.0[w]);
         let order = (0..points.len()).collect();
@@ -172,7 +178,7 @@ impl PlanarPolygon {
         let points = [&self.points[..], &part.points].concat();
         let ends = part.ends.iter().map(|end| end + self.points.len());
         let ends: Vec<usize> = std::iter::once(self.points.len()).chain(ends).collect();
-        deviation(&points, &ends, &self.plane, self.normal)
+        deviation(&points, &ends, &self.plane, self.normal, OF_PARTS)
     }
 
     /// Whether it is one convex loop; decided exactly, in the two kept coordinates.

@@ -27,7 +27,7 @@ use std::collections::{BTreeMap, HashSet};
 
 /// A closed surface of triangles that are turned out, so that a plane cuts each in one segment at most.
 #[derive(Debug)]
-struct Solid {
+struct ClosedSurface {
     body: usize,
     triangles: Vec<[DVec3; 3]>,
     boxes: BoxTree,
@@ -49,8 +49,8 @@ pub(super) fn cut(scene: &mut Scene, stop: &dyn Fn() -> bool) -> Option<Vec<Find
         if stop() {
             return None;
         }
-        let within = |hollow: &&Solid| solid.extent.holds(&hollow.extent);
-        let hollows: Vec<&Solid> = hollows.iter().filter(within).collect();
+        let within = |hollow: &&ClosedSurface| solid.extent.holds(&hollow.extent);
+        let hollows: Vec<&ClosedSurface> = hollows.iter().filter(within).collect();
         for (patch, part) in parts_within(scene, &bodies, &boxes, solid, &hollows) {
             buried.entry(patch).or_default().push((part, bodies.bodies[solid.body].first));
         }
@@ -63,7 +63,7 @@ pub(super) fn cut(scene: &mut Scene, stop: &dyn Fn() -> bool) -> Option<Vec<Find
 }
 
 /// The closed bodies of which all faces have one side and are turned out, or of which all are turned in.
-fn solids(scene: &Scene, bodies: &Bodies, welds: &Welds, turned_in: bool) -> Vec<Solid> {
+fn solids(scene: &Scene, bodies: &Bodies, welds: &Welds, turned_in: bool) -> Vec<ClosedSurface> {
     let two_sided: HashSet<usize> = (0..scene.patches.len())
         .filter(|&index| is_other_side(scene, index))
         .map(|index| bodies.of_patch[index])
@@ -74,7 +74,7 @@ fn solids(scene: &Scene, bodies: &Bodies, welds: &Welds, turned_in: bool) -> Vec
             triangles.entry(body).or_default().extend(fan(patch, welds, turned_in));
         }
     }
-    triangles.into_iter().map(|(body, triangles)| Solid::new(body, triangles)).collect()
+    triangles.into_iter().map(|(body, triangles)| ClosedSurface::new(body, triangles)).collect()
 }
 
 /// Triangles that add up to a patch, from its first vertex to every edge: what is covered to and fro cancels.
@@ -91,8 +91,8 @@ fn parts_within(
     scene: &Scene,
     bodies: &Bodies,
     boxes: &BoxTree,
-    solid: &Solid,
-    hollows: &[&Solid],
+    solid: &ClosedSurface,
+    hollows: &[&ClosedSurface],
 ) -> Vec<(usize, Region)> {
     let mut others: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for patch in boxes.meeting(&solid.extent) {
@@ -124,9 +124,9 @@ fn area(plane: &Plane, region: &Region) -> f64 {
     region.area() / plane.normal.abs().max_element()
 }
 
-impl Solid {
-    fn new(body: usize, triangles: Vec<[DVec3; 3]>) -> Solid {
-        Solid {
+impl ClosedSurface {
+    fn new(body: usize, triangles: Vec<[DVec3; 3]>) -> ClosedSurface {
+        ClosedSurface {
             body,
             boxes: BoxTree::new(triangles.iter().map(Extent::holding)),
             extent: Extent::holding(triangles.iter().flatten()),
@@ -135,7 +135,7 @@ impl Solid {
     }
 
     /// What of a patch lies within it and not in one of its hollows; nothing where that is no more than rounding.
-    fn buried(&self, patch: &Patch, hollows: &[&Solid]) -> Option<Region> {
+    fn buried(&self, patch: &Patch, hollows: &[&ClosedSurface]) -> Option<Region> {
         let plane = Plane::of(&patch.polygon);
         let near = patch.slack();
         let [before, behind] = [true, false].map(|is_before| self.section(&plane, near, is_before));
@@ -170,7 +170,8 @@ impl Solid {
                 segments.entry(bits(start)).or_default().push(end);
             }
         }
-        Region::from_rings(rings(segments), FillRule::Positive).unwrap_or_default()
+        let straight = rings(segments).into_iter().map(|ring| straight(ring, near));
+        Region::from_rings(straight, FillRule::Positive).unwrap_or_default()
     }
 }
 
@@ -206,6 +207,20 @@ fn rings(mut segments: BTreeMap<[u64; 2], Vec<DVec2>>) -> Vec<Vec<DVec2>> {
         rings.push(ring);
     }
     rings
+}
+
+/// A ring without the points within its sides, where edges of triangles pass through the plane.
+fn straight(ring: Vec<DVec2>, near: f64) -> Vec<DVec2> {
+    let mut kept: Vec<DVec2> = Vec::with_capacity(ring.len());
+    for (index, &point) in ring.iter().enumerate() {
+        let before = kept.last().copied().unwrap_or(ring[ring.len() - 1]);
+        let (side, arm) = (ring[(index + 1) % ring.len()] - before, point - before);
+        let is_within = side.perp_dot(arm).abs() <= near * side.length() && arm.dot(side - arm) > 0.0;
+        if !is_within {
+            kept.push(point);
+        }
+    }
+    kept
 }
 
 /// Of what lies within solids of a patch.
