@@ -330,7 +330,7 @@ fn messages_that_cannot_be_written_cost_nothing() {
     let folder = Folder::new();
     let file = folder.put("a.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1, 0 0))\n");
     let out = folder.path("out.wkt");
-    for (command, code) in [("validate \"$1\"", 4), ("repair \"$1\" -o \"$2\"", 0), ("area \"$1.none\"", 1)] {
+    for (command, code) in [("validate \"$1\"", 4), ("repair \"$1\" -o \"$2\"", 0), ("area \"$1.wkt\"", 1)] {
         for stderr in ["2> /dev/full", "2>&-"] {
             let script = format!("exec \"$0\" {command} {stderr}");
             let run =
