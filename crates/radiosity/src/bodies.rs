@@ -36,7 +36,8 @@ impl Bodies {
         Bodies::collect(scene, welds, |_| true)
     }
 
-    /// The bodies that patches make of which some count. Every edge of a closed body is run along as often one way as the other. Objects of the file that
+    /// The bodies that patches make of which some count. Every edge of a closed body is run along as often one way as the other. Objects of the
+    /// file that
     /// are closed at an edge by themselves only touch the others there.
     fn collect(scene: &Scene, welds: &Welds, counts: impl Fn(&Patch) -> bool) -> Bodies {
         let mut groups = UnionFind::new(scene.patches.len());

@@ -10,9 +10,9 @@
 //! weld         vertices that nearly meet become one
 //! ```
 //!
-//! Surfaces that pass through each other and are not closed stay as they are: form factors are exact past them. Faces of one plane that face opposite ways
-//! stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where
-//! patches touch or pass through each other.
+//! Surfaces that pass through each other and are not closed stay as they are: form factors are exact past them. Faces of one plane that face
+//! opposite ways stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch or pass
+//! through each other.
 mod cut;
 pub(crate) mod findings;
 mod necks;
@@ -76,6 +76,9 @@ fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>, stop: &dyn Fn() -> 
     let known = findings.len();
     let is_moved = weld::weld(scene, findings);
     findings.extend(slivers::leave_out(scene, stop)?);
+    if stop() {
+        return None;
+    }
     findings.extend(cut::cut(scene));
     (!stop()).then_some(is_moved || findings.len() > known)
 }
