@@ -36,14 +36,14 @@ impl Bodies {
         Bodies::collect(scene, welds, |_| true)
     }
 
-    /// The bodies that patches make of which some count. Every edge of a closed body is run along as often one way as the other. Objects of the
-    /// file that
-    /// are closed at an edge by themselves only touch the others there.
+    /// The bodies that patches make of which some count. Every edge of a closed body is run along as often one way as the other.
     fn collect(scene: &Scene, welds: &Welds, counts: impl Fn(&Patch) -> bool) -> Bodies {
+        let edges = edges(scene, welds, &counts);
+        let surfaces = surfaces(scene, &edges);
         let mut groups = UnionFind::new(scene.patches.len());
         let mut open = Vec::new();
-        for uses in edges(scene, welds, &counts).values() {
-            for connected in connected(scene, uses) {
+        for uses in edges.values() {
+            for connected in connected(scene, uses, &surfaces) {
                 connected.windows(2).for_each(|pair| groups.join(pair[0], pair[1]));
                 let turns: i32 = connected.iter().map(|patch| uses[patch]).sum();
                 open.extend(connected.first().filter(|_| turns != 0).copied());
@@ -93,16 +93,36 @@ fn edges(scene: &Scene, welds: &Welds, counts: impl Fn(&Patch) -> bool) -> BTree
     edges
 }
 
-/// The patches of an edge that it connects: those of each object that is closed there, and all others.
-fn connected(scene: &Scene, uses: &EdgeUses) -> Vec<Vec<usize>> {
-    let mut objects: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for &patch in uses.keys() {
-        objects.entry(scene.patches[patch].origin.instance).or_default().push(patch);
+/// For each patch the number of the surface that it is of, which edges of two patches connect.
+fn surfaces(scene: &Scene, edges: &BTreeMap<[PointKey; 2], EdgeUses>) -> Vec<usize> {
+    let mut surfaces = UnionFind::new(scene.patches.len());
+    for uses in edges.values().filter(|uses| uses.len() == 2) {
+        uses.keys().zip(uses.keys().skip(1)).for_each(|(a, b)| surfaces.join(*a, *b));
     }
-    let is_closed = |object: &Vec<usize>| object.iter().map(|patch| uses[patch]).sum::<i32>() == 0;
-    let (mut closed, open): (Vec<_>, Vec<_>) = objects.into_values().partition(is_closed);
-    closed.push(open.concat());
+    surfaces.number().0
+}
+
+/// The patches of an edge that it connects: those of each surface that is closed there, of each object of the file that is, and all others.
+/// What is closed at an edge by itself only touches the others there.
+fn connected(scene: &Scene, uses: &EdgeUses, surfaces: &[usize]) -> Vec<Vec<usize>> {
+    let (mut closed, open) = closed_apart(uses, uses.keys().copied(), |patch| surfaces[patch]);
+    let (objects, open) = closed_apart(uses, open.into_iter(), |patch| scene.patches[patch].origin.instance);
+    closed.extend(objects);
+    closed.push(open);
     closed
+}
+
+/// The groups of patches of an edge that are closed there, and all other patches.
+fn closed_apart(
+    uses: &EdgeUses,
+    patches: impl Iterator<Item = usize>,
+    group: impl Fn(usize) -> usize,
+) -> (Vec<Vec<usize>>, Vec<usize>) {
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    patches.for_each(|patch| groups.entry(group(patch)).or_default().push(patch));
+    let is_closed = |group: &Vec<usize>| group.iter().map(|patch| uses[patch]).sum::<i32>() == 0;
+    let (closed, open): (Vec<_>, Vec<_>) = groups.into_values().partition(is_closed);
+    (closed, open.concat())
 }
 
 /// The directed edges of a patch between places that are not one.

@@ -115,12 +115,34 @@ impl BoxTree {
 
     /// The indices of the boxes that a plane passes through, or comes as near as `near`, ascending.
     pub(crate) fn crossed_by(&self, plane: &Plane, near: f64) -> Vec<usize> {
-        let is_crossed = |envelope: &AABB<[f64; 3]>| {
-            let [low, high] = [envelope.lower(), envelope.upper()].map(DVec3::from);
+        self.found_by(|low, high| {
             let reach = ((high - low) / 2.0).dot(plane.normal.abs());
             plane.height(low.midpoint(high)).abs() <= reach + near
-        };
-        let found = self.0.locate_with_selection_function(Crossed(is_crossed));
+        })
+    }
+
+    /// The indices of the boxes that a segment passes through, or whose sides it comes as near as `near`, ascending.
+    pub(crate) fn along(&self, [a, b]: [DVec3; 2], near: f64) -> Vec<usize> {
+        let way = b - a;
+        self.found_by(|low, high| {
+            let (mut from, mut to) = (0.0_f64, 1.0_f64);
+            for axis in 0..3 {
+                let [low, high] = [low[axis] - near, high[axis] + near].map(|side| side - a[axis]);
+                if way[axis] == 0.0 {
+                    to = if low <= 0.0 && high >= 0.0 { to } else { -1.0 };
+                } else {
+                    let [enters, leaves] = [low, high].map(|side| side / way[axis]);
+                    (from, to) = (from.max(enters.min(leaves)), to.min(enters.max(leaves)));
+                }
+            }
+            from <= to
+        })
+    }
+
+    /// The indices of the boxes of which this holds, ascending: it holds of a box when it holds of one within.
+    fn found_by(&self, holds: impl Fn(DVec3, DVec3) -> bool) -> Vec<usize> {
+        let is_found = |envelope: &AABB<[f64; 3]>| holds(envelope.lower().into(), envelope.upper().into());
+        let found = self.0.locate_with_selection_function(Crossed(is_found));
         let mut indices: Vec<usize> = found.map(|geometry| geometry.data).collect();
         indices.sort_unstable();
         indices

@@ -109,7 +109,8 @@ fn every_kind_of_dirt_is_told_and_gone() {
     for seed in 0..20 {
         let (clean, dirty) = dirty_room(&mut Random(seed));
         let repaired = repair(&dirty);
-        let expected = [Kind::Duplicate, Kind::EmitterInFace, Kind::Overlap, Kind::Sliver, Kind::Crack];
+        let expected =
+            [Kind::Duplicate, Kind::EmitterInFace, Kind::Overlap, Kind::Sliver, Kind::Crack, Kind::TJunction];
         assert_eq!(kinds(&repaired), expected, "seed {seed}");
         // The area of the union is that of the clean room.
         assert!((area(&repaired.scene) / area(&clean) - 1.0).abs() < 1e-12, "seed {seed}");

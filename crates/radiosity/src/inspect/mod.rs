@@ -3,7 +3,6 @@
 //! ```text
 //! openness     how much of the view from the patches leaves the scene
 //! cost         how long the form factors will take
-//! junction     vertices that end in the middle of another patch's edge
 //! overlap      patches that cover each other in one plane
 //! orientation  neighbours that face opposite ways
 //! surface      what the reader told, whether there is light, and what repair finds
@@ -12,7 +11,6 @@
 //! A solution depends on nothing here, so a tolerance is good enough: 64 roundings of the largest coordinate, as in
 //! [`PlanarPolygon`](formfactor::PlanarPolygon).
 mod cost;
-mod junction;
 mod openness;
 mod orientation;
 mod overlap;
@@ -107,10 +105,8 @@ pub fn inspect_until(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Inspect
         stops
     };
     let mut findings = surface::findings(scene, stop);
-    for find in [orientation::findings, junction::findings] {
-        if !stop() {
-            findings.extend(find(scene));
-        }
+    if !stop() {
+        findings.extend(orientation::findings(scene));
     }
     findings.sort_by_key(|finding| finding.kind);
     let (opening, cost) = openness::openness(scene, stop);

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cut          faces of one plane cut out of each other
+//! junctions    vertices within edges of other patches become vertices of these
 //! necks        what is thin between a corner and an edge is gone
 //! findings     what is wrong with patches, in words
 //! reflectance  no surface reflects all light
@@ -11,10 +12,10 @@
 //! ```
 //!
 //! Surfaces that pass through each other and are not closed stay as they are: form factors are exact past them. Faces of one plane that face
-//! opposite ways stay too: neither sees the other. T-junctions stay: form factors are exact, and meshes are cut where patches touch or pass
-//! through each other.
+//! opposite ways stay too: neither sees the other.
 mod cut;
 pub(crate) mod findings;
+mod junctions;
 mod necks;
 mod reflectance;
 mod slivers;
@@ -44,6 +45,7 @@ pub struct Repaired {
 /// - Vertices that lie beside each other by less than single precision rounds away become one, where polygons stay planar.
 ///   What lies beside each other by rounding of the file's numbers, or of doubles, is not told.
 /// - Slivers and spikes of polygons, which are thinner than rounding, are left out.
+/// - Edges get the vertices of other patches that lie within them, T-junctions, where polygons stay planar.
 /// - Of surfaces that reach into a solid, a closed body whose faces are turned out, what lies within is cut away: no light comes there.
 /// - Patches that face the same way in one plane are cut out of each other, so that no point is covered twice. An emitter stays whole
 ///   and is cut out of a patch that does not emit. Otherwise the smaller patch stays whole, and of equal ones the first. Duplicates and
@@ -64,30 +66,31 @@ pub fn repair_until(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Repaired> 
     let mut repairs: Vec<Finding> = read.collect();
     repairs.extend(reflectance::limit(&mut scene));
     let known = repairs.len();
+    let is_moved = join(&mut scene, &mut repairs, stop)?;
     repairs.extend(solids::cut(&mut scene, stop)?);
-    if put_right(&mut scene, &mut repairs, stop)? || repairs.len() > known {
+    repairs.extend(cut::cut(&mut scene));
+    if is_moved || repairs.len() > known {
         settle(&mut scene, stop)?;
     }
     Some(Repaired { scene, repairs })
 }
 
-/// Repairs the shapes of patches once; returns whether anything was to be done, nothing when stopped.
-fn put_right(scene: &mut Scene, findings: &mut Vec<Finding>, stop: &dyn Fn() -> bool) -> Option<bool> {
-    let known = findings.len();
+/// Makes vertices one that nearly meet, and leaves out slivers; returns whether any vertex was moved, nothing when stopped.
+fn join(scene: &mut Scene, findings: &mut Vec<Finding>, stop: &dyn Fn() -> bool) -> Option<bool> {
     let is_moved = weld::weld(scene, findings);
     findings.extend(slivers::leave_out(scene, stop)?);
-    if stop() {
-        return None;
-    }
-    findings.extend(cut::cut(scene));
-    (!stop()).then_some(is_moved || findings.len() > known)
+    findings.extend(junctions::join(scene, stop)?);
+    (!stop()).then_some(is_moved)
 }
 
 /// Repairs what cuts leave: corners of two pieces at one place that were rounded apart, thin pieces, and overlaps where planes are one in
 /// pairs and not all together. What overlaps after some rounds is left out.
 fn settle(scene: &mut Scene, stop: &dyn Fn() -> bool) -> Option<()> {
     for _ in 0..ROUNDS {
-        if !put_right(scene, &mut Vec::new(), stop)? {
+        let mut found = Vec::new();
+        let is_moved = join(scene, &mut found, stop)?;
+        found.extend(cut::cut(scene));
+        if !is_moved && found.is_empty() {
             return Some(());
         }
     }

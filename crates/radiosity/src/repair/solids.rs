@@ -137,7 +137,8 @@ impl ClosedSurface {
     /// What of a patch lies within it and not in one of its hollows; nothing where that is no more than rounding.
     fn buried(&self, patch: &Patch, hollows: &[&ClosedSurface]) -> Option<Region> {
         let plane = Plane::of(&patch.polygon);
-        let near = patch.slack();
+        // Planes within it are one where overlaps are cut, too.
+        let near = strip(patch).max(patch.slack());
         let [before, behind] = [true, false].map(|is_before| self.section(&plane, near, is_before));
         if before.is_empty() || behind.is_empty() {
             return None;
@@ -161,8 +162,8 @@ impl ClosedSurface {
             let (mut start, mut end) = (None, None);
             for [from, to] in [[a, b], [b, c], [c, a]] {
                 match [from, to].map(|point| plane.height(point) > limit) {
-                    [true, false] => start = Some(crossing(plane, limit, [from, to])),
-                    [false, true] => end = Some(crossing(plane, limit, [from, to])),
+                    [true, false] => start = Some(crossing(plane, [from, to])),
+                    [false, true] => end = Some(crossing(plane, [from, to])),
                     _ => {}
                 }
             }
@@ -175,10 +176,10 @@ impl ClosedSurface {
     }
 }
 
-/// Where an edge passes through the plane, in the plane: the same for both directions of the edge.
-fn crossing(plane: &Plane, limit: f64, ends: [DVec3; 2]) -> DVec2 {
+/// Where an edge passes through the plane, or its end that is nearest to it, in the plane: the same for both directions of the edge.
+fn crossing(plane: &Plane, ends: [DVec3; 2]) -> DVec2 {
     let [a, b] = if key(ends[0]) < key(ends[1]) { ends } else { [ends[1], ends[0]] };
-    let [above, below] = [a, b].map(|point| plane.height(point) - limit);
+    let [above, below] = [a, b].map(|point| plane.height(point));
     let share = (above / (above - below)).clamp(0.0, 1.0);
     plane.flatten(a + share * (b - a))
 }
@@ -209,18 +210,21 @@ fn rings(mut segments: BTreeMap<[u64; 2], Vec<DVec2>>) -> Vec<Vec<DVec2>> {
     rings
 }
 
-/// A ring without the points within its sides, where edges of triangles pass through the plane.
-fn straight(ring: Vec<DVec2>, near: f64) -> Vec<DVec2> {
-    let mut kept: Vec<DVec2> = Vec::with_capacity(ring.len());
-    for (index, &point) in ring.iter().enumerate() {
-        let before = kept.last().copied().unwrap_or(ring[ring.len() - 1]);
-        let (side, arm) = (ring[(index + 1) % ring.len()] - before, point - before);
-        let is_within = side.perp_dot(arm).abs() <= near * side.length() && arm.dot(side - arm) > 0.0;
-        if !is_within {
-            kept.push(point);
+/// A ring without the points within its sides, where edges of triangles pass through the plane. Of two that rounding keeps apart one stays: so
+/// each is held against the points that are left beside it.
+fn straight(mut ring: Vec<DVec2>, near: f64) -> Vec<DVec2> {
+    let mut at = 0;
+    while at < ring.len() && ring.len() > 2 {
+        let count = ring.len();
+        let [before, point, after] = [at, at + 1, at + 2].map(|index| ring[index % count]);
+        let (side, arm) = (after - before, point - before);
+        if side.perp_dot(arm).abs() <= near * side.length() && arm.dot(side - arm) > 0.0 {
+            ring.remove((at + 1) % count);
+        } else {
+            at += 1;
         }
     }
-    kept
+    ring
 }
 
 /// Of what lies within solids of a patch.

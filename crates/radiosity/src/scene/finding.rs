@@ -140,7 +140,8 @@ impl Kind {
             Kind::NonPlanar | Kind::Crossed => Some("split"),
             Kind::Sliver | Kind::NoArea => Some("left out"),
             Kind::Crack => Some("closed"),
-            Kind::Dark | Kind::File | Kind::Flipped | Kind::TJunction => None,
+            Kind::TJunction => Some("joined"),
+            Kind::Dark | Kind::File | Kind::Flipped => None,
         }
     }
 
