@@ -12,6 +12,8 @@ pub(crate) struct ConnectedBody {
     pub(crate) first: usize,
     /// For a closed body whose faces are all turned the same way, whether their fronts are turned in.
     pub(crate) turned_in: Option<bool>,
+    /// Whether some edge of it connects more than two patches: it may be several bodies that share edges.
+    pub(crate) is_joined: bool,
     pub(crate) emits: bool,
 }
 
@@ -41,12 +43,13 @@ impl Bodies {
         let edges = edges(scene, welds, &counts);
         let surfaces = surfaces(scene, &edges);
         let mut groups = UnionFind::new(scene.patches.len());
-        let mut open = Vec::new();
+        let (mut open, mut joined) = (Vec::new(), Vec::new());
         for uses in edges.values() {
             for connected in connected(scene, uses, &surfaces) {
                 connected.windows(2).for_each(|pair| groups.join(pair[0], pair[1]));
                 let turns: i32 = connected.iter().map(|patch| uses[patch]).sum();
                 open.extend(connected.first().filter(|_| turns != 0).copied());
+                joined.extend(connected.first().filter(|_| connected.len() > 2).copied());
             }
         }
         (1..scene.patches.len())
@@ -58,10 +61,12 @@ impl Bodies {
         let volumes = volumes(scene, &of_patch, firsts.len(), &counts);
         let body = |(index, first): (usize, usize)| ConnectedBody {
             first,
+            is_joined: false,
             turned_in: (is_closed[index] && volumes[index] != 0.0).then_some(volumes[index] < 0.0),
             emits: false,
         };
         let mut bodies: Vec<ConnectedBody> = firsts.into_iter().enumerate().map(body).collect();
+        joined.into_iter().for_each(|patch| bodies[of_patch[patch]].is_joined = true);
         scene.patches.iter().zip(&of_patch).for_each(|(patch, &body)| bodies[body].emits |= patch.emits());
         Bodies { bodies, of_patch }
     }

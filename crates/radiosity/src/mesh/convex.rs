@@ -31,8 +31,8 @@ pub(crate) fn convex_parts(
     let mut open = if rings.len() > 1 { rings_of(&region(&rings)?) } else { vec![rings] };
     let mut parts = Vec::new();
     while let Some(rings) = open.pop() {
-        match cut_of(&rings) {
-            Some(line) => open.extend(halves(&rings, line)?),
+        match cut(&rings, least)? {
+            Some(halves) => open.extend(halves),
             None => parts.extend(rings.into_iter().filter(|ring| area(ring) > least)),
         }
     }
@@ -59,8 +59,20 @@ fn area(ring: &[DVec2]) -> f64 {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() / 2.0
 }
 
-/// Where to cut what is not convex: a point and a direction.
-fn cut_of(rings: &[Vec<DVec2>]) -> Option<[DVec2; 2]> {
+/// What is not convex, cut in two along the first line that leaves more than rounding on both sides; `None` where there is none.
+fn cut(rings: &[Vec<DVec2>], least: f64) -> Result<Option<Vec<Vec<Vec<DVec2>>>>, MeshRefusal> {
+    for line in lines(rings) {
+        let mut halves = halves(rings, line)?;
+        halves.retain(|rings| rings.iter().map(|ring| area(ring)).sum::<f64>() > least);
+        if halves.len() > 1 {
+            return Ok(Some(halves));
+        }
+    }
+    Ok(None)
+}
+
+/// Where to cut what is not convex: points and directions, those nearest to the middle first.
+fn lines(rings: &[Vec<DVec2>]) -> Vec<[DVec2; 2]> {
     let count = rings.iter().map(Vec::len).sum::<usize>() as f64;
     let middle = rings.iter().flatten().sum::<DVec2>() / count;
     let corners = rings.iter().flat_map(|ring| {
@@ -68,10 +80,11 @@ fn cut_of(rings: &[Vec<DVec2>]) -> Option<[DVec2; 2]> {
         (0..count).map(move |k| [ring[(k + count - 1) % count], ring[k], ring[(k + 1) % count]])
     });
     let reflex = corners.filter(|corner| is_reflex(*corner)).map(|[_, b, _]| b);
-    let lines = reflex.flat_map(|corner| {
-        [DVec2::X, DVec2::Y].map(|way| (way.perp_dot(middle - corner).abs(), [corner, way]))
-    });
-    lines.reduce(|a, b| if b.0 < a.0 { b } else { a }).map(|(_, line)| line)
+    let mut lines: Vec<[DVec2; 2]> =
+        reflex.flat_map(|corner| [DVec2::X, DVec2::Y].map(|way| [corner, way])).collect();
+    let far = |[corner, way]: &[DVec2; 2]| way.perp_dot(middle - *corner).abs();
+    lines.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    lines
 }
 
 /// Whether a polygon turns right at a corner by more than rounding can make it: what is less does no harm.

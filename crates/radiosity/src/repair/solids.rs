@@ -86,7 +86,8 @@ fn fan(patch: &Patch, welds: &Welds, turned_in: bool) -> Vec<[DVec3; 3]> {
     edges.map(|[a, b]| if turned_in { [tip, b, a] } else { [tip, a, b] }).collect()
 }
 
-/// What lies within a solid and not in a hollow of it, of patches of other bodies that reach into it.
+/// What lies within a solid and not in a hollow of it, of patches of other bodies that reach into it. Of solids that share edges and are
+/// one body it is what lies within one of them.
 fn parts_within(
     scene: &Scene,
     bodies: &Bodies,
@@ -97,14 +98,16 @@ fn parts_within(
     let mut others: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for patch in boxes.meeting(&solid.extent) {
         let body = bodies.of_patch[patch];
-        if body != solid.body {
+        if body != solid.body || bodies.bodies[body].is_joined {
             others.entry(body).or_default().push(patch);
         }
     }
     let meets = |patch: &usize| !solid.boxes.meeting(&Extent::of(&scene.patches[*patch])).is_empty();
     let mut parts = Vec::new();
     for patches in others.into_values().filter(|patches| patches.iter().any(meets)) {
-        let within = |patch: usize| Some((patch, solid.buried(&scene.patches[patch], hollows)?));
+        let is_own = |patch: usize| bodies.of_patch[patch] == solid.body;
+        let within =
+            |patch: usize| Some((patch, solid.buried(&scene.patches[patch], is_own(patch), hollows)?));
         let found: Vec<(usize, Region)> = patches.into_iter().filter_map(within).collect();
         if found.iter().any(|(patch, part)| !is_all(&scene.patches[*patch], part)) {
             parts.extend(found);
@@ -134,27 +137,33 @@ impl ClosedSurface {
         }
     }
 
-    /// What of a patch lies within it and not in one of its hollows; nothing where that is no more than rounding.
-    fn buried(&self, patch: &Patch, hollows: &[&ClosedSurface]) -> Option<Region> {
+    /// What of a patch lies within it and not in one of its hollows; nothing where that is no more than rounding. A patch of its own is to lie
+    /// within it once more than it does by itself.
+    fn buried(&self, patch: &Patch, is_own: bool, hollows: &[&ClosedSurface]) -> Option<Region> {
         let plane = Plane::of(&patch.polygon);
         // Planes within it are one where overlaps are cut, too.
         let near = strip(patch).max(patch.slack());
-        let [before, behind] = [true, false].map(|is_before| self.section(&plane, near, is_before));
+        let [before, mut behind] = [true, false].map(|is_before| self.section(&plane, near, is_before));
         if before.is_empty() || behind.is_empty() {
             return None;
         }
         let outline = plane.region(&patch.polygon);
+        if is_own {
+            behind.extend(outline.rings().map(|ring| ring.iter().rev().copied().collect::<Vec<_>>()));
+        }
+        let [before, behind] = [before, behind].map(inside);
         let within = Csg::from(&outline) & Csg::from(&before) & Csg::from(&behind);
         let empty: Vec<Region> = hollows
             .iter()
-            .flat_map(|hollow| [true, false].map(|is_before| hollow.section(&plane, near, is_before)))
+            .flat_map(|hollow| [true, false].map(|is_before| inside(hollow.section(&plane, near, is_before))))
             .collect();
         let part = (within - Csg::union(&empty)).evaluate();
         (area(&plane, &part) > strip(patch) * perimeter(&patch.polygon)).then_some(part)
     }
 
-    /// What of it is in a plane, just before the plane or just behind it: what is as near to the plane as rounding is on the other side.
-    fn section(&self, plane: &Plane, near: f64, is_before: bool) -> Region {
+    /// The outlines of what of it is in a plane, just before the plane or just behind it: what is as near to the plane as rounding is on the
+    /// other side.
+    fn section(&self, plane: &Plane, near: f64, is_before: bool) -> Vec<Vec<DVec2>> {
         let limit = if is_before { near } else { -near };
         let mut segments: BTreeMap<[u64; 2], Vec<DVec2>> = BTreeMap::new();
         for index in self.boxes.crossed_by(plane, near) {
@@ -171,9 +180,13 @@ impl ClosedSurface {
                 segments.entry(bits(start)).or_default().push(end);
             }
         }
-        let straight = rings(segments).into_iter().map(|ring| straight(ring, near));
-        Region::from_rings(straight, FillRule::Positive).unwrap_or_default()
+        rings(segments).into_iter().map(|ring| straight(ring, near)).collect()
     }
+}
+
+/// What outlines go around.
+fn inside(rings: Vec<Vec<DVec2>>) -> Region {
+    Region::from_rings(rings, FillRule::Positive).unwrap_or_default()
 }
 
 /// Where an edge passes through the plane, or its end that is nearest to it, in the plane: the same for both directions of the edge.
