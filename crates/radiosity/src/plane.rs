@@ -69,7 +69,8 @@ impl Plane {
     }
 }
 
-fn bits(flat: DVec2) -> [u64; 2] {
+/// A place of a plane as a key; −0.0 reads as 0.0.
+pub(crate) fn bits(flat: DVec2) -> [u64; 2] {
     [(flat.x + 0.0).to_bits(), (flat.y + 0.0).to_bits()]
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 252] = [
+const ORDER: [&str; 253] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -26,7 +26,7 @@ const ORDER: [&str; 252] = [
     "viewer", "profile", "profile/chart", "profile/scale", "profile/line", "profile/data", "profile/error",
     "inspect", "inspect/openness", "inspect/cost", "inspect/overlap",
     "inspect/orientation", "inspect/summary", "inspect/surface",
-    "sides", "sides/sight", "repair", "repair/solids", "bodies", "repair/cut", "repair/necks", "repair/junctions", "repair/slivers", "repair/reflectance",
+    "sides", "sides/sight", "repair", "repair/solids", "repair/sections", "bodies", "repair/cut", "repair/necks", "repair/junctions", "repair/slivers", "repair/reflectance",
     "repair/findings", "repair/weld",
     "table", "record", "recording/recorder", "recording", "recording/packed",
     "picture", "picture/raster", "picture/painting", "picture/linear", "picture/png", "picture/framing",

@@ -6,6 +6,7 @@
 //! necks        what is thin between a corner and an edge is gone
 //! findings     what is wrong with patches, in words
 //! reflectance  no surface reflects all light
+//! sections     closed surfaces, and the loops in which planes cut them
 //! slivers      what is thinner than rounding is left out
 //! solids       what lies within solids is cut away, where they pass through each other
 //! weld         vertices that nearly meet become one
@@ -18,6 +19,7 @@ pub(crate) mod findings;
 mod junctions;
 mod necks;
 mod reflectance;
+mod sections;
 mod slivers;
 mod solids;
 pub(crate) mod weld;

@@ -8,10 +8,11 @@
 //!         └──────────┘
 //! ```
 //!
-//! A plane cuts a closed surface in closed loops; which points of the plane are inside is told by the exact winding number of these. Of a
-//! patch that only touches a solid nothing is cut: the solid is to be on both sides of what is cut.
+//! Which points of a patch are inside is told by the exact winding number of the closed loops in which its plane cuts a solid. Of a patch that
+//! only touches a solid nothing is cut: the solid is to be on both sides of what is cut.
 use super::cut::{named, pieces, strip};
-use super::weld::{Welds, key};
+use super::sections::ClosedSurface;
+use super::weld::Welds;
 use crate::bodies::{Bodies, is_other_side};
 use crate::coplanar::perimeter;
 use crate::extent::{BoxTree, Extent};
@@ -24,15 +25,6 @@ use crate::scene::{
 use glam::{DVec2, DVec3};
 use polycsg::{Csg, FillRule, Region};
 use std::collections::{BTreeMap, HashSet};
-
-/// A closed surface of triangles that are turned out, so that a plane cuts each in one segment at most.
-#[derive(Debug)]
-struct ClosedSurface {
-    body: usize,
-    triangles: Vec<[DVec3; 3]>,
-    boxes: BoxTree,
-    extent: Extent,
-}
 
 /// What is cut out of a patch, and a patch of the solid that it lies within.
 type BuriedPart = (Region, usize);
@@ -107,7 +99,7 @@ fn parts_within(
     for patches in others.into_values().filter(|patches| patches.iter().any(meets)) {
         let is_own = |patch: usize| bodies.of_patch[patch] == solid.body;
         let within =
-            |patch: usize| Some((patch, solid.buried(&scene.patches[patch], is_own(patch), hollows)?));
+            |patch: usize| Some((patch, buried(solid, &scene.patches[patch], is_own(patch), hollows)?));
         let found: Vec<(usize, Region)> = patches.into_iter().filter_map(within).collect();
         if found.iter().any(|(patch, part)| !is_all(&scene.patches[*patch], part)) {
             parts.extend(found);
@@ -127,117 +119,36 @@ fn area(plane: &Plane, region: &Region) -> f64 {
     region.area() / plane.normal.abs().max_element()
 }
 
-impl ClosedSurface {
-    fn new(body: usize, triangles: Vec<[DVec3; 3]>) -> ClosedSurface {
-        ClosedSurface {
-            body,
-            boxes: BoxTree::new(triangles.iter().map(Extent::holding)),
-            extent: Extent::holding(triangles.iter().flatten()),
-            triangles,
-        }
+/// What of a patch lies within a solid and not in one of its hollows; nothing where that is no more than rounding. A patch of its own is to lie
+/// within it once more than it does by itself.
+fn buried(solid: &ClosedSurface, patch: &Patch, is_own: bool, hollows: &[&ClosedSurface]) -> Option<Region> {
+    let plane = Plane::of(&patch.polygon);
+    // Planes within it are one where overlaps are cut, too.
+    let near = strip(patch).max(patch.slack());
+    if is_own && !solid.reaches_before(patch, &plane, near) {
+        return None;
     }
-
-    /// What of a patch lies within it and not in one of its hollows; nothing where that is no more than rounding. A patch of its own is to lie
-    /// within it once more than it does by itself.
-    fn buried(&self, patch: &Patch, is_own: bool, hollows: &[&ClosedSurface]) -> Option<Region> {
-        let plane = Plane::of(&patch.polygon);
-        // Planes within it are one where overlaps are cut, too.
-        let near = strip(patch).max(patch.slack());
-        let [before, mut behind] = [true, false].map(|is_before| self.section(&plane, near, is_before));
-        if before.is_empty() || behind.is_empty() {
-            return None;
-        }
-        let outline = plane.region(&patch.polygon);
-        if is_own {
-            behind.extend(outline.rings().map(|ring| ring.iter().rev().copied().collect::<Vec<_>>()));
-        }
-        let [before, behind] = [before, behind].map(inside);
-        let within = Csg::from(&outline) & Csg::from(&before) & Csg::from(&behind);
-        let empty: Vec<Region> = hollows
-            .iter()
-            .flat_map(|hollow| [true, false].map(|is_before| inside(hollow.section(&plane, near, is_before))))
-            .collect();
-        let part = (within - Csg::union(&empty)).evaluate();
-        (area(&plane, &part) > strip(patch) * perimeter(&patch.polygon)).then_some(part)
+    let [before, mut behind] = [near, -near].map(|height| solid.section(&plane, height));
+    if before.is_empty() || behind.is_empty() {
+        return None;
     }
-
-    /// The outlines of what of it is in a plane, just before the plane or just behind it: what is as near to the plane as rounding is on the
-    /// other side.
-    fn section(&self, plane: &Plane, near: f64, is_before: bool) -> Vec<Vec<DVec2>> {
-        let limit = if is_before { near } else { -near };
-        let mut segments: BTreeMap<[u64; 2], Vec<DVec2>> = BTreeMap::new();
-        for index in self.boxes.crossed_by(plane, near) {
-            let [a, b, c] = self.triangles[index];
-            let (mut start, mut end) = (None, None);
-            for [from, to] in [[a, b], [b, c], [c, a]] {
-                match [from, to].map(|point| plane.height(point) > limit) {
-                    [true, false] => start = Some(crossing(plane, [from, to])),
-                    [false, true] => end = Some(crossing(plane, [from, to])),
-                    _ => {}
-                }
-            }
-            if let (Some(start), Some(end)) = (start, end) {
-                segments.entry(bits(start)).or_default().push(end);
-            }
-        }
-        rings(segments).into_iter().map(|ring| straight(ring, near)).collect()
+    let outline = plane.region(&patch.polygon);
+    if is_own {
+        behind.extend(outline.rings().map(|ring| ring.iter().rev().copied().collect::<Vec<_>>()));
     }
+    let [before, behind] = [before, behind].map(inside);
+    let within = Csg::from(&outline) & Csg::from(&before) & Csg::from(&behind);
+    let empty: Vec<Region> = hollows
+        .iter()
+        .flat_map(|hollow| [near, -near].map(|height| inside(hollow.section(&plane, height))))
+        .collect();
+    let part = (within - Csg::union(&empty)).evaluate();
+    (area(&plane, &part) > strip(patch) * perimeter(&patch.polygon)).then_some(part)
 }
 
 /// What outlines go around.
 fn inside(rings: Vec<Vec<DVec2>>) -> Region {
     Region::from_rings(rings, FillRule::Positive).unwrap_or_default()
-}
-
-/// Where an edge passes through the plane, or its end that is nearest to it, in the plane: the same for both directions of the edge.
-fn crossing(plane: &Plane, ends: [DVec3; 2]) -> DVec2 {
-    let [a, b] = if key(ends[0]) < key(ends[1]) { ends } else { [ends[1], ends[0]] };
-    let [above, below] = [a, b].map(|point| plane.height(point));
-    let share = (above / (above - below)).clamp(0.0, 1.0);
-    plane.flatten(a + share * (b - a))
-}
-
-fn bits(point: DVec2) -> [u64; 2] {
-    point.to_array().map(|coordinate| (coordinate + 0.0).to_bits())
-}
-
-/// The closed walks over segments, each of which is used once.
-fn rings(mut segments: BTreeMap<[u64; 2], Vec<DVec2>>) -> Vec<Vec<DVec2>> {
-    let mut rings = Vec::new();
-    while let Some((start, mut ends)) = segments.pop_first() {
-        let mut ring = Vec::new();
-        let mut next = ends.pop();
-        if !ends.is_empty() {
-            segments.insert(start, ends);
-        }
-        while let Some(point) = next {
-            ring.push(point);
-            let Some(ends) = segments.get_mut(&bits(point)) else { break };
-            next = ends.pop();
-            if ends.is_empty() {
-                segments.remove(&bits(point));
-            }
-        }
-        rings.push(ring);
-    }
-    rings
-}
-
-/// A ring without the points within its sides, where edges of triangles pass through the plane. Of two that rounding keeps apart one stays: so
-/// each is held against the points that are left beside it.
-fn straight(mut ring: Vec<DVec2>, near: f64) -> Vec<DVec2> {
-    let mut at = 0;
-    while at < ring.len() && ring.len() > 2 {
-        let count = ring.len();
-        let [before, point, after] = [at, at + 1, at + 2].map(|index| ring[index % count]);
-        let (side, arm) = (after - before, point - before);
-        if side.perp_dot(arm).abs() <= near * side.length() && arm.dot(side - arm) > 0.0 {
-            ring.remove((at + 1) % count);
-        } else {
-            at += 1;
-        }
-    }
-    ring
 }
 
 /// Of what lies within solids of a patch.
