@@ -2,7 +2,9 @@
 //!
 //! The thesis prints patch counts but no coordinates; the sizes are this project's. Occluders block on both sides; what
 //! light they reflect they reflect on their front, which faces the lamp.
-use super::shapes::{Quad, Z_UP, camera, face, grid, lamp, level, quad, solid, square, surface, turned};
+use super::shapes::{
+    Quad, Z_UP, camera, face, grid, joined, lamp, level, quad, solid, square, surface, turned,
+};
 use crate::io::collada::model::{Face, Model};
 use crate::scene::camera::Camera;
 use glam::DVec3;
@@ -90,7 +92,7 @@ fn under_panel() -> Camera {
 /// The same panel cut into rectangles: one between each two rows of holes, and those between the holes of a row.
 ///
 /// Two bars along x over the whole width, two between the rows of holes, two at the sides, and two between the holes of
-/// each of the three rows: 12, as he counts.
+/// each of the three rows: 12, as he counts. Neighbours have each other's corners in their edges.
 pub(super) fn perforated_cut() -> Model {
     let (half, radius) = (PANEL / 2.0, HOLE / 2.0);
     let [low, middle, high] = HOLES;
@@ -114,7 +116,7 @@ pub(super) fn perforated_cut() -> Model {
     });
     let pieces: Vec<Quad> = bars.chain(sides).chain(between).collect();
     let outlines = pieces.into_iter().map(|corners| corners.map(DVec3::from).to_vec());
-    let faces = vec![ceiling_lamp(), face("panel", OCCLUDER, outlines)];
+    let faces = joined(vec![ceiling_lamp(), face("panel", OCCLUDER, outlines)]);
     model("Barreto 2008, figure 4.6, with the panel cut into 12 rectangles", faces, 0.5, under_panel())
 }
 

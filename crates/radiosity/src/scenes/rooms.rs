@@ -1,5 +1,5 @@
 //! Rooms whose light is known, or must show something.
-use super::shapes::{Z_UP, camera, face, grid, lamp, quad, room, sphere, square, surface, turned};
+use super::shapes::{Z_UP, camera, face, grid, joined, lamp, quad, room, sphere, square, surface, turned};
 use crate::io::collada::model::{Face, Material, Model};
 use crate::scene::camera::Camera;
 use glam::DVec3;
@@ -50,7 +50,7 @@ pub(super) fn separating_wall() -> Model {
     model(
         "Two rooms, a thin wall between them, light in one",
         vec![surface("white", [0.8; 3]), lamp(0.5, 10.0)],
-        faces,
+        joined(faces),
         eye,
     )
 }

@@ -2,6 +2,7 @@
 use crate::io::collada::model::{Face, Material};
 use crate::scene::{asset::Asset, camera::Camera};
 use glam::DVec3;
+use std::cmp::Ordering;
 
 /// Four corners.
 pub(super) type Quad = [[f64; 3]; 4];
@@ -32,6 +33,32 @@ pub(super) fn face(name: &str, material: usize, outlines: impl IntoIterator<Item
 
 pub(super) fn quad(name: &str, material: usize, corners: Quad) -> Face {
     face(name, material, [corners.map(DVec3::from).to_vec()])
+}
+
+/// The same faces, whose edges along an axis have the corners of others that lie within them.
+pub(super) fn joined(mut faces: Vec<Face>) -> Vec<Face> {
+    let mut corners: Vec<DVec3> =
+        faces.iter().flat_map(|face| &face.polygons).flatten().flatten().copied().collect();
+    corners.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
+    corners.dedup();
+    for ring in faces.iter_mut().flat_map(|face| &mut face.polygons).flatten() {
+        let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+        *ring = ends.flat_map(|(a, b)| with_corners([*a, *b], &corners)).collect();
+    }
+    faces
+}
+
+/// The first end of an edge along an axis, and the corners within it in its direction.
+fn with_corners([a, b]: [DVec3; 2], corners: &[DVec3]) -> Vec<DVec3> {
+    let is_within = |corner: &&DVec3| {
+        let [low, high] = [a.min(b), a.max(b)];
+        let is_inside = corner.cmpge(low).all() && corner.cmple(high).all();
+        is_inside && (b - a).to_array().iter().filter(|way| **way != 0.0).count() == 1
+    };
+    let mut within: Vec<DVec3> =
+        corners.iter().filter(is_within).copied().filter(|corner| *corner != b).collect();
+    within.sort_by(|p, q| p.distance(a).total_cmp(&q.distance(a)));
+    within
 }
 
 /// A level rectangle, `[low x, low y]` to `[high x, high y]`, that faces up.

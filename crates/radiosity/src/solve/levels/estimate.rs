@@ -18,11 +18,10 @@ pub(super) fn estimate(
     lights: &[BandLight],
     bands: usize,
 ) -> Vec<f64> {
-    let exchanges = exchanges(tiling, links);
     let mut found = vec![0.0; tiling.scene.patches.len() * bands];
     for light in lights {
         let unit = tiling.units()[light.band];
-        for (patch, power) in powers(tiling, links, clusters, &exchanges, light).into_iter().enumerate() {
+        for (patch, power) in powers(tiling, links, clusters, light).into_iter().enumerate() {
             found[patch * bands + light.band] = unit * power / tiling.scene.patches[patch].polygon.area();
         }
     }
@@ -36,10 +35,9 @@ pub(super) fn shares(
     clusters: &ClusterLinks,
     lights: &[BandLight],
 ) -> Vec<f64> {
-    let exchanges = exchanges(tiling, links);
     let mut worst = vec![0.0f64; tiling.scene.patches.len()];
     for light in lights {
-        let powers = powers(tiling, links, clusters, &exchanges, light);
+        let powers = powers(tiling, links, clusters, light);
         for ((worst, power), unit) in worst.iter_mut().zip(powers).zip(&light.unit) {
             *worst = worst.max(if *unit > 0.0 { power / unit } else { 0.0 });
         }
@@ -47,29 +45,31 @@ pub(super) fn shares(
     worst
 }
 
-/// The pairs of whole tiles that are linked, and what they exchange.
-fn exchanges(tiling: &Tiling<'_>, links: &[Link]) -> Vec<([usize; 2], f64)> {
+/// The pairs of whole tiles that are linked, and what the one receives of the other where that shines as bright as it does on average, and the
+/// other of the one.
+fn exchanges(tiling: &Tiling<'_>, links: &[Link], light: &BandLight) -> Vec<([usize; 2], [f64; 2])> {
     let root_of = tiling.roots();
     let pairs = links.iter().map(|link| link.pair + 1).max().unwrap_or(0);
-    let mut found = vec![([0, 0], 0.0); pairs];
+    let mut found = vec![([0, 0], [0.0; 2]); pairs];
+    let brightness = |tile: usize| match light.reflected[root_of[tile]] {
+        mean if mean > 0.0 => light.reflected[tile] / mean,
+        _ => 1.0,
+    };
     for link in links {
-        let (ends, sum) = &mut found[link.pair];
+        let (ends, sums) = &mut found[link.pair];
         *ends = link.ends.map(|end| root_of[end]);
-        *sum += link.exchange[0];
+        for end in [0, 1] {
+            sums[end] += link.exchange[0] * brightness(link.ends[1 - end]);
+        }
     }
     found
 }
 
 /// What the light that every patch receives may be off by in a band, by reflection as well.
 ///
-/// An error δ of the irradiance of a tile is light of its own, of which others receive ρ F: ε = δ + F ρ ε, each term raised to the exponent.
-fn powers(
-    tiling: &Tiling<'_>,
-    links: &[Link],
-    clusters: &ClusterLinks,
-    exchanges: &[([usize; 2], f64)],
-    light: &BandLight,
-) -> Vec<f64> {
+/// An error δ of the irradiance of a tile is light of its own, of which others receive ρ F: ε = δ + F ρ ε, each term raised to the exponent. It
+/// is spread over the tile as its light is: who sees a dark part alone receives nothing of it.
+fn powers(tiling: &Tiling<'_>, links: &[Link], clusters: &ClusterLinks, light: &BandLight) -> Vec<f64> {
     let area = |tile: usize| tiling.tiles[tile].area;
     let direct: Vec<f64> = errors(tiling, links, clusters, light, EXPONENT)
         .into_iter()
@@ -79,10 +79,10 @@ fn powers(
     let carried = |to: usize, from: usize, exchange: f64| {
         (exchange / area(to) * tiling.tiles[from].reflectance[light.band]).powf(EXPONENT)
     };
-    let ways: Vec<([usize; 2], [f64; 2])> = exchanges
-        .iter()
-        .map(|&([one, other], exchange)| {
-            ([one, other], [carried(one, other, exchange), carried(other, one, exchange)])
+    let ways: Vec<([usize; 2], [f64; 2])> = exchanges(tiling, links, light)
+        .into_iter()
+        .map(|([one, other], [here, there])| {
+            ([one, other], [carried(one, other, here), carried(other, one, there)])
         })
         .collect();
     let mut sums = vec![0.0; tiling.scene.patches.len()];

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! rounds        rounds: link, solve, refine where the budget of a patch is exceeded
+//! allowance     how large the errors of the links of every patch may be
 //! stand         where a run stands, and how its light is shown
 //! output        the light of the leaves on a mesh
 //! pieces        leaves in pieces that are small enough to be shown
@@ -32,6 +33,7 @@
 //! Light is linear on every tile, and not continuous. A link is a matrix of 3 × 3 numbers that serves both directions, found by exact form
 //! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
 //! visibility).
+mod allowance;
 mod borders;
 mod boxes;
 mod budget;

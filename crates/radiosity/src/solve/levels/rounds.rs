@@ -1,4 +1,5 @@
 //! Rounds of linking, solving and refining.
+use super::allowance::{Allowance, SUM};
 use super::budget::{BandLight, cut, is_beyond, limits, uneven};
 use super::cluster_links::ClusterLink;
 use super::clusters::Pairs;
@@ -21,21 +22,12 @@ use std::{ops::ControlFlow, time::Instant};
 
 /// In the first rounds this many times the error is allowed, then a quarter of that, and so on.
 const COARSE: [f64; 3] = [16.0, 4.0, 1.0];
-/// Errors of links are of any sign, and their estimates are large: they may add up to so many times what is asked for.
-const SUM: f64 = 2.0;
-/// What reflection adds to the errors of links, and what is of one sign, may leave a patch's estimate beyond what is asked for. So often its
-/// share is made smaller then, or that of all where this helps no more: by as much as the estimate is too large and a little more, but not by
-/// more than [`LESS`] at once.
+/// So often estimates are brought nearer to what is asked for, while this share of the time is left.
 const FINER: usize = 8;
-const A_LITTLE: f64 = 0.9;
-const LESS: f64 = 0.3;
-/// It goes on while what is beyond becomes less than this share of what it was, and this share of the time is left.
-const HELPS: f64 = 0.6;
 const LEFT: f64 = 0.6;
-/// So many times the tiles that budgets of links need may there be in the end.
+/// So many tiles may there be in the end, or so many times what budgets of links need.
+const MANY: usize = 1024;
 const MORE: usize = 4;
-/// The light changes a little yet: estimates are to be less than what is asked for by so much.
-const NEARLY: f64 = 0.95;
 /// How often totals are restored and rooms closed in turn at the end.
 const RESTORED: usize = 8;
 /// Products in a round of refinement, and at the end.
@@ -123,27 +115,13 @@ impl Levels<'_> {
 
     /// Refines the patches whose estimates are beyond what is asked for, as far as that helps; false when the run is to end.
     fn better(&mut self, mut lights: Vec<BandLight>, state: &mut State) -> Result<bool, Error> {
-        let error = NEARLY * self.options.error;
-        let mut allowed = vec![SUM * self.options.error; self.tiling.scene.patches.len()];
-        let (mut before, mut is_own) = (f64::INFINITY, true);
-        let most = MORE * self.tiling.tiles.len();
+        let mut allowance = Allowance::new(self.tiling.scene.patches.len(), self.options.error);
+        let most = MANY.max(MORE * self.tiling.tiles.len());
         for _ in 0..FINER {
             let found = shares(&self.tiling, &self.links.all, &self.links.clusters, &lights);
-            let beyond: f64 = found.iter().map(|share| (share - error).max(0.0)).sum();
-            let helps = beyond <= HELPS * before;
-            let is_full = self.tiling.tiles.len() > most;
-            if beyond == 0.0 || !(helps || is_own) || is_full || !self.has_time() {
-                return Ok(true);
-            }
-            // What others reflect is left, then.
-            is_own &= helps;
-            before = beyond;
-            let worst = found.iter().copied().fold(0.0, f64::max);
-            for (allowed, share) in allowed.iter_mut().zip(found) {
-                let share = if is_own { share } else { worst };
-                *allowed *= (A_LITTLE * error / share).clamp(LESS, 1.0);
-            }
-            match self.level(&allowed, most, state)? {
+            let is_full = self.tiling.tiles.len() > most || !self.has_time();
+            let Some(allowed) = allowance.after(&found).filter(|_| !is_full) else { return Ok(true) };
+            match self.level(allowed, most, state)? {
                 None => return Ok(false),
                 Some(better) => lights = better,
             }
