@@ -119,3 +119,32 @@ fn shared_edges_change_no_light() {
     });
     assert!(elements[1] <= elements[0] * 4 / 3, "{elements:?}");
 }
+
+/// A turned rectangle with vertices along its edges, which lie beside them by rounding of single precision.
+fn ragged(random: &mut Random) -> Patch {
+    let turn = DQuat::from_rotation_z(random.within(0.0, 6.0));
+    let corners = [DVec3::ZERO, DVec3::X * 3.0, DVec3::new(3.0, 2.0, 0.0), DVec3::Y * 2.0];
+    let mut outline = Vec::new();
+    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        outline.push(*a);
+        for step in 1..8 {
+            let out = DVec3::Z.cross(b - a).normalize() * random.within(-2e-7, 2e-7);
+            outline.push(a + f64::from(step) / 8.0 * (b - a) + out);
+        }
+    }
+    let polygon =
+        PlanarPolygon::new([outline.into_iter().map(|corner| turn * corner).collect::<Vec<_>>()]).unwrap();
+    Patch::new("ragged", polygon, vec![0.5], vec![0.5])
+}
+
+/// Repair cuts patches in convex parts to see whether they can be divided: cuts through what is straight but for rounding had no end.
+#[test]
+fn edges_that_rounding_bends_are_cut_in_convex_parts() {
+    for seed in 0..100 {
+        let patches = vec![ragged(&mut Random(seed))];
+        let repaired = repair(&Scene { patches, bands: 1, ..Scene::default() });
+        assert!(repaired.repairs.is_empty(), "{seed}: {:?}", repaired.repairs);
+        let area: f64 = repaired.scene.patches.iter().map(|patch| patch.polygon.area()).sum();
+        assert!((area / 6.0 - 1.0).abs() < 1e-6, "{seed}: {area}");
+    }
+}
