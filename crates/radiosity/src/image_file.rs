@@ -29,6 +29,14 @@ pub(crate) fn bytes(address: &str, folder: Option<&Path>) -> Result<Vec<u8>, Str
     read.map_err(|error| format!("{}: {error}", path.display()))
 }
 
+/// The bytes of a file beside a scene; nothing for a `data:` address and for what cannot be read.
+pub(crate) fn beside(address: &str, folder: Option<&Path>) -> Option<Vec<u8>> {
+    if address.starts_with("data:") {
+        return None;
+    }
+    bytes(address, folder).ok()
+}
+
 /// A path as Windows has it, and its last part alone: the file may be beside the scene. Nothing for a path of this machine.
 fn foreign(path: &Path) -> Option<[String; 2]> {
     let turned = path.to_str().filter(|path| path.contains('\\'))?.replace('\\', "/");

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 254] = [
+const ORDER: [&str; 256] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -18,7 +18,7 @@ const ORDER: [&str; 254] = [
     "io/obj", "io/obj/write", "io/obj/read", "io/obj/material", "io/obj/statements",
     "io/ply", "io/ply/write", "io/ply/read", "io/ply/body", "io/ply/header", "io/stl", "io/stl/write", "io/stl/binary", "io/stl/text", "io/stl/solid",
     "io/collada", "io/collada/repaired", "io/collada/kept", "io/collada/pieces", "io/collada/outlines", "io/collada/dimmed", "io/collada/vertices", "io/collada/write", "io/collada/splice", "io/collada/exposed", "io/collada/compose", "io/collada/light_text", "io/collada/model",
-    "io/collada/patches", "io/collada/unread", "io/collada/material", "io/collada/images", "io/collada/lights", "io/collada/spectra",
+    "io/collada/patches", "io/collada/unread", "io/collada/material", "io/collada/embedded", "io/collada/images", "io/collada/lights", "io/collada/spectra",
     "io/collada/primitive", "io/collada/camera", "io/collada/walk", "io/collada/transform",
     "io/collada/file", "io/collada/lit_mesh", "io/collada/encoding", "io/vs3", "io/vs3/rows", "io/vs3/request", "io/vs3/blast", "io/vs3/fields", "io/surface",
     "io/surface/changes", "io/surface/sidedness", "io/surface/place", "io/surface/planar", "io/surface/flaws", "io/surface/merge", "io/surface/split", "io/surface/finish", "io/surface/lamps",
@@ -31,7 +31,7 @@ const ORDER: [&str; 254] = [
     "table", "record", "recording/recorder", "recording", "recording/packed",
     "picture", "picture/raster", "picture/painting", "picture/linear", "picture/png", "picture/framing",
     "expose",
-    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/allowance", "solve/levels/stand", "solve/levels/output", "solve/levels/pieces", "solve/levels/borders", "solve/levels/vertices", "solve/levels/links", "solve/levels/totals", "solve/levels/measure", "solve/levels/nearby",
+    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/allowance", "solve/levels/stand", "solve/levels/output", "solve/levels/pieces", "solve/levels/borders", "solve/levels/vertices", "solve/levels/links", "solve/levels/totals", "solve/levels/measure", "solve/levels/screen", "solve/levels/nearby",
     "solve/levels/shaft", "solve/levels/estimate", "solve/levels/budget", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/roots", "solve/levels/cluster_links", "solve/levels/cluster_views", "solve/levels/clusters", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/levels/boxes", "solve/refine", "solve/drive", "solve/final_gather", "solve/final_gather/shown", "solve/final_gather/bisection", "solve/final_gather/known", "solve/final_gather/tears", "solve/final_gather/received", "solve/final_gather/outlook", "solve/final_gather/senders", "solve/receivers", "solve/relax", "solve/relax/bounces", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",

@@ -24,8 +24,8 @@ pub struct RepairedFile {
 impl Source {
     /// Writes this file with the polygons of a repaired scene. A COLLADA file stays COLLADA, and glTF stays glTF: polygons that were cut,
     /// split or left out give way to their pieces, and everything else stays, see [`Collada::repaired`](super::collada::Collada::repaired)
-    /// and [`Gltf::repaired`](super::gltf::Gltf::repaired); glTF that goes to another folder takes the files that it names with it, inside. Other
-    /// formats, and another extension than the file's own, are written anew by
+    /// and [`Gltf::repaired`](super::gltf::Gltf::repaired); a file that goes to another folder takes the files that it names with it, inside.
+    /// Other formats, and another extension than the file's own, are written anew by
     /// [`save_scene`].
     ///
     /// Formats round. So what is to be written is read again, seen by `sides` as [`needed_sides`](crate::needed_sides) and repaired, until
@@ -69,10 +69,12 @@ impl Source {
         path: &Path,
     ) -> Result<(Option<Source>, Vec<&'static str>), FileError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let folder = path.parent().unwrap_or(Path::new(""));
         let source = match self {
-            Self::Collada(file) if extension == "dae" => Self::Collada(file.with_repaired(before, after)?),
+            Self::Collada(file) if extension == "dae" => {
+                Self::Collada(file.with_repaired(before, after)?.moved_to(folder)?)
+            }
             Self::Gltf(file) if extension == file.extension() => {
-                let folder = path.parent().unwrap_or(Path::new(""));
                 Self::Gltf(file.with_repaired(before, after)?.moved_to(folder)?)
             }
             _ => {

@@ -9,6 +9,16 @@ pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
     std::fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })
 }
 
+/// Whether a folder is another one than a file came from.
+pub(super) fn is_another(old: Option<&Path>, new: &Path) -> bool {
+    let place = |folder: &Path| {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        folder.canonicalize().ok()
+    };
+    let old = old.and_then(place);
+    old.is_some() && old != place(new)
+}
+
 /// Writes a file completely or not at all: into a temporary file of the same folder, which is renamed at the end.
 ///
 /// Of a link, the target is replaced and not the link. What is not a regular file (`/dev/stdout`, a pipe) is written to

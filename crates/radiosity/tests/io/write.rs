@@ -239,3 +239,31 @@ fn only_light_is_left_out(after: &Scene) {
         after.warnings
     );
 }
+
+/// A COLLADA file and its picture in one folder, repaired into another one, as either version names pictures.
+#[test]
+fn pictures_go_with_a_file_to_another_folder() {
+    use radiosity::io::Source;
+    let text = scenes::write_scene("chessboard").unwrap();
+    let picture = scenes::scene("chessboard").unwrap().patches[0].texture.clone().unwrap().image;
+    let (head, rest) = text.split_once("<data>").unwrap();
+    let (_, tail) = rest.split_once("</data>").unwrap();
+    for (version, name) in [("1.4.1", "a%20b.png"), ("1.5.0", "<ref>a b.png</ref>")] {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a b.png"), &picture.bytes).unwrap();
+        let path = folder.path().join("a.dae");
+        let head = head.replace("1.4.1", version);
+        std::fs::write(&path, format!("{head}<init_from>{name}</init_from>{tail}")).unwrap();
+        std::fs::create_dir(folder.path().join("other")).unwrap();
+        let source = Source::open(&path).unwrap();
+        let scene = source.scene().unwrap();
+        for (target, is_inside) in [("b.dae", false), ("other/a.dae", true)] {
+            let target = folder.path().join(target);
+            source.save_repaired([&scene, &scene], &|scene| scene.clone(), &target).unwrap();
+            let text = std::fs::read_to_string(&target).unwrap();
+            assert_eq!(text.contains(name), !is_inside, "{version}");
+            let again = Source::open(&target).unwrap().scene().unwrap();
+            assert_eq!(again.patches[0].texture.clone().unwrap().image.bytes, picture.bytes, "{version}");
+        }
+    }
+}

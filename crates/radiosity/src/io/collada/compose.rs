@@ -1,4 +1,5 @@
 //! A model as COLLADA 1.4 text: one node, geometry and polygon list per face.
+use super::images::hex;
 use super::light_text::WrittenLights;
 use super::model::{Face, Material, Model};
 use super::spectra::PROFILE;
@@ -6,7 +7,7 @@ use crate::escape::escape;
 use crate::io::words::{TOOL, decimal, list};
 use crate::scene::{asset::Asset, camera::Camera, texture::Texture};
 use glam::DVec3;
-use std::{collections::HashMap, fmt::Write};
+use std::collections::HashMap;
 
 /// The whole file, always the same bytes for the same model.
 pub(crate) fn text(model: &Model) -> String {
@@ -126,11 +127,7 @@ fn view((index, camera): (usize, &Camera)) -> String {
 /// A texture's picture, its bytes in the file itself, in hexadecimal digits, as COLLADA 1.4 has it.
 fn image(material: &Material) -> Option<String> {
     let Texture { image, .. } = material.texture.as_ref()?;
-    let mut digits = String::with_capacity(2 * image.bytes.len());
-    for byte in &image.bytes {
-        // Writing to a string cannot fail.
-        let _ = write!(digits, "{byte:02x}");
-    }
+    let digits = hex(&image.bytes);
     let (id, name, kind) =
         (&material.name, escape(&image.name), image.mime.trim_start_matches("image/").to_uppercase());
     Some(format!(

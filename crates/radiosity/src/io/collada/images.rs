@@ -2,6 +2,7 @@
 use super::file::{File, XmlNode, child, children, descend};
 use crate::image_file;
 use crate::scene::{finding::Finding, texture::Image};
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{collections::HashMap, sync::Arc};
 
@@ -71,6 +72,16 @@ fn element<'a>(file: &File<'a>, effect: XmlNode<'a>, texture: XmlNode<'a>) -> Op
     }
     let surface = parameter(child(sampler, "source").and_then(text)?, "surface")?;
     file.by_id(child(surface, "init_from").and_then(text)?, "image")
+}
+
+/// Bytes as hexadecimal digits.
+pub(super) fn hex(bytes: &[u8]) -> String {
+    let mut digits = String::with_capacity(2 * bytes.len());
+    for byte in bytes {
+        // Writing to a string cannot fail.
+        let _ = write!(digits, "{byte:02x}");
+    }
+    digits
 }
 
 /// Bytes from hexadecimal digits, white space between them.

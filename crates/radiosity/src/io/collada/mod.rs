@@ -11,6 +11,7 @@
 mod camera;
 pub(crate) mod compose;
 mod dimmed;
+mod embedded;
 mod encoding;
 mod exposed;
 mod file;
@@ -35,7 +36,7 @@ mod walk;
 mod write;
 
 use super::error::FileError;
-use super::save::bytes_of;
+use super::save::{bytes_of, is_another};
 use crate::expose::Exposure;
 use crate::io::surface::changes::{changes, dimmed};
 use crate::mesh::element::Mesh;
@@ -157,6 +158,16 @@ impl Collada {
     /// The file repaired, see [`Collada::repaired`].
     pub(super) fn with_repaired(&self, before: &Scene, after: &Scene) -> Result<Self, FileError> {
         Ok(Self::from_text(self.name.as_str(), self.repaired(before, after)?))
+    }
+
+    /// The same file for a folder: with the pictures that it names in it, where it is from another one.
+    pub(super) fn moved_to(self, folder: &Path) -> Result<Self, FileError> {
+        let old = Path::new(&self.name).parent();
+        if !is_another(old, folder) {
+            return Ok(self);
+        }
+        let text = self.with_file(|file| Ok(embedded::embedded(&self.text, file, old)))?;
+        Ok(Self { text, ..self })
     }
 
     /// The file's text with its vertex colours, read as radiosity, turned to intensities from 0 to 1; everything else stays byte

@@ -30,10 +30,7 @@ pub(super) fn embedded(name: &str, file: &[u8], folder: Option<&Path>) -> Result
 
 /// The contents of a file as an address.
 fn data(address: &str, folder: Option<&Path>) -> Option<String> {
-    if address.starts_with("data:") {
-        return None;
-    }
-    let bytes = image_file::bytes(address, folder).ok()?;
+    let bytes = image_file::beside(address, folder)?;
     let kind = match bytes.as_slice() {
         [0x89, b'P', b'N', b'G', ..] => "image/png",
         [0xff, 0xd8, ..] => "image/jpeg",

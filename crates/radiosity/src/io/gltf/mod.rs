@@ -25,7 +25,7 @@ pub use exposed::exposed;
 pub use write::glb;
 
 use super::error::FileError;
-use super::save::bytes_of;
+use super::save::{bytes_of, is_another};
 use super::surface::changes::{changes, dimmed};
 use crate::scene::{Scene, patch::Origin};
 use read::ReadPrimitive;
@@ -66,12 +66,7 @@ impl Gltf {
 
     /// The same file for a folder: with all that it names in it, where it is from another one.
     pub(super) fn moved_to(self, folder: &Path) -> Result<Self, FileError> {
-        let place = |folder: &Path| {
-            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-            folder.canonicalize().ok()
-        };
-        let old = self.folder.as_deref().and_then(place);
-        if old.is_none() || old == place(folder) {
+        if !is_another(self.folder.as_deref(), folder) {
             return Ok(self);
         }
         match embedded::embedded(&self.name, &self.bytes, self.folder.as_deref())? {

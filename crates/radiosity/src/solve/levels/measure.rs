@@ -1,5 +1,6 @@
 //! Measuring what two tiles exchange.
 use super::nearby::correction;
+use super::screen::hides;
 use super::shaft::Shaft;
 use super::tile::{INNER, OUTER};
 use super::tiling::{Tile, Tiling};
@@ -47,6 +48,10 @@ pub(super) fn faces([one, other]: [&Tile; 2]) -> bool {
 /// Measures what two tiles exchange past the surfaces `among`.
 pub(super) fn measure(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u32]) -> Transfer {
     let among: Vec<usize> = among.iter().map(|id| *id as usize).collect();
+    let near = SLIGHT * tiling.scale(one.patch).min(tiling.scale(other.patch));
+    if among.iter().any(|id| hides(&tiling.enclosure.polygons()[*id], [one, other], near)) {
+        return Transfer::NONE;
+    }
     let [first, second] = [[one, other], [other, one]].map(|ends| View::of(tiling, ends, &among));
     let [at_first, at_second] = [&first, &second].map(|view| view.bend[0] + view.bend[1]);
     let is_dark = [&first, &second].map(|view| view.seen.iter().all(|factor| *factor == 0.0));

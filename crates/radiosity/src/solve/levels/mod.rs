@@ -24,6 +24,7 @@
 //! measure       what two tiles exchange, by exact form factors of points
 //! nearby        the mean over tiles that touch
 //! transfer      the numbers of that
+//! screen        what hides all of one from the other
 //! shaft         what can stand between two tiles
 //! tiling        the tree
 //! boxes         a tree of the boxes around polygons
@@ -53,6 +54,7 @@ mod output;
 mod pieces;
 mod roots;
 pub(super) mod rounds;
+mod screen;
 mod shaft;
 mod stand;
 mod tile;

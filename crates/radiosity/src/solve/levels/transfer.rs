@@ -26,6 +26,17 @@ pub(crate) struct Transfer {
 }
 
 impl Transfer {
+    /// Of tiles that do not see each other.
+    pub(super) const NONE: Transfer = Transfer {
+        exchange: [0.0; 9],
+        bend: [[0.0; 2]; 2],
+        error: 0.0,
+        gap: 0.0,
+        from_second: false,
+        open: 0.0,
+        seen: [[0.0; 5]; 2],
+    };
+
     /// The curvature of what one end sees, with what its points miss: past occluders that may be much in a small place.
     pub(crate) fn curvature(&self, end: usize, is_past_others: bool) -> f64 {
         let bend = self.bend[end][0] + self.bend[end][1];
