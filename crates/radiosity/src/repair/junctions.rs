@@ -12,6 +12,7 @@
 //! a picture rounds.
 use super::findings::WIDTH;
 use super::weld::{PointKey, key};
+use crate::coplanar::SINGLE;
 use crate::extent::{BoxTree, Extent};
 use crate::plane::{Plane, slack};
 use crate::scene::{
@@ -90,7 +91,9 @@ fn find(scene: &Scene, edges: &mut SharedEdges, stop: &dyn Fn() -> bool) -> Opti
         let near = patches.iter().map(|patch| patch.slack()).fold(f64::INFINITY, f64::min);
         let found = boxes.along(edge.ends, near).into_iter().map(|vertex| vertices[vertex]);
         let others = found.filter(|vertex| !edge.patches.contains(&vertex.patch));
-        edge.least = near.max(WIDTH * slack(&edge.ends));
+        // What is nearer to an end than vertices are welded from would not stay apart from it.
+        let reach = patches.iter().map(|patch| SINGLE * Extent::of(patch).diagonal()).fold(near, f64::max);
+        edge.least = reach.max(WIDTH * slack(&edge.ends));
         edge.within = within(edge, near, others, &patches);
     }
     Some(())
