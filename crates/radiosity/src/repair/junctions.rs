@@ -34,6 +34,23 @@ struct PatchVertex {
     patch: usize,
 }
 
+/// What is one with a patch.
+#[derive(Debug)]
+struct Closeness {
+    plane: Plane,
+    /// What is no further from its edges lies on them.
+    near: f64,
+    /// Vertices are welded from no further away.
+    reach: f64,
+}
+
+impl Closeness {
+    fn of(patch: &Patch) -> Closeness {
+        let reach = SINGLE * Extent::of(patch).diagonal();
+        Closeness { plane: Plane::of(&patch.polygon), near: patch.slack(), reach }
+    }
+}
+
 /// An edge that patches have, and the vertices of others within it, from its first end on.
 #[derive(Debug)]
 struct SharedEdge {
@@ -83,16 +100,17 @@ fn find(scene: &Scene, edges: &mut SharedEdges, stop: &dyn Fn() -> bool) -> Opti
         vertices.extend(polygon.loops().flatten().map(|&place| PatchVertex { place, patch }));
     }
     let boxes = BoxTree::new(vertices.iter().map(|vertex| Extent { low: vertex.place, high: vertex.place }));
+    let all: Vec<Closeness> = scene.patches.iter().map(Closeness::of).collect();
     for (index, edge) in edges.values_mut().enumerate() {
         if index % BATCH == 0 && stop() {
             return None;
         }
-        let patches: Vec<&Patch> = edge.patches.iter().map(|patch| &scene.patches[*patch]).collect();
-        let near = patches.iter().map(|patch| patch.slack()).fold(f64::INFINITY, f64::min);
+        let patches: Vec<&Closeness> = edge.patches.iter().map(|patch| &all[*patch]).collect();
+        let near = patches.iter().map(|patch| patch.near).fold(f64::INFINITY, f64::min);
         let found = boxes.along(edge.ends, near).into_iter().map(|vertex| vertices[vertex]);
         let others = found.filter(|vertex| !edge.patches.contains(&vertex.patch));
         // What is nearer to an end than vertices are welded from would not stay apart from it.
-        let reach = patches.iter().map(|patch| SINGLE * Extent::of(patch).diagonal()).fold(near, f64::max);
+        let reach = patches.iter().map(|patch| patch.reach).fold(near, f64::max);
         edge.least = reach.max(WIDTH * slack(&edge.ends));
         edge.within = within(edge, near, others, &patches);
     }
@@ -104,7 +122,7 @@ fn within(
     &SharedEdge { ends, least, .. }: &SharedEdge,
     near: f64,
     vertices: impl Iterator<Item = PatchVertex>,
-    patches: &[&Patch],
+    patches: &[&Closeness],
 ) -> Vec<PatchVertex> {
     let [a, b] = ends;
     let share = |place: DVec3| (place - a).dot(b - a) / (b - a).length_squared();
@@ -113,7 +131,7 @@ fn within(
         (0.0..=1.0).contains(&share)
             && place.distance(a + share * (b - a)) <= near
             && ends.iter().all(|end| place.distance(*end) > least)
-            && patches.iter().all(|patch| Plane::of(&patch.polygon).height(place).abs() <= slack(&ends))
+            && patches.iter().all(|patch| patch.plane.height(place).abs() <= slack(&ends))
     };
     let mut found: Vec<PatchVertex> = vertices.filter(is_within).collect();
     found.sort_by(|p, q| share(p.place).total_cmp(&share(q.place)));
