@@ -189,10 +189,14 @@ fn findings(scene: &Scene, edges: &SharedEdges) -> Vec<Finding> {
             pairs.entry([vertex.patch, *patch]).or_insert((0, vertex.place)).0 += 1;
         }
     }
+    let what = |count: usize, place: DVec3| match count {
+        1 => format!("a vertex of the first lies within an edge of the second, at {place}"),
+        _ => format!("{count} vertices of the first lie within edges of the second, one at {place}"),
+    };
     let finding = |([first, second], (count, place)): ([usize; 2], (usize, DVec3))| Finding {
         kind: Kind::TJunction,
         patches: [first, second].map(|patch| scene.patches[patch].name.clone()).into(),
-        what: format!("{count} vertices of the first end within edges of the second, one at {place}"),
+        what: what(count, place),
         repair: "add the vertex to that edge; or let reading or inspect --repair do it".into(),
         places: Vec::new(),
     };

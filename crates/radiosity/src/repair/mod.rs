@@ -71,6 +71,9 @@ pub fn repair_until(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Repaired> 
     let is_moved = join(&mut scene, &mut repairs, stop)?;
     repairs.extend(solids::cut(&mut scene, stop)?);
     repairs.extend(cut::cut(&mut scene));
+    if stop() {
+        return None;
+    }
     if is_moved || repairs.len() > known {
         settle(&mut scene, stop)?;
     }

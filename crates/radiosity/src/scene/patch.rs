@@ -83,20 +83,24 @@ impl Patch {
         }
     }
 
-    /// The mean reflectance per band of a convex polygon on the patch.
-    pub(crate) fn reflectance_within(&self, corners: &[DVec3]) -> Vec<f64> {
-        if self.texture.is_none() {
-            return self.reflectance.clone();
-        }
-        let mut mean = vec![0.0; self.reflectance.len()];
+    /// The mean reflectance per band of a convex polygon on the patch, and the standard deviation there.
+    pub(crate) fn reflectance_within(&self, corners: &[DVec3]) -> [Vec<f64>; 2] {
+        let Some(texture) = &self.texture else {
+            return [self.reflectance.clone(), vec![0.0; self.reflectance.len()]];
+        };
         let fan = corners.windows(2).skip(1).map(|ends| [corners[0], ends[0], ends[1]]);
         let areas: Vec<f64> = fan.clone().map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
         let whole: f64 = areas.iter().sum();
+        let mut sums = [[0.0; 3]; 2];
         for (triangle, area) in fan.zip(areas) {
-            let share = self.reflectance_over(triangle);
-            mean.iter_mut().zip(share).for_each(|(mean, rho)| *mean += rho * area / whole);
+            let moments = texture.moments(triangle);
+            let all = sums.iter_mut().flatten().zip(moments.iter().flatten());
+            all.for_each(|(sum, moment)| *sum += moment * area / whole);
         }
-        mean
+        let [mean, square] = sums;
+        let deviation = |band: usize| (square[band] - mean[band] * mean[band]).max(0.0).sqrt();
+        let bands = || (0..self.reflectance.len()).map(|band| band.min(2));
+        [bands().map(|band| mean[band]).collect(), bands().map(deviation).collect()]
     }
 
     /// How far off still counts as on: its vertices' rounding in the file and in doubles.

@@ -60,26 +60,41 @@ impl Texture {
         })
     }
 
-    /// The mean colour over a triangle of the patch: samples at the middles of the cells of a lattice as fine as the
-    /// texels.
+    /// The mean colour over a triangle of the patch.
     pub(super) fn mean(&self, corners: [DVec3; 3]) -> [f64; 3] {
+        self.moments(corners)[0]
+    }
+
+    /// The means of the colour and of its square over a triangle of the patch: samples at the middles of the cells of a lattice as fine as
+    /// the texels.
+    pub(super) fn moments(&self, corners: [DVec3; 3]) -> [[f64; 3]; 2] {
         let places = corners.map(|corner| self.place(corner));
         let cells = self.cells(places);
         let [a, b, c] = corners;
-        let mut sum = [0.0; 3];
+        let mut sums = [[0.0; 3]; 2];
+        let mut add = |colour: [f64; 3]| {
+            for (band, share) in colour.into_iter().enumerate() {
+                sums[0][band] += share;
+                sums[1][band] += share * share;
+            }
+        };
         for i in 0..cells {
             for j in 0..cells - i {
                 let at = |shift: f64| {
                     let (s, t) = ((i as f64 + shift) / cells as f64, (j as f64 + shift) / cells as f64);
                     self.image.texel(self.place(a + (b - a) * s + (c - a) * t))
                 };
-                let upward = at(1.0 / 3.0);
-                let downward = if i + j + 1 < cells { at(2.0 / 3.0) } else { [0.0; 3] };
-                sum = std::array::from_fn(|band| sum[band] + upward[band] + downward[band]);
+                add(at(1.0 / 3.0));
+                if i + j + 1 < cells {
+                    add(at(2.0 / 3.0));
+                }
             }
         }
         let samples = (cells * cells) as f64;
-        std::array::from_fn(|band| self.factor[band] * sum[band] / samples)
+        let factors = [self.factor, self.factor.map(|factor| factor * factor)];
+        std::array::from_fn(|power| {
+            std::array::from_fn(|band| factors[power][band] * sums[power][band] / samples)
+        })
     }
 
     /// The mean over all that it covers.

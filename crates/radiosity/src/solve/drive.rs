@@ -1,6 +1,7 @@
 //! A run from its first step to its solution.
 use super::{
-    final_gather::gather, follow::follow, hemicube::Hemicubes, ledger::gaps, options::Method, relax::relax,
+    final_gather::foresee, final_gather::gather, follow::follow, hemicube::Hemicubes, ledger::gaps,
+    options::Method, relax::relax,
 };
 use super::{rough::Rough, run::Run, shoot::Shooting, shoot::shoot, shooters::Shooters, solution::Solution};
 use crate::error::Error;
@@ -28,7 +29,7 @@ impl Run<'_> {
             return Ok(false);
         }
         if self.shoots_alone(scene) {
-            return Ok(self.take_roughly(scene)? && shoot(self, usize::MAX)? == Shooting::Converged);
+            return Ok(self.take_roughly(scene)? && self.shoot_in_time(scene)?);
         }
         if self.may_be_stiff() && self.options.method == Method::Mesh {
             // Whether a room is closed takes the columns of all its patches: as many shots may do.
@@ -39,9 +40,21 @@ impl Run<'_> {
         }
         match self.choose(scene)? {
             None => Ok(false),
-            Some(Method::Shoot) => Ok(shoot(self, usize::MAX)? == Shooting::Converged),
+            Some(Method::Shoot) => self.shoot_in_time(scene),
             Some(method) => relax(self, method),
         }
+    }
+
+    /// Shoots until the tolerance is reached (true), for as long as the final gather does not need the time.
+    fn shoot_in_time(&mut self, scene: &Scene) -> Result<bool, Error> {
+        let ended = shoot(self, usize::MAX)?;
+        if self.is_halfway() {
+            let seconds = foresee(scene, self)?;
+            if self.leave_to_gather(seconds) {
+                return Ok(shoot(self, usize::MAX)? == Shooting::Converged);
+            }
+        }
+        Ok(ended == Shooting::Converged)
     }
 
     /// Takes small form factors roughly where that is asked for; false when the watcher wants to stop.

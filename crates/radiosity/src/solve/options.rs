@@ -76,7 +76,7 @@ pub struct Options {
     pub record: bool,
     /// Stop after so many shots.
     pub max_shots: usize,
-    /// Stop after so many seconds; a final gather of what light is found by then takes half of them.
+    /// Stop after so many seconds; a final gather of what light is found by then takes half of them at most.
     pub max_seconds: Option<f64>,
 }
 

@@ -16,8 +16,10 @@ use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
 use std::{ops::ControlFlow, time::Instant};
 
-/// This share of the time that is granted goes to finding the light, where a final gather takes the rest.
+/// This share of the time that is granted goes to finding the light, where a final gather takes the rest; more where that is foreseen to need less:
 const SOLVING: f64 = 0.5;
+/// it is left so many times what is foreseen.
+const SPARE: f64 = 1.25;
 
 /// Whoever follows a run.
 pub(super) type Watch<'r> = &'r mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
@@ -234,10 +236,21 @@ impl<'r> Run<'r> {
         self.is_told || self.is_late
     }
 
+    /// Whether the time for finding the light is up, and that for the gather begins.
+    pub(super) fn is_halfway(&self) -> bool {
+        self.is_late && !self.is_told && ends_with_gather(self.options)
+    }
+
+    /// Leaves the gather the time that it is foreseen to take; whether light may be looked for until then.
+    pub(super) fn leave_to_gather(&mut self, seconds: f64) -> bool {
+        self.limit = self.options.max_seconds.map(|limit| limit - SPARE * seconds);
+        self.is_late = self.limit.is_some_and(|limit| self.start.elapsed().as_secs_f64() > limit);
+        !self.is_late
+    }
+
     /// Gives the rest of the time to the gather, where there is light to gather: all, or, where the time for finding it is up, what was found.
     pub(super) fn turn_to_gather(&mut self, converged: bool) -> bool {
-        let is_halfway = self.is_late && !self.is_told;
-        let gathers = ends_with_gather(self.options) && (converged || is_halfway);
+        let gathers = ends_with_gather(self.options) && (converged || self.is_halfway());
         if gathers {
             (self.limit, self.is_late) = (self.options.max_seconds, false);
         }

@@ -1,8 +1,9 @@
 //! Solving by levels.
 use crate::build::{cube, patch, polygon, room, scene, solved};
 use radiosity::formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
-use radiosity::{Error, Method, Options, Patch, Scene, State, glam::DVec3, solve, solve_from};
-use std::ops::ControlFlow;
+use radiosity::glam::{DVec2, DVec3};
+use radiosity::{Error, Image, Method, Options, Patch, Scene, State, Texture, scenes, solve, solve_from};
+use std::{ops::ControlFlow, sync::Arc};
 
 fn options(error: f64) -> Options {
     Options { method: Method::Hierarchical, error, ..Options::default() }
@@ -359,4 +360,45 @@ fn no_vertex_at_a_rim_is_darker_than_all_around_it() {
         let least = others.iter().map(|other| red(*other)).fold(f64::INFINITY, f64::min);
         assert!(red(vertex) >= 0.7 * least, "{}: {} {least}", solution.mesh.vertices[vertex], red(vertex));
     }
+}
+
+/// The share of patches whose mean irradiance is within the estimate, as far as a run to an error of 0.4 % tells.
+fn within_estimates(scene: &Scene) -> f64 {
+    let [coarse, fine] = [0.03, 0.004].map(|error| solved(scene, &options(error)));
+    let count = scene.patches.len();
+    let [means, finer] = [&coarse, &fine].map(|solution| solution.patch_means(&solution.irradiance, count));
+    let is_within =
+        |index: &usize| (means[*index][0] - finer[*index][0]).abs() <= coarse.patch_estimate(*index)[0];
+    (0..count).filter(is_within).count() as f64 / count as f64
+}
+
+/// What a hundred parts of a lamp bring bends the light of a tile one way: errors add up, they are not independent.
+#[test]
+fn estimates_hold_however_a_lamp_is_cut() {
+    for name in ["emission", "sphere-lamp"] {
+        let scene = scenes::scene(name).unwrap();
+        let share = within_estimates(&scene);
+        assert!(share >= 0.95, "{name}: {share}");
+    }
+}
+
+/// A small lamp's facets look at a floor of 4 × 4 fields, bright and dark.
+#[test]
+fn estimates_know_how_uneven_a_picture_is() {
+    let corners = [[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [2.0, 2.0, 0.0], [-2.0, 2.0, 0.0]];
+    let mut floor = patch("floor", &corners, 0.4, 0.0);
+    let texels = (0..16).map(|field| [if (field / 4 + field) % 2 == 0 { 0.8 } else { 0.0 }; 3]).collect();
+    let image = Image { name: "fields".into(), bytes: Vec::new(), mime: "image/png", width: 4, texels };
+    let map = [[0, 1, 2], [0, 2, 3]].map(|corner: [usize; 3]| {
+        corner.map(|corner| {
+            let place = DVec3::from(corners[corner]);
+            (place, DVec2::new(0.25 * place.x + 0.5, 0.5 - 0.25 * place.y))
+        })
+    });
+    floor.texture = Some(Texture { image: Arc::new(image), factor: [1.0; 3], map: map.into() });
+    let mut patches = room([0.4, 0.3, 0.5], [0.6, 0.5, 0.7], 1, 0.5, 0.5);
+    patches = patches.into_iter().map(turned_inside_out).collect();
+    patches.push(floor);
+    let share = within_estimates(&scene(patches));
+    assert!(share >= 0.95, "{share}");
 }

@@ -62,7 +62,7 @@ pub(crate) struct Solve {
     /// Stop shooting after this many shots [default: 1000000]
     #[arg(long, value_name = "N")]
     pub(super) max_shots: Option<usize>,
-    /// Stop after this many seconds; where a final gather shows the light, it takes half of them [default: 55 at draft]
+    /// Stop after this many seconds; where a final gather shows the light, it takes half of them at most [default: 55 at draft]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub(super) time: Option<f64>,
     /// Resume from the state that a stopped run of the same scene wrote

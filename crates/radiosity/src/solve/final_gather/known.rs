@@ -11,6 +11,10 @@ use std::{collections::BTreeMap, sync::Arc};
 
 /// The share of its light by which a vertex may be wrong for what it receives from patches that it does not look at itself.
 const UNSEEN: f64 = 0.05;
+/// Of the error that is asked for, this share may come of each patch that is looked at as if it were evenly bright,
+const UNEVEN: f64 = 0.5;
+/// and of a vertex's light always this share.
+const EVEN: f64 = 0.005;
 /// A patch that may be nearer than this share of the way to the elements' centroids is looked at.
 const NEAR: f64 = 0.5;
 /// The mean of elements may be off by so many times what they differ by,
@@ -32,6 +36,8 @@ pub(super) struct Known {
     pub(super) light: Vec<f64>,
     /// The mean irradiance, per band.
     mean: Vec<f64>,
+    /// What an uneven patch may change, as a share of a vertex's light.
+    uneven: f64,
 }
 
 /// What a vertex receives, and what it was looked at for that.
@@ -100,7 +106,7 @@ impl Known {
         let mut light = run.light.irradiance.clone();
         rows.add_open(&mut light);
         let mean = run.light.total(&light).iter().map(|power| power / area).collect();
-        Known { senders, rows, light, mean }
+        Known { senders, rows, light, mean, uneven: (UNEVEN * run.options.error).max(EVEN) }
     }
 
     /// The run's mesh with vertices apart where the light of the elements around them jumps.
@@ -141,7 +147,7 @@ impl Known {
             seen.iter().map(|at| &self.senders[*at]).zip(brought.chunks_exact_mut(of.len()))
         {
             let point = if sender.emits { &outlook.point } else { &outlook.inside };
-            sender.shine(factors, &LitPoint { point, of: &of }, brought);
+            sender.shine(factors, &LitPoint { point, of: &of, uneven: self.uneven }, brought);
         }
         let mut look = Look { light: vec![0.0; of.len()], around: outlook.around.clone(), seen, brought };
         self.brought(&look).chunks_exact(of.len()).for_each(|brought| add(&mut look.light, 1.0, brought));

@@ -31,7 +31,7 @@ use crate::scene::Scene;
 use known::{Known, Look};
 use outlook::{Outlook, areas_around, narrow, outlooks};
 use shown::Shown;
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, time::Instant};
 
 /// So many times the vertices that the mesh has are looked from beside these at most,
 const MORE: usize = 2;
@@ -39,6 +39,8 @@ const MORE: usize = 2;
 const ROUNDS: usize = 16;
 /// After so many of them cutting ends where most is as good as is asked for: what is little of the area was cut until then.
 const FIRST: usize = 6;
+/// From so many vertices is looked to foresee how long all take.
+const SAMPLE: usize = 64;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
 /// in time. Nothing when the watcher wants to stop before the first.
@@ -68,6 +70,25 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
         looks.extend(vertices.into_iter().zip(found));
     }
     Ok(Some(shown.into_light(scene)))
+}
+
+/// How many seconds a gather of the light that is found so far would take, by those of a few vertices among all.
+///
+/// # Errors
+/// As [`gather`].
+pub(super) fn foresee(scene: &Scene, run: &mut Run<'_>) -> Result<f64, Error> {
+    let start = Instant::now();
+    let Some(known) = Known::of(run)? else { return Ok(f64::INFINITY) };
+    let mesh = known.torn(&run.factors.subdivision.mesh);
+    let whole: Vec<usize> = (0..mesh.elements.len()).collect();
+    let some: Vec<usize> =
+        (0..mesh.vertices.len()).step_by(mesh.vertices.len().div_ceil(SAMPLE).max(1)).collect();
+    let outlooks = outlooks(scene, run, (&mesh, &whole), &some)?;
+    let ready = start.elapsed().as_secs_f64();
+    known.look(run, &outlooks, &BTreeMap::new())?;
+    let each = (start.elapsed().as_secs_f64() - ready) / some.len().max(1) as f64;
+    let looks = mesh.vertices.len() * (ROUNDS + MORE * FIRST) / ROUNDS;
+    Ok(ready + each * looks as f64)
 }
 
 /// What the vertices of the run's mesh receive, torn apart as they are, and what they see: those with the most area around them first, so

@@ -5,14 +5,13 @@ use crate::solve::{ball::Ball, light::Light};
 use formfactor::{Blockers, DifferentialArea};
 use std::ops::Range;
 
-/// Parts are looked at one by one where that may change more than this share.
-const UNEVEN: f64 = 0.005;
-
 /// A point that is looked from, and how bright it is, per band.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LitPoint<'v> {
     pub(super) point: &'v DifferentialArea,
     pub(super) of: &'v [f64],
+    /// Parts of what is looked at are looked at one by one where that may change more than this share of the brightness.
+    pub(super) uneven: f64,
 }
 
 /// A patch, a piece of one, or an element.
@@ -103,7 +102,7 @@ impl Sender {
         light: &mut [f64],
     ) {
         let unhidden = || factors.factor_behind(from.point, &self.shape, &Blockers::default()).0;
-        if !self.parts.is_empty() && self.is_uneven(unhidden(), from.of) {
+        if !self.parts.is_empty() && self.is_uneven(unhidden(), from) {
             if let Some(blockers) = factors.blockers_of_part(from.point, &self.shape, blockers) {
                 self.parts.iter().for_each(|part| part.shine_behind(factors, from, &blockers, light));
             }
@@ -121,7 +120,7 @@ impl Sender {
         light: &mut [f64],
     ) {
         if *factor == 0.0 {
-        } else if !self.parts.is_empty() && self.is_uneven(*factor, from.of) {
+        } else if !self.parts.is_empty() && self.is_uneven(*factor, from) {
             self.parts.iter().for_each(|part| part.shine_behind(factors, from, blockers, light));
         } else {
             light.iter_mut().zip(&self.radiosity).for_each(|(light, sent)| *light += factor * sent);
@@ -129,7 +128,7 @@ impl Sender {
     }
 
     /// Whether parts of it bring unlike shares.
-    fn is_uneven(&self, factor: f64, of: &[f64]) -> bool {
-        self.spread.iter().zip(of).any(|(spread, of)| factor * spread / of > UNEVEN)
+    fn is_uneven(&self, factor: f64, from: &LitPoint<'_>) -> bool {
+        self.spread.iter().zip(from.of).any(|(spread, of)| factor * spread / of > from.uneven)
     }
 }

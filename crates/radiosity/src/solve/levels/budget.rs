@@ -140,9 +140,10 @@ impl BandLight {
         let mut deviation = vec![0.0; sent.len()];
         for _ in 0..2 {
             let of_leaves = unresolved(tiling, links, &sent, &deviation, &direct.deviation);
-            let of_leaves: Vec<f64> =
-                tiling.tiles.iter().zip(of_leaves).map(|(tile, d)| tile.reflectance[band] * d).collect();
-            deviation = deviations(tiling, &sent, &of_leaves);
+            let of_leaves = tiling.tiles.iter().zip(received).zip(of_leaves).map(|((tile, light), off)| {
+                (tile.reflectance[band] * off).hypot(tile.mottle[band] * light[0])
+            });
+            deviation = deviations(tiling, &sent, &of_leaves.collect::<Vec<f64>>());
         }
         let patches = tiling.scene.patches.len();
         let (mut areas, mut powers) = (vec![0.0; patches], vec![0.0; patches]);
@@ -173,6 +174,8 @@ impl BandLight {
 
 /// How far the irradiance of each leaf is from linear: the curvatures of all that it receives, those of larger tiles by their share, and what
 /// lights bring.
+///
+/// Curvatures of one sign add up, as those of a lamp that is cut into many; others may be wrong independently. The larger counts.
 fn unresolved(
     tiling: &Tiling<'_>,
     links: &[Link],
@@ -180,18 +183,25 @@ fn unresolved(
     deviation: &[f64],
     direct: &[f64],
 ) -> Vec<f64> {
-    let mut squares: Vec<f64> = direct.iter().map(|deviation| deviation * deviation).collect();
+    let mut squares = vec![0.0; direct.len()];
+    let mut sums = vec![[0.0; 2]; direct.len()];
+    let mut others: Vec<f64> = direct.iter().map(|deviation| deviation * deviation).collect();
     for link in links {
         for end in [0, 1] {
             let [here, there] = [link.ends[end], link.ends[1 - end]];
             let area = tiling.tiles[here].area;
             let bend = link.curvature(end) / area;
+            squares[here] += SQUARE * bend * bend * square(sent[there]);
+            for (sum, bend) in sums[here].iter_mut().zip(link.transfer.bend[end]) {
+                *sum += bend / area * sent[there][0];
+            }
             let carried = link.transfer.locality() * link.exchange[0] / area * deviation[there];
-            squares[here] += SQUARE * bend * bend * square(sent[there]) + carried * carried;
+            others[here] += carried * carried;
         }
     }
-    for index in 0..tiling.tiles.len() {
-        let tile = &tiling.tiles[index];
+    for (index, tile) in tiling.tiles.iter().enumerate() {
+        let [first, second] = sums[index].map(f64::abs);
+        squares[index] = squares[index].max(SQUARE * (first + second) * (first + second)) + others[index];
         let Some(parent) = tile.parent else { continue };
         let share = tile.area / tiling.tiles[parent].area;
         squares[index] += squares[parent] * share * share;

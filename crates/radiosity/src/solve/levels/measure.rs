@@ -53,7 +53,7 @@ pub(super) fn measure(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u3
         return Transfer::NONE;
     }
     let [first, second] = [[one, other], [other, one]].map(|ends| View::of(tiling, ends, &among));
-    let [at_first, at_second] = [&first, &second].map(|view| view.bend[0] + view.bend[1]);
+    let [at_first, at_second] = [&first, &second].map(|view| view.bend[0].abs() + view.bend[1].abs());
     let is_dark = [&first, &second].map(|view| view.seen.iter().all(|factor| *factor == 0.0));
     let from_second = !is_dark[1] && (is_dark[0] || at_second < at_first);
     let (mut exchange, bend) =
@@ -89,8 +89,7 @@ impl View {
             exchange[6 + to] = from.area * OUTER * (left - right);
         }
         let factors = seen.map(|row| row[0]);
-        let bend =
-            [[1, 2], [3, 4]].map(|[a, b]| from.area * ((factors[a] + factors[b]) / 2.0 - factors[0]).abs());
+        let bend = [[1, 2], [3, 4]].map(|[a, b]| from.area * ((factors[a] + factors[b]) / 2.0 - factors[0]));
         View { exchange, bend, seen: factors }
     }
 }

@@ -386,7 +386,7 @@ impl Levels<'_> {
     fn halve(&mut self, link: &Link, first: usize) -> Result<Option<[Candidate; 2]>, Error> {
         for end in [first, 1 - first] {
             let (tile, bend) = (link.ends[end], link.transfer.bend[end]);
-            let halves = self.cut_tile(tile, usize::from(bend[1] > bend[0]))?;
+            let halves = self.cut_tile(tile, usize::from(bend[1].abs() > bend[0].abs()))?;
             if let Some(halves) = halves {
                 return Ok(Some(link.parts(end, halves)));
             }

@@ -47,6 +47,8 @@ pub(super) struct Tile {
     /// Names the tile by how it was cut.
     pub(super) key: u64,
     pub(super) reflectance: Vec<f64>,
+    /// The standard deviation of the reflectance over it.
+    pub(super) mottle: Vec<f64>,
 }
 
 /// Where a patch is cut.
@@ -152,10 +154,12 @@ impl<'s> Tiling<'s> {
         let polygon = surface.part([&within]).or_else(|_| source.polygon.part([&within])).map_err(refused)?;
         let normal = source.polygon.normal();
         let points = self.points(patch, &outline)?;
+        let [reflectance, mottle] = source.reflectance_within(&places);
         Ok(Tile {
             patch,
             surface: self.surface_of[patch],
-            reflectance: source.reflectance_within(&places),
+            reflectance,
+            mottle,
             polygon,
             area: self.area(patch, &outline),
             points,

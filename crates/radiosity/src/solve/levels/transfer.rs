@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Transfer {
     /// Of light from the second at the first, 3 × 3. Its transpose is that of light from the first at the second.
     pub(crate) exchange: [f64; 9],
-    /// For each end and each of its axes: the curvature of what it sees of the other end, times its area.
+    /// For each end and each of its axes: the curvature of what it sees of the other end, times its area; where the outer points see more, above zero.
     pub(crate) bend: [[f64; 2]; 2],
     /// The estimated error of G_00.
     pub(crate) error: f64,
@@ -39,7 +39,7 @@ impl Transfer {
 
     /// The curvature of what one end sees, with what its points miss: past occluders that may be much in a small place.
     pub(crate) fn curvature(&self, end: usize, is_past_others: bool) -> f64 {
-        let bend = self.bend[end][0] + self.bend[end][1];
+        let bend = self.bend[end][0].abs() + self.bend[end][1].abs();
         let is_worse = usize::from(self.from_second) != end;
         let missed =
             if is_past_others { (self.gap * self.exchange[0].max(self.gap)).sqrt() } else { self.gap };
