@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn a_triangle_within_a_texel_has_its_colour() {
         let corners = [[0.6, 0.1, 0.0], [0.9, 0.1, 0.0], [0.9, 0.8, 0.0]].map(DVec3::from);
-        assert_eq!(halves().mean(corners), [1.0, 0.5, 0.25]);
+        assert_eq!(halves().moments(corners), [[1.0, 0.5, 0.25], [1.0, 0.25, 0.0625]]);
     }
 
     #[test]
