@@ -54,6 +54,9 @@ struct PatchFigures<'s> {
     /// What the irradiance may be off by.
     #[serde(skip_serializing_if = "<[f64]>::is_empty")]
     estimate: &'s [f64],
+    /// Whether the camera sees it for which the light was found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    in_view: Option<bool>,
     radiosity: Vec<f64>,
     /// In lx.
     illuminance: f64,
@@ -98,6 +101,7 @@ impl<'s> Figures<'s> {
                     illuminance: scene.luminous(&irradiance),
                     irradiance,
                     estimate: solution.patch_estimate(index),
+                    in_view: solution.in_view.as_ref().map(|in_view| in_view[index]),
                     radiosity,
                 })
                 .collect(),

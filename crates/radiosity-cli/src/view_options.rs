@@ -4,7 +4,8 @@ use crate::parse::positive;
 use clap::Args;
 use radiosity::expose::Exposure;
 use radiosity::glam::DVec3;
-use radiosity::{Camera, Record};
+use radiosity::picture::framing;
+use radiosity::{Camera, Record, Scene};
 
 /// The options of every command that writes pictures.
 #[derive(Args, Clone, Debug)]
@@ -29,14 +30,31 @@ impl ViewOptions {
 
     /// As asked; where there is no such camera, what there is instead.
     pub(crate) fn camera(&self, record: &Record) -> Result<Camera, Failure> {
-        let asked = self.camera.as_deref();
-        if let Some(view) = asked.and_then(numbers) {
-            return given(&view, record.asset.up);
+        let framed = || record.camera(None).expect("a record frames what it holds");
+        self.camera_among(&record.cameras, record.asset.up, framed)
+    }
+
+    /// As [`camera`](Self::camera), before a scene is solved.
+    pub(crate) fn camera_of(&self, scene: &Scene) -> Result<Camera, Failure> {
+        let up = scene.asset.up;
+        self.camera_among(&scene.cameras, up, || framing(scene.extent(), up))
+    }
+
+    fn camera_among(
+        &self,
+        cameras: &[Camera],
+        up: DVec3,
+        framed: impl FnOnce() -> Camera,
+    ) -> Result<Camera, Failure> {
+        let Some(asked) = self.camera.as_deref() else {
+            return Ok(cameras.first().cloned().unwrap_or_else(framed));
+        };
+        if let Some(view) = numbers(asked) {
+            return given(&view, up);
         }
-        record.camera(asked).ok_or_else(|| {
-            let names: Vec<&str> = record.cameras.iter().map(|camera| camera.name.as_str()).collect();
+        cameras.iter().find(|camera| camera.name == asked).cloned().ok_or_else(|| {
+            let names: Vec<&str> = cameras.iter().map(|camera| camera.name.as_str()).collect();
             let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            let asked = asked.unwrap_or_default();
             Failure::usage(format!(
                 "no camera is named {asked}; the scene has {known}; or give X,Y,Z,TX,TY,TZ"
             ))

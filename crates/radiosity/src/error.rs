@@ -77,6 +77,14 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// There is no light to find for a camera.
+    #[error("camera {camera}: {reason}; give another camera")]
+    Camera {
+        /// The camera's name.
+        camera: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A patch has another number of bands than the scene.
     #[error(
         "patch {patch}: {found} bands where the scene has {expected}; give every patch the scene's bands"

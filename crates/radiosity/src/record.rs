@@ -77,6 +77,9 @@ pub struct PatchRecord {
     /// How far the mean irradiance may be from that of the scene, per band, W/m²; see [`Solution::estimate`]. Empty where that is not known.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub estimate: Vec<f64>,
+    /// Whether the camera sees it for which the light was found; see [`Solution::in_view`]. Nothing where it was found for no camera.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_view: Option<bool>,
     /// Index of its picture.
     pub picture: Option<usize>,
     /// What the picture's colours are multiplied by.
@@ -113,6 +116,7 @@ impl Record {
                     irradiance,
                     radiosity,
                     estimate: solution.patch_estimate(index).to_vec(),
+                    in_view: solution.in_view.as_ref().map(|in_view| in_view[index]),
                     picture: numbers.get(&index).copied(),
                     tint: patch.texture.as_ref().map_or([1.0; 3], |texture| texture.factor),
                 })

@@ -139,7 +139,7 @@ fn gomes(
     // What comes in that many patches is not cut.
     let elements = if scene.patches.len() < elements { elements } else { 1 };
     let exact = Options { method: Solver::Shoot, elements, ..Options::default() };
-    let all = [exact, Options { hemicube: Some(cells), ..exact }];
+    let all = [exact.clone(), Options { hemicube: Some(cells), ..exact }];
     let job = |options: Options| -> Job<'_, Result<_, Error>> {
         Box::new(move || {
             let mut state = State::default();

@@ -121,8 +121,7 @@ pub fn solve_from(
     check::check(scene)?;
     overlap::check(scene)?;
     in_time()?;
-    let options =
-        &Options { method: options.method.choose(scene.patches.len(), options.hemicube), ..*options };
+    let options = &Options { method: Method::choose(options, scene.patches.len()), ..options.clone() };
     if options.method == Method::Hierarchical {
         return levels::rounds::solve(scene, options, start, state, &mut watch);
     }

@@ -1,10 +1,12 @@
 //! The options of the solver.
 use super::norm::Norm;
+use crate::scene::camera::Camera;
 
 /// The method of solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// [`Method::Hierarchical`] for scenes of at most 300 patches, else, and with [`Options::hemicube`], [`Method::Mesh`].
+    /// [`Method::Hierarchical`] for scenes of at most 300 patches and [for a camera](Options::for_camera), else, and with
+    /// [`Options::hemicube`], [`Method::Mesh`].
     #[default]
     Auto,
     /// By levels: light goes between parts of patches as large as [`Options::error`] allows; the mesh follows from that.
@@ -29,9 +31,10 @@ impl Method {
     const FEW_PATCHES: usize = 300;
 
     /// What takes the place of [`Method::Auto`].
-    pub(super) fn choose(self, patches: usize, hemicube: Option<u32>) -> Method {
-        match self {
-            Method::Auto if patches <= Method::FEW_PATCHES && hemicube.is_none() => Method::Hierarchical,
+    pub(super) fn choose(options: &Options, patches: usize) -> Method {
+        let is_quicker = patches <= Method::FEW_PATCHES || options.for_camera.is_some();
+        match options.method {
+            Method::Auto if is_quicker && options.hemicube.is_none() => Method::Hierarchical,
             Method::Auto => Method::Mesh,
             method => method,
         }
@@ -39,7 +42,7 @@ impl Method {
 }
 
 /// The options of [`solve`](crate::solve()): how fine the mesh is, how exact the light, and when to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The method of solution.
     pub method: Method,
@@ -63,6 +66,9 @@ pub struct Options {
     /// What the mean irradiance of a patch may be off by, as a share of itself or, where that is more, of 1 % of the scene's mean. Only
     /// [`Method::Hierarchical`] knows its errors, and it cuts patches by this alone.
     pub error: f64,
+    /// A camera for which the light is found, by [`Method::Hierarchical`] alone: what it sees is within [`Options::error`], and light out of
+    /// its view as far as that matters to what it sees. [`Solution::in_view`](crate::Solution::in_view) tells which patches these are.
+    pub for_camera: Option<Camera>,
     /// What small patches far away may fill of an element's view, all of them together, for their form factors to be taken roughly where
     /// shots are exact otherwise: as those of disks, or 0 where something hides their middles. The bound on the error counts it. Patches
     /// that emit are always exact, and so are scenes that are lit from within and reflect 0.9 of the light somewhere, unless
@@ -101,6 +107,7 @@ impl Default for Options {
             gather: true,
             tolerance: 1e-3,
             error: 1e-2,
+            for_camera: None,
             rough: 0.0,
             spread: 2e-4,
             record: false,

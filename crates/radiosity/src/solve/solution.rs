@@ -24,6 +24,9 @@ pub struct Solution {
     /// How far the mean irradiance of each patch may be from that of the scene, patches × bands, W/m²: an estimate. Only
     /// [`Method::Hierarchical`](crate::Method::Hierarchical) finds one.
     pub estimate: Option<Vec<f64>>,
+    /// Which patches the camera sees, of a run [for a camera](crate::Options::for_camera): the light of the others is no more right than what
+    /// it sees needs.
+    pub in_view: Option<Vec<bool>>,
     /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, where
     /// form factors were taken [roughly](crate::Options::rough), and where computing it would take longer than the solution.
     pub closure: Option<f64>,

@@ -116,7 +116,7 @@ fn a_run_that_is_stopped_within_a_shot_goes_on_to_the_same_bits() {
     let mut scene = room(0.6, 0.0);
     scene.patches[0].emission[0] = 1.0;
     let options = options(200, 1e-4);
-    let whole = quick(&scene, options);
+    let whole = quick(&scene, options.clone());
     for last in [0, 1, 2] {
         let (mut state, mut stands) = (State::default(), None);
         let stopped = solve_from(&scene, &options, &mut state, |progress| {
@@ -163,7 +163,7 @@ fn what_was_found_until_the_time_is_up_is_gathered() {
     let mut scene = room(0.6, 0.0);
     scene.patches[0].emission[0] = 1.0;
     let timed = Options { max_seconds: Some(0.0), ..options(200, 1e-4) };
-    let solution = quick(&scene, timed);
+    let solution = quick(&scene, timed.clone());
     assert!(!solution.converged && solution.shots == 0 && solution.fine.is_some());
     let without = quick(&scene, Options { gather: false, ..timed });
     assert!(!without.converged && without.fine.is_none());
@@ -282,7 +282,7 @@ fn a_panic_of_a_worker_loses_nothing() {
     scene.patches[0].emission[0] = 1.0;
     for method in [Method::Shoot, Method::Cg, Method::Gmres, Method::Matrix] {
         let options = Options { method, ..options(200, 1e-4) };
-        let whole = quick(&scene, options);
+        let whole = quick(&scene, options.clone());
         let mut state = State::default();
         state.trap = Some(3);
         let mut shots = 0;
@@ -339,7 +339,7 @@ fn walls_in_many_parts_are_as_bright_as_whole_ones_and_dark_rooms_are_dark() {
     let by_levels = Options { method: Method::Hierarchical, error: 0.03, ..Options::default() };
     let [whole, parts] = [1, 6].map(|parts| {
         let scene = two_rooms(parts);
-        let solution = quick(&scene, by_levels);
+        let solution = quick(&scene, by_levels.clone());
         let means = solution.patch_means(&solution.irradiance, scene.patches.len());
         let of_face = means.chunks(scene.patches.len() / 12);
         of_face

@@ -108,6 +108,7 @@ pub(crate) fn record(scene: &Scene, light: [f64; 3]) -> Record {
                 emission: patch.emission.clone(),
                 irradiance: vec![0.0; 3],
                 estimate: Vec::new(),
+                in_view: None,
                 radiosity: light.to_vec(),
                 picture: None,
                 tint: [1.0; 3],

@@ -111,7 +111,7 @@ fn the_estimate_is_zero_where_light_is_even_and_falls_with_the_mesh() {
 fn finer_cells_go_where_the_shadow_is() {
     let scene = soft_shadow(0.1);
     let options = Options { passes: 2, ..Options::mesh(1500) };
-    let even = solved(&scene, &Options { passes: 0, ..options });
+    let even = solved(&scene, &Options { passes: 0, ..options.clone() });
     let adapted = solved(&scene, &options);
     assert!(
         (0.6..1.6).contains(&(adapted.mesh.elements.len() as f64 / 1500.0)),

@@ -18,7 +18,7 @@ fn recorded(scene: &Scene, options: &Options) -> (Solution, Recording) {
         recorder.note(progress);
         ControlFlow::Continue(())
     };
-    let solution = solve(scene, &Options { record: true, ..*options }, follow).expect("light");
+    let solution = solve(scene, &Options { record: true, ..options.clone() }, follow).expect("light");
     let recording = recorder.end(&solution);
     (solution, recording)
 }

@@ -55,10 +55,10 @@ fn a_state_of_another_scene_or_mesh_is_refused() {
         solve_from(scene, options, state, |_| ControlFlow::Continue(()))
     };
     assert!(go(&lit_room(), &options, &mut state).is_ok());
-    let finer = Options { elements: 200, ..options };
+    let finer = Options { elements: 200, ..options.clone() };
     assert!(matches!(go(&lit_room(), &finer, &mut state), Err(Error::Foreign)));
     assert!(matches!(go(&cube(1, 0.5, 1.0), &options, &mut state), Err(Error::Foreign)));
-    let tighter = Options { tolerance: 1e-6, method: Method::Cg, ..options };
+    let tighter = Options { tolerance: 1e-6, method: Method::Cg, ..options.clone() };
     assert!(go(&lit_room(), &tighter, &mut state).is_ok(), "what was found serves any tolerance and method");
 }
 

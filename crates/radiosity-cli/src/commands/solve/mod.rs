@@ -50,6 +50,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let is_late = || arguments.seconds().is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
     let input = input::read_repaired(&arguments.scene, arguments.reading, lit, is_late)?;
     let (scene, read) = (&input.scene, start.elapsed());
+    options.for_camera = arguments.for_camera.then(|| arguments.view.camera_of(scene)).transpose()?;
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
     let mut follower = Follower::new(&writer, options.tolerance)?;
@@ -93,12 +94,14 @@ fn report(scene: &Scene, solution: &Solution, shown: usize) {
     let (shots, products) = (solution.shots, solution.products);
     let estimate = worst_estimate(scene, solution);
     let estimate = estimate.map_or_else(String::new, |(share, patch)| {
-        format!(", light within {:.2} % (patch {patch}; an estimate)", 100.0 * share)
+        let of = if solution.in_view.is_some() { " of what the camera sees" } else { "" };
+        format!(", light{of} within {:.2} % (patch {patch}; an estimate)", 100.0 * share)
     });
     say!("{elements} elements{pieces}, {shots} shots, {products} products, {seconds:.1} s{estimate}");
 }
 
-/// The largest estimated error of a patch, as a share of its mean irradiance or of 1 % of the scene's, and the patch's name.
+/// The largest estimated error of a patch, of those in view where the light was found for a camera, as a share of its mean irradiance or of
+/// 1 % of the scene's, and the patch's name.
 fn worst_estimate<'s>(scene: &'s Scene, solution: &Solution) -> Option<(f64, &'s str)> {
     solution.estimate.as_ref()?;
     let means = solution.patch_means(&solution.irradiance, scene.patches.len());
@@ -108,7 +111,9 @@ fn worst_estimate<'s>(scene: &'s Scene, solution: &Solution) -> Option<(f64, &'s
             / areas.iter().sum::<f64>()
     };
     let wholes: Vec<f64> = (0..solution.bands).map(whole).collect();
-    let shares = scene.patches.iter().enumerate().flat_map(|(index, patch)| {
+    let is_seen = |index: &usize| solution.in_view.as_ref().is_none_or(|in_view| in_view[*index]);
+    let shares = (0..scene.patches.len()).filter(is_seen).flat_map(|index| {
+        let patch = &scene.patches[index];
         let of = means[index].iter().zip(&wholes).map(|(mean, whole)| mean.max(0.01 * whole));
         let shares = solution.patch_estimate(index).iter().zip(of).filter(|(_, of)| *of > 0.0);
         shares.map(|(estimate, of)| (estimate / of, patch.name.as_str())).collect::<Vec<_>>()

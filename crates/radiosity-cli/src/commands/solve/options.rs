@@ -53,6 +53,10 @@ pub(crate) struct Solve {
     /// is solved by levels then [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(super) error: Option<f64>,
+    /// Find the light for the camera of the picture, see --camera: what it sees is within --error, the rest as far as that matters to what
+    /// it sees; the scene is solved by levels then
+    #[arg(long)]
+    pub(super) for_camera: bool,
     /// Split a piece while its power deviates from a uniform piece by more than this share of all power [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) spread: Option<f64>,
@@ -142,20 +146,30 @@ fn of_meshes(arguments: &Solve) -> Option<&'static str> {
     options.into_iter().find_map(|(name, is_given)| is_given.then_some(name))
 }
 
+/// The first of the given options that only levels have.
+fn of_levels(arguments: &Solve) -> Option<&'static str> {
+    let options = [("--error", arguments.error.is_some()), ("--for-camera", arguments.for_camera)];
+    options.into_iter().find_map(|(name, is_given)| is_given.then_some(name))
+}
+
 /// The method that the options ask for; refuses those that it would have to ignore.
 fn method(arguments: &Solve) -> Result<radiosity::Method, Failure> {
-    match (arguments.method, of_meshes(arguments), arguments.error.is_some()) {
+    match (arguments.method, of_meshes(arguments), of_levels(arguments)) {
         (Method::Hierarchical, Some(name), _) => Err(Failure::usage(format!(
             "{name} has no meaning with --method hierarchical, which cuts patches by --error"
         ))),
-        (Method::Auto, Some(name), true) => Err(Failure::usage(format!(
-            "{name} and --error do not go together: {name} is of meshes, whose error is not known; leave out one of them"
+        (Method::Auto, Some(name), Some(other)) => Err(Failure::usage(format!(
+            "{name} and {other} do not go together: {name} is of meshes, whose error is not known; leave out one of them"
         ))),
-        (Method::Mesh | Method::Shoot | Method::Matrix | Method::Cg | Method::Gmres, _, true) => {
-            Err(Failure::usage("--error needs --method hierarchical: the other methods do not know theirs"))
+        (Method::Mesh | Method::Shoot | Method::Matrix | Method::Cg | Method::Gmres, _, Some(name)) => {
+            Err(Failure::usage(format!(
+                "{name} needs --method hierarchical: the other methods do not know their errors"
+            )))
         }
-        (Method::Auto, None, true) | (Method::Hierarchical, None, _) => Ok(radiosity::Method::Hierarchical),
-        (Method::Auto, None, false) => Ok(radiosity::Method::Auto),
+        (Method::Auto, None, Some(_)) | (Method::Hierarchical, None, _) => {
+            Ok(radiosity::Method::Hierarchical)
+        }
+        (Method::Auto, None, None) => Ok(radiosity::Method::Auto),
         (Method::Auto, Some(_), _) | (Method::Mesh, ..) => Ok(radiosity::Method::Mesh),
         (Method::Shoot, ..) => Ok(radiosity::Method::Shoot),
         (Method::Matrix, ..) => Ok(radiosity::Method::Matrix),
@@ -213,6 +227,7 @@ pub(super) fn options(arguments: &Solve) -> Result<Options, Failure> {
         shadows: arguments.shadows.map_or(given.shadows, usize::from),
         tolerance: arguments.tolerance.unwrap_or(given.tolerance),
         error: arguments.error.unwrap_or(given.error),
+        for_camera: None,
         // Whoever says how good the bound is to be gets one as good.
         rough: if arguments.tolerance.is_some() { 0.0 } else { given.rough },
         spread: arguments.spread.unwrap_or(given.spread),

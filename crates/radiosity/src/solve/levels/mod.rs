@@ -2,6 +2,10 @@
 //!
 //! ```text
 //! rounds        rounds: link, solve, refine where the budget of a patch is exceeded
+//! refinement    links in parts where their errors are too large
+//! run           what the steps of a run share: its links, its light, who watches it
+//! in_view       which patches a camera sees
+//! importance    how much more wrong the others may be
 //! allowance     how large the errors of the links of every patch may be
 //! stand         where a run stands, and how its light is shown
 //! output        the light of the leaves on a mesh
@@ -46,14 +50,18 @@ mod equilibrium;
 mod estimate;
 mod flow;
 mod gradients;
+mod importance;
+mod in_view;
 mod link;
 mod links;
 mod measure;
 mod nearby;
 mod output;
 mod pieces;
+mod refinement;
 mod roots;
 pub(super) mod rounds;
+mod run;
 mod screen;
 mod shaft;
 mod stand;

@@ -183,6 +183,7 @@ pub(super) fn solution(
         ledger: light.ledger.clone(),
         bound: light.bound.clone(),
         estimate: None,
+        in_view: None,
         gathered: None,
         fine: None,
         closure: None,

@@ -54,8 +54,8 @@ pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<L
     equilibrium.leaves().iter().enumerate().map(piece).collect()
 }
 
-/// The leaves in pieces over which light is linear within a share, as five points and the corners of each say; nothing when the caller
-/// wants to stop. `means` is the mean irradiance in each band.
+/// The leaves in view in pieces over which light is linear within a share, as five points and the corners of each say, and the others as they
+/// are; nothing when the caller wants to stop. `means` is the mean irradiance in each band.
 ///
 /// # Errors
 /// [`Error::Defect`] when a form factor fails.
@@ -68,9 +68,10 @@ pub(super) fn pieces(
 ) -> Result<Option<Vec<LeafPart>>, Error> {
     let dim: Vec<f64> = means.iter().map(|mean| DIM * mean).collect();
     let mut cutting = Cutting::new(sights, equilibrium.leaves(), Measure { share, dim: &dim });
-    let all = whole(sights.tiling, equilibrium).into_iter();
-    let mut open: Vec<OpenPart> = all.map(|part| cutting.open(part)).collect();
-    let mut fine = Vec::new();
+    let is_in_view = |part: &LeafPart| sights.in_view[equilibrium.patch(part.leaf)];
+    let (seen, mut fine): (Vec<_>, Vec<_>) =
+        whole(sights.tiling, equilibrium).into_iter().partition(is_in_view);
+    let mut open: Vec<OpenPart> = seen.into_iter().map(|part| cutting.open(part)).collect();
     while !open.is_empty() {
         let Some(light) = cutting.look(sights, &open, &mut *ask)? else { return Ok(None) };
         let mut parts = Vec::new();

@@ -20,6 +20,7 @@ pub(super) struct Stand<'s> {
     pub(super) options: &'s Options,
     pub(super) start: Instant,
     pub(super) tiling: &'s Tiling<'s>,
+    pub(super) in_view: Option<&'s [bool]>,
     pub(super) links: &'s Links,
     pub(super) direct: &'s Direct<'s>,
     pub(super) sent: &'s [Vec<Linear>],
@@ -70,10 +71,11 @@ impl Stand<'_> {
         watch: Follower<'_>,
         state: &State,
     ) -> Result<Option<Solution>, Error> {
-        let Stand { tiling, links, direct, sent, light, .. } = self;
+        let Stand { tiling, in_view, links, direct, sent, light, .. } = self;
         let means = light.means(equilibrium);
         let fine: Vec<f64> = means.iter().map(|mean| self.options.error * mean).collect();
-        let sights = Sights::new(tiling, links, direct, sent, &fine);
+        let in_view = in_view.map_or_else(|| vec![true; tiling.scene.patches.len()], <[bool]>::to_vec);
+        let sights = Sights::new(tiling, in_view, links, direct, sent, &fine);
         let mut ask = || self.show(watch, state);
         let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
         let Some(pieces) = pieces else { return Ok(None) };

@@ -32,6 +32,8 @@ const BESIDE: f64 = 0.1;
 /// What points of each tile see.
 pub(super) struct Sights<'s> {
     pub(super) tiling: &'s Tiling<'s>,
+    /// The patches of which points look at what is near: the others' receive what their tiles do.
+    pub(super) in_view: Vec<bool>,
     links: &'s [Link],
     pub(super) direct: &'s Direct<'s>,
     of_tile: Vec<Sight>,
@@ -54,6 +56,7 @@ impl<'s> Sights<'s> {
     /// `fine` is how wrong the light of points may be in each band.
     pub(super) fn new(
         tiling: &'s Tiling<'s>,
+        in_view: Vec<bool>,
         links: &'s Links,
         direct: &'s Direct<'s>,
         sent: &[Vec<Linear>],
@@ -93,7 +96,7 @@ impl<'s> Sights<'s> {
                 sum += flaw;
                 sum <= SMOOTH
             });
-            let count = count.count();
+            let count = if in_view[tiling.tiles[tile].patch] { count.count() } else { flaws.len() };
             let rest = sent.iter().map(|sent| received(tiling, links, &flaws[..count], sent)).collect();
             Sight { looks: flaws[count..].iter().map(|(_, at)| *at).collect(), rest }
         };
@@ -103,7 +106,7 @@ impl<'s> Sights<'s> {
             clusters.gather(tiling, sent, &mut far);
             of_tile.iter_mut().zip(far).for_each(|(sight, light)| sight.rest[band][0] += light[0]);
         }
-        Sights { tiling, links, direct, of_tile, sent, known }
+        Sights { tiling, in_view, links, direct, of_tile, sent, known }
     }
 
     /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `tile_of` is the tile of an element.
