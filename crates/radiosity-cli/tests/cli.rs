@@ -78,6 +78,29 @@ fn options_that_the_method_would_ignore_are_refused() {
 }
 
 #[test]
+fn light_for_a_camera_says_what_it_sees() {
+    let solve = ["solve", "scenes/cornell-box.dae", "--json", "--for-camera"];
+    let corner = ["--camera", "278,273,-700,500,30,300,8", "--error", "10%"];
+    let output = radiosity(&[&solve[..], &corner].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stderr(&output).contains("light of what the camera sees within"), "{}", stderr(&output));
+    let figures = json(&output);
+    let patches = figures["patches"].as_array().expect("patches");
+    let seen = patches.iter().filter(|patch| patch["in_view"] == true).map(|patch| patch["name"].as_str());
+    let seen: Vec<&str> = seen.flatten().collect();
+    assert!(seen.contains(&"floor") && !seen.contains(&"ceiling"), "{seen:?}");
+    for (option, said) in [
+        (["--method", "shoot"], "--for-camera needs --method hierarchical"),
+        (["--elements", "300"], "--elements and --for-camera do not go together"),
+        (["--camera", "nobody"], "no camera is named nobody"),
+        (["--camera", "0,0,0,0,0,-1"], "it sees the front of no surface"),
+    ] {
+        let refused = radiosity(&[&solve[..], &option].concat());
+        assert!(code(&refused) > 1 && stderr(&refused).contains(said), "{}", stderr(&refused));
+    }
+}
+
+#[test]
 fn a_scene_is_solved_by_levels_but_where_a_mesh_is_asked_for() {
     let cases: [(&[&str], bool); 4] = [
         (&["--quality", "draft"], true),

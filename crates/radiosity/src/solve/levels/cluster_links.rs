@@ -116,19 +116,14 @@ impl ClusterLink {
         tiles.zip(&self.seen[end]).for_each(|(tile, seen)| to(*tile, brings * seen.powf(exponent)));
     }
 
-    /// For each tile of the other end: the most that counts of what one of this end receives of it, for a radiosity of 1. `matters` says
-    /// how much a power counts that a tile of this end receives.
-    pub(super) fn most(
-        &self,
-        clusters: &Clusters,
-        end: usize,
-        matters: impl Fn(usize) -> f64,
-        mut to: impl FnMut(usize, f64),
-    ) {
-        let here = clusters.tiles(self.ends[end]).iter().zip(&self.seen[end]);
-        let most = self.scale * here.map(|(tile, seen)| seen * matters(*tile)).fold(0.0, f64::max);
-        let there = clusters.tiles(self.ends[1 - end]).iter().zip(&self.seen[1 - end]);
-        there.for_each(|(tile, seen)| to(*tile, most * seen));
+    /// The tiles of an end, with what the other end sees of each: the product of what is seen of two tiles times the scale is what these
+    /// exchange.
+    pub(super) fn seen(&self, clusters: &Clusters, end: usize) -> impl Iterator<Item = (usize, f64)> {
+        clusters.tiles(self.ends[end]).iter().copied().zip(self.seen[end].iter().copied())
+    }
+
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// The tiles that exchange light.

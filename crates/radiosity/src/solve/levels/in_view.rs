@@ -2,15 +2,15 @@
 //!
 //! ```text
 //!            /|  a patch is in view where a part of its front is within the picture's
-//!    eye  <   |  four sides, and not all of that is hidden by others
-//!            \|
+//!    eye  <   |  four sides, and not all of that is hidden by the fronts of others:
+//!            \|  pictures show nothing from behind
 //! ```
 use super::measure::rises;
 use super::tiling::{Tile, Tiling};
 use crate::error::Error;
 use crate::scene::camera::Camera;
 use crate::solve::workers::attempt;
-use formfactor::{DifferentialArea, PlanarPolygon};
+use formfactor::{DifferentialArea, Enclosure};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -31,11 +31,14 @@ pub(super) fn in_view(tiling: &Tiling<'_>, camera: &Camera) -> Result<Vec<bool>,
     let eye = DifferentialArea::new(camera.position, camera.direction)
         .map_err(|error| refused(error.to_string()))?;
     let sides = sides(camera);
-    let roots: Vec<&Tile> = tiling.tiles.iter().filter(|tile| tile.parent.is_none()).collect();
-    let is_seen = |tile: &&Tile| rises(eye.position(), &tile.points[0]) && sees(tiling, &eye, &sides, tile);
-    let found: Vec<bool> = attempt("what the camera sees", || roots.par_iter().map(is_seen).collect())?;
+    let faces = |tile: &&Tile| tile.parent.is_none() && rises(eye.position(), &tile.points[0]);
+    let fronts: Vec<&Tile> = tiling.tiles.iter().filter(faces).collect();
+    let enclosure = Enclosure::new(fronts.iter().map(|tile| tile.polygon.clone()).collect());
+    let sees = |(id, tile): (usize, &&Tile)| sees(&enclosure, &eye, within(&sides, &eye, tile), id);
+    let find = || fronts.par_iter().enumerate().map(sees).collect();
+    let found: Vec<bool> = attempt("what the camera sees", find)?;
     let mut seen = vec![false; tiling.scene.patches.len()];
-    roots.iter().zip(found).for_each(|(tile, is_seen)| seen[tile.patch] |= is_seen);
+    fronts.iter().zip(found).for_each(|(tile, is_seen)| seen[tile.patch] |= is_seen);
     if seen.contains(&true) { Ok(seen) } else { Err(refused("it sees the front of no surface".into())) }
 }
 
@@ -49,17 +52,21 @@ fn sides(camera: &Camera) -> [DVec3; 4] {
     [width * ahead + right, width * ahead - right, height * ahead + up, height * ahead - up]
 }
 
-/// Whether an eye sees something of what is within the picture of a tile.
-fn sees(tiling: &Tiling<'_>, eye: &DifferentialArea, sides: &[DVec3; 4], tile: &Tile) -> bool {
+/// What of a tile is within the picture.
+fn within(sides: &[DVec3; 4], eye: &DifferentialArea, tile: &Tile) -> Vec<DVec3> {
     let whole: Vec<DVec3> = tile.outline.places().collect();
-    let within = sides.iter().fold(whole, |corners, side| clipped(&corners, eye.position(), *side));
-    if within.len() < 3 {
+    sides.iter().fold(whole, |corners, side| clipped(&corners, eye.position(), *side))
+}
+
+/// Whether an eye sees something of a part of polygon `id`.
+fn sees(enclosure: &Enclosure, eye: &DifferentialArea, part: Vec<DVec3>, id: usize) -> bool {
+    if part.len() < 3 {
         return false;
     }
+    let whole = &enclosure.polygons()[id];
     // What is too thin to be outlined is looked at with all of its tile.
-    let part = tiling.enclosure.polygons()[tile.surface].part([&within]);
-    let part: PlanarPolygon = part.unwrap_or_else(|_| tile.polygon.clone());
-    tiling.enclosure.form_factor_within(eye, tile.surface, &part, LEAST).value > LEAST
+    let part = whole.part([part]).unwrap_or_else(|_| whole.clone());
+    enclosure.form_factor_within(eye, id, &part, LEAST).value > LEAST
 }
 
 /// What of a convex polygon is inward of a plane through a point.
