@@ -1,6 +1,7 @@
 //! Outputs that would cost something else: an input, another output, the materials of another file.
 use crate::failure::Failure;
 use crate::outputs::{folder, is_stream};
+use radiosity::Scene;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -24,6 +25,23 @@ pub(crate) fn refuse<'p>(
         return Err(Failure::usage(format!("{}: {why}", path.display())));
     }
     Ok(())
+}
+
+/// Refuses outputs that are pictures on the patches of a scene, as their bytes tell.
+pub(crate) fn refuse_pictures<'p>(
+    scene: &Scene,
+    outputs: impl IntoIterator<Item = &'p Path>,
+) -> Result<(), Failure> {
+    let textures = || scene.patches.iter().filter_map(|patch| patch.texture.as_ref());
+    let is_shown = |bytes: Vec<u8>| textures().any(|texture| texture.image.bytes == bytes);
+    let outputs = outputs.into_iter().filter(|path| place(path).is_some());
+    match outputs.into_iter().find(|path| std::fs::read(path).is_ok_and(is_shown)) {
+        Some(path) => Err(Failure::usage(format!(
+            "{}: it is a picture of the scene, which would be lost; name another output",
+            path.display()
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// Refuses to write an OBJ file whose file of materials, which goes beside it, stands there already: unless the OBJ file that is

@@ -473,6 +473,29 @@ fn materials_of_other_files_stay() {
     assert!(folder.path().join("c.mtl").exists());
 }
 
+/// The chessboard's picture stands beside its OBJ file.
+#[test]
+fn pictures_beside_obj_files_stay() {
+    let folder = folder();
+    let run = |arguments: &[&str]| radiosity(folder.path(), arguments, b"");
+    for _ in 0..2 {
+        done(run(&["scene", "chessboard", "-o", "a.obj"]));
+    }
+    let listed =
+        std::fs::read_dir(folder.path()).expect("a folder").map(|entry| entry.expect("one").file_name());
+    let pictures: Vec<String> = listed.filter_map(|name| name.into_string().ok()).collect();
+    let picture = pictures.iter().find(|name| name.ends_with(".png")).expect("a picture").as_str();
+    let message = unchanged(folder.path(), &["a.obj", picture], &["solve", "a.obj", "-o", picture]);
+    assert!(message.contains("it is a picture of the scene"), "{message}");
+    let other = picture.replacen('a', "b", 1);
+    std::fs::write(folder.path().join(&other), "mine").expect("a file");
+    let refused = run(&["scene", "chessboard", "-o", "b.obj"]);
+    let message = String::from_utf8_lossy(&refused.stderr);
+    assert!(refused.status.code() == Some(1) && message.contains("may belong to another file"), "{message}");
+    assert_eq!(std::fs::read(folder.path().join(&other)).expect("the file"), b"mine");
+    assert!(!folder.path().join("b.obj").exists() && !folder.path().join("b.mtl").exists());
+}
+
 /// Messages go to a full disk, or to a reader that has gone: the result is written, and the exit code is that of the run.
 #[cfg(target_os = "linux")]
 #[test]

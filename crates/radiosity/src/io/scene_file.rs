@@ -33,11 +33,19 @@ pub fn save_scene(scene: &Scene, path: impl AsRef<Path>) -> Result<Vec<&'static 
     Ok(left_out(scene, &extension))
 }
 
-/// What the OBJ file names is written before it.
+/// What the OBJ file names is written before it. Where there was no such file, pictures that stand there are not its own: none is lost.
 fn save_obj(scene: &Scene, path: &Path) -> Result<(), FileError> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(char::is_whitespace, "_");
     let files = obj::text(scene, &stem);
     let folder = path.parent().unwrap_or(Path::new(""));
+    let is_foreign = |(name, bytes): &&(String, Vec<u8>)| {
+        !path.exists() && std::fs::read(folder.join(name)).is_ok_and(|there| there != *bytes)
+    };
+    if let Some((name, _)) = files.pictures.iter().find(is_foreign) {
+        let reason = "a picture stands there already that may belong to another file";
+        let source = std::io::Error::new(std::io::ErrorKind::AlreadyExists, reason);
+        return Err(FileError::Write { path: folder.join(name), source });
+    }
     for (name, bytes) in &files.pictures {
         save(folder.join(name), bytes)?;
     }

@@ -25,7 +25,7 @@ use lights::{light, warn_of_darkness};
 use options::{Solve, options};
 use radiosity::{Scene, Solution};
 use solve_outputs::SolveOutputs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -50,6 +50,7 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
     let is_late = || arguments.seconds().is_some_and(|limit| start.elapsed().as_secs_f64() > limit);
     let input = input::read_repaired(&arguments.scene, arguments.reading, lit, is_late)?;
     let (scene, read) = (&input.scene, start.elapsed());
+    clashes::refuse_pictures(scene, results(arguments))?;
     options.for_camera = arguments.for_camera.then(|| arguments.view.camera_of(scene)).transpose()?;
     let mut state = resume(arguments.resume.as_deref())?;
     let writer = SolveOutputs { arguments, outputs: &outputs, input: &input };
@@ -73,10 +74,13 @@ pub(crate) fn run(arguments: &Solve) -> Result<ExitCode, Failure> {
 /// The state that a run goes on from may be the one that it writes; all else that is read stays.
 fn refuse_clashes(arguments: &Solve) -> Result<(), Failure> {
     let (state, resume) = (arguments.state(), arguments.resume.as_deref());
-    let results = || arguments.output.iter().chain(&arguments.steps).map(PathBuf::as_path);
-    clashes::refuse(resume, results())?;
+    clashes::refuse(resume, results(arguments))?;
     let read = std::iter::once(arguments.scene.as_path()).chain(arguments.lights.files());
-    clashes::refuse(read, results().chain(state.as_deref()))
+    clashes::refuse(read, results(arguments).chain(state.as_deref()))
+}
+
+fn results(arguments: &Solve) -> impl Iterator<Item = &Path> {
+    arguments.output.iter().chain(&arguments.steps).map(PathBuf::as_path)
 }
 
 /// What is left of the time after reading and repair. Writing takes half as long as these. It may end late, by a second or a tenth of
