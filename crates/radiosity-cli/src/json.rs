@@ -1,6 +1,6 @@
 //! What `--json` prints.
 use radiosity::inspect::{Finding, KindSummary};
-use radiosity::{Record, Scene, Solution, Units};
+use radiosity::{Record, Scene, Solution, Transfers, Units};
 use serde::Serialize;
 
 /// The figures of a solution.
@@ -16,6 +16,9 @@ pub(crate) struct Figures<'s> {
     bound: &'s [f64],
     closure: Option<f64>,
     scaling: Option<f64>,
+    /// How light was taken between parts of patches, by levels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transfers: Option<Transfers>,
     /// What powers are counted in: W or lm.
     units: &'static str,
     energy: Energy<'s>,
@@ -84,6 +87,7 @@ impl<'s> Figures<'s> {
             bound: &solution.bound,
             closure: solution.closure,
             scaling: solution.scaling,
+            transfers: solution.transfers,
             units: if scene.units == Units::Luminous { "lm" } else { "W" },
             energy: Energy {
                 emitted: &ledger.emitted,

@@ -85,6 +85,7 @@ fn light_for_a_camera_says_what_it_sees() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stderr(&output).contains("light of what the camera sees within"), "{}", stderr(&output));
     let figures = json(&output);
+    assert!(figures["transfers"]["occluded"].as_u64() > Some(0), "{}", figures["transfers"]);
     let patches = figures["patches"].as_array().expect("patches");
     let seen = patches.iter().filter(|patch| patch["in_view"] == true).map(|patch| patch["name"].as_str());
     let seen: Vec<&str> = seen.flatten().collect();

@@ -86,7 +86,7 @@ pub use solve::norm::Norm;
 pub use solve::options::{Method, Options};
 pub use solve::progress::{LinkedTiles, Moment, Progress};
 pub use solve::quality::Quality;
-pub use solve::solution::Solution;
+pub use solve::solution::{Solution, Transfers};
 pub use solve::state::{State, StateError};
 pub use solve::{solve, solve_from};
 pub use table::{element_table, patch_table};

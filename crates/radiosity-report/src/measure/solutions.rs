@@ -5,7 +5,7 @@ use super::truth::Truth;
 use crate::clock::{Job, interleaved};
 use crate::plan::{Plan, Rounds};
 use crate::rows::{Chapter, Deviation, Measured, Time};
-use radiosity::{Error, Method, Options, Quality, Scene, Solution, solve};
+use radiosity::{Error, Method, Options, Quality, Scene, Solution, Transfers, solve};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
@@ -126,7 +126,7 @@ impl Subject<'_> {
         let solution = solution?;
         let (series, elements) = (task.series, solution.mesh.elements.len());
         let setting = if [QUALITIES, LEVELS].contains(&series) {
-            format!("{}, {elements} elements", task.setting)
+            format!("{}, {elements} elements{}", task.setting, counts(&solution))
         } else {
             task.setting.clone()
         };
@@ -151,6 +151,16 @@ impl Subject<'_> {
             ..row(self.name, PATHS, format!("{paths} paths a face"), error)
         }
     }
+}
+
+/// How light was taken between parts of patches, by levels.
+fn counts(solution: &Solution) -> String {
+    solution.transfers.map_or_else(String::new, |Transfers { none, clusters, open, occluded, totals }| {
+        format!(
+            "; {open} links with nothing in between, {occluded} past others, {clusters} pairs by clusters, \
+             {none} with nothing to exchange, {totals} known in all"
+        )
+    })
 }
 
 fn row(subject: &str, series: &str, setting: String, error: Deviation) -> Measured {

@@ -2,6 +2,7 @@
 use super::ledger::Ledger;
 use crate::error::Error;
 use crate::mesh::element::Mesh;
+use serde::Serialize;
 use std::borrow::Cow;
 
 /// The light of a scene.
@@ -27,6 +28,8 @@ pub struct Solution {
     /// Which patches the camera sees, of a run [for a camera](crate::Options::for_camera): the light of the others is no more right than what
     /// it sees needs.
     pub in_view: Option<Vec<bool>>,
+    /// How light was taken between parts of patches, by levels.
+    pub transfers: Option<Transfers>,
     /// The largest |ΣF − 1| over the elements: 0 but for rounding in a closed scene. `None` for a run that was stopped, where
     /// form factors were taken [roughly](crate::Options::rough), and where computing it would take longer than the solution.
     pub closure: Option<f64>,
@@ -122,6 +125,21 @@ impl Solution {
         }
         sums.iter().zip(&areas).map(|(sums, area)| sums.iter().map(|sum| sum / area).collect()).collect()
     }
+}
+
+/// How light was taken between the parts of patches, of a solution by levels: each as roughly as its share of the error allows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Transfers {
+    /// Pairs of the convex parts of patches between which nothing goes: they face away from each other, or something hides all.
+    pub none: usize,
+    /// Pairs of the convex parts of patches that are linked by their clusters: the product of what these see of each.
+    pub clusters: usize,
+    /// Links with nothing in between: the contour formula alone, from five points of each end.
+    pub open: usize,
+    /// Links past what stands in between: exact from five points of each end.
+    pub occluded: usize,
+    /// Pairs of the convex parts of patches of which the whole exchange was integrated, past what stands in between.
+    pub totals: usize,
 }
 
 /// Light that was gathered at vertices.

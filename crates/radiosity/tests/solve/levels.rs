@@ -489,3 +489,18 @@ fn what_a_camera_sees_is_as_right_as_in_a_run_for_all() {
         assert!(part.patch_estimate(index)[0] <= 0.04 * means[index][0]);
     }
 }
+
+/// Six walls see each other with nothing in between; what stands in the way of a lamp is counted, and what faces away is no transfer.
+#[test]
+fn transfers_are_counted_by_how_they_were_found() {
+    let transfers = |scene: &Scene| solved(scene, &options(0.1)).transfers.expect("it is by levels");
+    let room = transfers(&cube(1, 0.5, 1.0));
+    assert!(room.open >= 15 && [room.none, room.clusters, room.occluded] == [0; 3], "{room:?}");
+    let plate = |name: &str, z: f64| {
+        patch(name, &[[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]], 0.5, 1.0)
+    };
+    let stacked = transfers(&scene(vec![plate("one", 0.0), plate("two", 1.0), plate("three", 2.0)]));
+    assert_eq!(stacked, radiosity::Transfers { none: 3, ..Default::default() });
+    let furnished = transfers(&furnished());
+    assert!(furnished.none > 0 && furnished.open > 0 && furnished.occluded > 0, "{furnished:?}");
+}

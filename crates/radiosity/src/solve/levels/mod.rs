@@ -15,6 +15,7 @@
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by
+//! tally         how many links of each kind there are
 //! direct        what lights without surfaces bring to the leaves
 //! budget        the errors of links, and which are too large
 //! gradients     the light of all leaves at once, by conjugate gradients
@@ -65,6 +66,7 @@ mod run;
 mod screen;
 mod shaft;
 mod stand;
+mod tally;
 mod tile;
 mod tiling;
 mod totals;

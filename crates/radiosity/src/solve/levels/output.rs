@@ -184,6 +184,7 @@ pub(super) fn solution(
         bound: light.bound.clone(),
         estimate: None,
         in_view: None,
+        transfers: None,
         gathered: None,
         fine: None,
         closure: None,

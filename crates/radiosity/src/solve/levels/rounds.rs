@@ -12,6 +12,7 @@ use super::links::Links;
 use super::output::LeafLight;
 use super::run::Levels;
 use super::stand::{Follower, Stand};
+use super::tally::tally;
 use super::tiling::Tiling;
 use super::totals::Totals;
 use crate::error::Error;
@@ -204,6 +205,7 @@ impl Levels<'_> {
         Ok(Solution {
             estimate: Some(estimate),
             in_view,
+            transfers: Some(tally(tiling, links)),
             converged: is_shown && light.is_within(options.tolerance) && worst <= options.error,
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,

@@ -1,0 +1,30 @@
+//! How light was taken between tiles.
+use super::cluster_links::{ClusterLink, ClusterLinks};
+use super::links::Links;
+use super::tiling::Tiling;
+use crate::solve::solution::Transfers;
+use std::collections::BTreeSet;
+
+/// Counts links, and pairs of whole tiles.
+pub(super) fn tally(tiling: &Tiling<'_>, links: &Links) -> Transfers {
+    let roots = tiling.tiles.iter().filter(|tile| tile.parent.is_none()).count();
+    let clusters = by_clusters(&links.clusters);
+    let linked: BTreeSet<usize> = links.all.iter().map(|link| link.pair).collect();
+    let known = links.all.iter().filter(|link| link.of_total.is_some()).map(|link| link.pair);
+    let open = links.all.iter().filter(|link| link.among.is_empty()).count();
+    Transfers {
+        none: (roots * roots.saturating_sub(1) / 2).saturating_sub(linked.len() + clusters),
+        clusters,
+        open,
+        occluded: links.all.len() - open,
+        totals: known.collect::<BTreeSet<usize>>().len(),
+    }
+}
+
+/// The pairs of whole tiles of which each is seen from the other's cluster.
+fn by_clusters(links: &ClusterLinks) -> usize {
+    let count = |link: &ClusterLink, end: usize| {
+        link.seen(&links.clusters, end).filter(|(_, seen)| *seen > 0.0).count()
+    };
+    links.all.iter().map(|link| count(link, 0) * count(link, 1)).sum()
+}
