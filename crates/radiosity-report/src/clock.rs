@@ -29,6 +29,11 @@ pub(crate) fn interleaved<T>(jobs: &[Job<'_, T>], rounds: Rounds) -> Vec<(T, Tim
     results.into_iter().zip(samples.iter().map(|samples| time(samples))).collect()
 }
 
+/// CPU and wall seconds of one run that another process timed.
+pub(crate) fn once(seconds: [f64; 2]) -> Time {
+    time(&[seconds])
+}
+
 /// CPU and wall seconds of one run, the mean of as many as fill the span.
 fn sample<T>(job: &Job<'_, T>) -> (T, [f64; 2]) {
     let (cpu, wall) = (ProcessTime::now(), Instant::now());

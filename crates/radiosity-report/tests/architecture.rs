@@ -9,11 +9,11 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 40] = [
+const ORDER: [&str; 41] = [
     "tests", "report",
     "page", "page/overview", "page/chapter_solutions", "page/chapter_scenes", "page/chapter_axes", "page/chapter_matrices", "page/chapter_tables", "page/peers",
     "page/section", "page/work_precision", "page/plot", "page/marker", "page/axis", "page/style", "page/table", "page/escape",
-    "measure", "measure/solutions", "measure/truth", "measure/path_tracer", "measure/published", "measure/left_out", "measure/stiff", "measure/booleans",
+    "measure", "measure/solutions", "measure/truth", "measure/mitsuba", "measure/path_tracer", "measure/published", "measure/left_out", "measure/stiff", "measure/booleans",
     "measure/matrices", "measure/rooms",
     "measure/error_image", "measure/stress", "measure/cases", "measure/test_scene", "measure/query",
     "clock", "results", "analysis", "methods", "plan", "machine", "rows",

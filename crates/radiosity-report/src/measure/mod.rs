@@ -1,7 +1,7 @@
 //! What is measured, and how.
 //!
 //! ```text
-//! solutions, truth, path_tracer           whole solutions against the truth, and path tracing beside them
+//! solutions, truth, path_tracer, mitsuba  whole solutions against the truth, and path tracing beside them
 //! published, left_out, stiff, booleans    tables of the sources, economies, solvers, polygon Booleans
 //! error_image                             pictures of a scene and of the errors in it
 //! stress, cases                           points along axes of stress, and points known to 34 digits
@@ -14,6 +14,7 @@ pub(crate) mod cases;
 pub(crate) mod error_image;
 pub(crate) mod left_out;
 pub(crate) mod matrices;
+pub(crate) mod mitsuba;
 pub(crate) mod path_tracer;
 pub(crate) mod published;
 pub(crate) mod query;

@@ -1,8 +1,9 @@
 //! Whole solutions of scenes against what their faces truly receive: every method on finer and finer meshes, every quality,
-//! and path tracing beside them.
+//! and path tracing beside them: our own, and Mitsuba's where Python has it.
+use super::mitsuba::{self, Traced};
 use super::path_tracer::PathTracer;
 use super::truth::Truth;
-use crate::clock::{Job, interleaved};
+use crate::clock::{Job, interleaved, once};
 use crate::plan::{Plan, Rounds};
 use crate::rows::{Chapter, Deviation, Measured, Time};
 use radiosity::{Error, Method, Options, Quality, Scene, Solution, Transfers, solve};
@@ -11,6 +12,8 @@ use std::ops::ControlFlow;
 
 /// The name of the series of path tracing.
 const PATHS: &str = "path tracing";
+/// The name of the series of Mitsuba's path tracer.
+const MITSUBA: &str = "Mitsuba";
 /// The name of the series of qualities.
 const QUALITIES: &str = "qualities";
 /// The name of the series of levels.
@@ -26,7 +29,7 @@ struct Task {
 /// The names of all series, in their order.
 #[cfg(test)]
 pub(crate) fn series(plan: &Plan) -> Vec<&'static str> {
-    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS]).collect();
+    let mut series: Vec<&str> = tasks(plan).iter().map(|task| task.series).chain([PATHS, MITSUBA]).collect();
     series.dedup();
     series
 }
@@ -40,6 +43,7 @@ pub(crate) fn blank(subject: &str, series: &str) -> Measured {
 /// Of all scenes that are asked for and whose truth is known.
 pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Measured>, Error> {
     let mut rows = Vec::new();
+    let has_mitsuba = mitsuba::is_present();
     for (name, scene, truth) in known(plan) {
         say(&format!("whole solutions: {name}"));
         let subject = Subject { name, scene, truth };
@@ -47,6 +51,9 @@ pub(crate) fn measure(plan: &Plan, mut say: impl FnMut(&str)) -> Result<Vec<Meas
             rows.push(subject.solved(&task)?);
         }
         rows.extend(paths(plan).map(|paths| subject.traced(paths)));
+        if has_mitsuba {
+            rows.extend(subject.traced_by_mitsuba(paths(plan).collect()));
+        }
     }
     Ok(rows)
 }
@@ -151,6 +158,23 @@ impl Subject<'_> {
             ..row(self.name, PATHS, format!("{paths} paths a face"), error)
         }
     }
+
+    /// So many paths from every face in each run, by Mitsuba; no rows where that fails.
+    fn traced_by_mitsuba(&self, paths: Vec<u32>) -> Vec<Measured> {
+        let faces: Vec<&[usize]> = self.truth.faces().collect();
+        let traced = mitsuba::trace(self.scene, &faces, paths.clone()).unwrap_or_default();
+        let row = |(paths, traced): (u32, Traced)| Measured {
+            amount: f64::from(paths),
+            time: once([traced.cpu, traced.wall]),
+            ..row(
+                self.name,
+                MITSUBA,
+                format!("{paths} paths a face"),
+                Deviation::of(&self.truth.deviations(&traced.irradiance)),
+            )
+        };
+        paths.into_iter().zip(traced).map(row).collect()
+    }
 }
 
 /// How light was taken between parts of patches, by levels.
@@ -203,6 +227,24 @@ mod tests {
             }
             assert!(fine.error.mean < 0.03 && many.error.mean < 0.01, "{fine:?} {many:?}");
             assert_eq!((fine.valid, fine.certified), (Some(true), false));
+        }
+    }
+
+    /// Where Python has Mitsuba: it knows nothing of this project, and finds the light of the references.
+    #[test]
+    fn mitsuba_comes_nearer_to_the_truth_with_more_paths() {
+        if !mitsuba::is_present() {
+            return;
+        }
+        for name in ["cornell-box", "separating-wall"] {
+            let scene = &scenes::scene(name).unwrap();
+            let subject = Subject { name, scene, truth: Truth::of(name, scene).unwrap() };
+            let rows = subject.traced_by_mitsuba(vec![4096, 65_536]);
+            let [few, many] = rows.as_slice() else { panic!("{name}: Mitsuba failed") };
+            assert!(
+                many.error.mean < few.error.mean / 2.0 && many.error.mean < 0.04,
+                "{name}: {few:?} {many:?}"
+            );
         }
     }
 

@@ -15,7 +15,8 @@ const INTRO: &str = "<p>How far a whole solution is from the truth: the mean irr
     receive on average, if that is more. Methods solve on equal elements, finer from point to point, until the \
     discrete system is solved to 0.1 %: what is drawn is the error of the mesh and of how finely its light is sent, of which that \
     bound says nothing. <em>Levels</em> ask for an error (<code>--error</code>) instead of a mesh. Path tracing is that of this report, the same number of paths from every face; it finds these means and \
-    nothing else, where a solution holds the light of every element, and its error is chance, so that its points scatter. Below the \
+    nothing else, where a solution holds the light of every element, and its error is chance, so that its points scatter. <em>Mitsuba</em> stands beside it where Python has \
+    that (<code>pip install mitsuba</code>): its path tracer, started from the same faces by its sensor of irradiance, which meets lamps by chance alone; without the time to load a scene. Below the \
     dotted line errors drown in those of the reference.</p>\n";
 
 /// The errors for which the time is asked.

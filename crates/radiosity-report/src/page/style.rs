@@ -26,6 +26,7 @@ pub(crate) fn style(name: &str) -> usize {
         "hemicubes, 64 × 64 cells" => 6,
         "levels" => 7,
         "path tracing" => 10,
+        "Mitsuba" => 11,
         "reference" => 1,
         "rays, random" => 10,
         "rays, stratified" => 11,
