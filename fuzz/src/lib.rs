@@ -152,6 +152,7 @@ fn lit(scene: &Scene) -> Record {
         irradiance: ones(1),
         radiosity: ones(1),
         estimate: Vec::new(),
+        in_view: None,
         picture: None,
         tint: [1.0; 3],
     };
