@@ -39,8 +39,11 @@ const MORE: usize = 2;
 const ROUNDS: usize = 16;
 /// After so many of them cutting ends where most is as good as is asked for: what is little of the area was cut until then.
 const FIRST: usize = 6;
-/// From so many vertices is looked to foresee how long all take.
+/// From so many vertices is looked to foresee how long all take, so many at a time,
 const SAMPLE: usize = 64;
+const FEW: usize = 8;
+/// until so many seconds are spent.
+const ENOUGH: f64 = 0.3;
 
 /// What every vertex receives, and of others between them: the mean of the elements around it, or what is linear, where it is not looked from
 /// in time. Nothing when the watcher wants to stop before the first.
@@ -72,7 +75,7 @@ pub(super) fn gather(scene: &Scene, run: &mut Run<'_>) -> Result<Option<FineLigh
     Ok(Some(shown.into_light(scene)))
 }
 
-/// How many seconds a gather of the light that is found so far would take, by those of a few vertices among all.
+/// How many seconds a gather of the light that is found so far would take, by those of a few vertices among all; fewer where each takes long.
 ///
 /// # Errors
 /// As [`gather`].
@@ -81,14 +84,22 @@ pub(super) fn foresee(scene: &Scene, run: &mut Run<'_>) -> Result<f64, Error> {
     let Some(known) = Known::of(run)? else { return Ok(f64::INFINITY) };
     let mesh = known.torn(&run.factors.subdivision.mesh);
     let whole: Vec<usize> = (0..mesh.elements.len()).collect();
-    let some: Vec<usize> =
-        (0..mesh.vertices.len()).step_by(mesh.vertices.len().div_ceil(SAMPLE).max(1)).collect();
-    let outlooks = outlooks(scene, run, (&mesh, &whole), &some)?;
-    let ready = start.elapsed().as_secs_f64();
-    known.look(run, &outlooks, &BTreeMap::new())?;
-    let each = (start.elapsed().as_secs_f64() - ready) / some.len().max(1) as f64;
-    let looks = mesh.vertices.len() * (ROUNDS + MORE * FIRST) / ROUNDS;
-    Ok(ready + each * looks as f64)
+    let count = mesh.vertices.len();
+    let some: Vec<usize> = (0..count).step_by(count.div_ceil(SAMPLE).max(1)).collect();
+    let mut outlooks: Vec<(usize, Outlook)> =
+        outlooks(scene, run, (&mesh, &whole), &some)?.into_iter().enumerate().collect();
+    outlooks.sort_by_key(|(index, _)| index % FEW);
+    let outlooks: Vec<Outlook> = outlooks.into_iter().map(|(_, outlook)| outlook).collect();
+    let (ready, mut done) = (start.elapsed().as_secs_f64(), 0);
+    for few in outlooks.chunks(FEW) {
+        known.look(run, few, &BTreeMap::new())?;
+        done += few.len();
+        if start.elapsed().as_secs_f64() - ready > ENOUGH {
+            break;
+        }
+    }
+    let each = (start.elapsed().as_secs_f64() - ready) / done.max(1) as f64;
+    Ok(ready + each * (count * (ROUNDS + MORE * FIRST) / ROUNDS) as f64)
 }
 
 /// What the vertices of the run's mesh receive, torn apart as they are, and what they see: those with the most area around them first, so
