@@ -33,9 +33,14 @@ pub(crate) fn refuse_pictures<'p>(
     outputs: impl IntoIterator<Item = &'p Path>,
 ) -> Result<(), Failure> {
     let textures = || scene.patches.iter().filter_map(|patch| patch.texture.as_ref());
-    let is_shown = |bytes: Vec<u8>| textures().any(|texture| texture.image.bytes == bytes);
-    let outputs = outputs.into_iter().filter(|path| place(path).is_some());
-    match outputs.into_iter().find(|path| std::fs::read(path).is_ok_and(is_shown)) {
+    let is_shown = |path: &&Path| {
+        let length = path.metadata().map_or(0, |found| found.len());
+        let is_as_long = textures().any(|texture| texture.image.bytes.len() as u64 == length);
+        // Other files, which may be large, are not read.
+        is_as_long
+            && std::fs::read(path).is_ok_and(|bytes| textures().any(|texture| texture.image.bytes == bytes))
+    };
+    match outputs.into_iter().filter(|path| place(path).is_some()).find(is_shown) {
         Some(path) => Err(Failure::usage(format!(
             "{}: it is a picture of the scene, which would be lost; name another output",
             path.display()

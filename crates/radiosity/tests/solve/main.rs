@@ -2,6 +2,7 @@
 mod bands;
 mod build;
 mod extreme;
+mod for_camera;
 mod gathering;
 mod interpolation;
 mod levels;
