@@ -81,6 +81,18 @@ fn a_textured_surface_keeps_its_picture_and_where_it_lies() {
     }
 }
 
+/// COLLADA has no word for it.
+#[test]
+fn a_picture_stays_as_dark_as_its_material_makes_it() {
+    let mut before = scene(&scenes::write_scene("chessboard").unwrap());
+    let factor = [0.3, 0.5, 0.25];
+    before.patches[0].texture.as_mut().unwrap().factor = factor;
+    let written = Collada::of(&before);
+    let after = written.scene().unwrap();
+    assert_eq!(after.patches[0].texture.as_ref().unwrap().factor, factor);
+    assert_eq!(Collada::of(&after).text(), written.text());
+}
+
 #[test]
 fn a_written_file_reads_back_with_the_same_surfaces() {
     let cube = geometry(

@@ -140,7 +140,7 @@ fn effect(material: &Material, wavelengths: &[f64]) -> String {
     let [reflectance, emission] = material.colours(wavelengths);
     let (parameters, diffuse) = match &material.texture {
         None => (String::new(), color(reflectance)),
-        Some(_) => (sampler(name), format!(r#"<texture texture="{name}-sampler" texcoord="UV"/>"#)),
+        Some(texture) => (sampler(name), shown(name, texture)),
     };
     format!(
         r#"    <effect id="{name}-effect">
@@ -156,6 +156,18 @@ fn effect(material: &Material, wavelengths: &[f64]) -> String {
 "#,
         emission = color(emission),
         spectra = spectra(material, wavelengths),
+    )
+}
+
+/// A picture, with what its colours are multiplied by.
+fn shown(name: &str, Texture { factor, .. }: &Texture) -> String {
+    let of = format!(r#"<texture texture="{name}-sampler" texcoord="UV""#);
+    if *factor == [1.0; 3] {
+        return format!("{of}/>");
+    }
+    let factor = list(factor.iter().map(decimal));
+    format!(
+        r#"{of}><extra><technique profile="{PROFILE}"><factor>{factor}</factor></technique></extra></texture>"#
     )
 }
 

@@ -1,7 +1,10 @@
 //! What a polygon reflects and emits: the material bound to its symbol, through the effect.
 use super::file::{File, XmlNode, child, children, descend};
 use super::walk::{Instance, name_of};
-use super::{images::Images, spectra::spectra};
+use super::{
+    images::Images,
+    spectra::{own, spectra},
+};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Finish;
 use crate::scene::finding::Finding;
@@ -44,13 +47,18 @@ pub(super) fn finish<'a>(
     match slot(effect, shader, "diffuse") {
         Slot::Texture(texture) => {
             let image = images.of_texture(file, effect, texture, warnings);
-            let reflectance = if image.is_some() { [1.0; 3] } else { [DEFAULT_REFLECTANCE; 3] };
+            let reflectance = if image.is_some() { tint(file, texture)? } else { [DEFAULT_REFLECTANCE; 3] };
             Ok(Finish { material: name, reflectance, emission, image, spectra })
         }
         other => {
             Ok(Finish { material: name, reflectance: other.colour(file)?, emission, image: None, spectra })
         }
     }
+}
+
+/// What the colours of a texture's picture are multiplied by.
+fn tint<'a>(file: &File<'a>, texture: XmlNode<'a>) -> Result<[f64; 3], FileError> {
+    own(texture).and_then(|own| child(own, "factor")).map_or(Ok([1.0; 3]), |factor| rgb(file, factor))
 }
 
 /// What a surface that reflects all light has it from.

@@ -12,6 +12,8 @@
 //!   <extra><technique profile="radiosity"><wavelengths>400 404 …</wavelengths></technique></extra>   <!-- in nm -->
 //! </COLLADA>
 //! ```
+//!
+//! What COLLADA has no word for, the factor of a texture's colours, is kept so as well, within `<texture>`: `<factor>.3 .3 .3</factor>`.
 use super::file::{File, XmlNode, child, children};
 use crate::io::error::{Fault, FileError};
 use crate::io::surface::finish::Spectra;
