@@ -12,7 +12,7 @@ const SLIVER: f64 = 1e-12;
 const STRAIGHT: f64 = 1e-9;
 
 /// A corner in the frame and in space.
-type PlacedCorner = (DVec2, DVec3);
+pub(crate) type PlacedCorner = (DVec2, DVec3);
 
 /// The convex parts of a polygon, counter-clockwise. It is cut through its reflex corners, along the axes of its frame, those nearest to
 /// its middle first. Its holes may run either way.

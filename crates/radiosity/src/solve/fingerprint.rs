@@ -2,6 +2,7 @@
 use crate::mesh::subdivide::Subdivision;
 use crate::scene::Scene;
 use fnv::FnvHasher;
+use formfactor::PlanarPolygon;
 use glam::DVec3;
 use std::hash::Hasher;
 
@@ -16,6 +17,13 @@ pub(super) fn of(bytes: &[u8]) -> u64 {
 pub(super) fn of_shapes(scene: &Scene) -> u64 {
     let mut hasher = FnvHasher::default();
     write_shapes(&mut hasher, scene);
+    hasher.finish()
+}
+
+/// The fingerprint of a shape.
+pub(super) fn of_polygon(polygon: &PlanarPolygon) -> u64 {
+    let mut hasher = FnvHasher::default();
+    polygon.loops().for_each(|points| write_points(&mut hasher, points));
     hasher.finish()
 }
 

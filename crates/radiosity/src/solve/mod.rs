@@ -77,6 +77,7 @@ mod workers;
 use crate::error::Error;
 use crate::mesh::{lattice::LEVELS, plan::Plan, shadows::Shadows, subdivide::Subdivision};
 use crate::scene::Scene;
+use levels::plates::Plates;
 use options::{Method, Options};
 use progress::Progress;
 use run::Run;
@@ -86,6 +87,8 @@ use std::{ops::ControlFlow, time::Instant};
 
 /// What is done with so few patches before the first step takes less than a second, and is done whatever the time.
 const FEW_PATCHES: usize = 10_000;
+/// Links begin between all pairs of plates: with more of these a mesh is quicker.
+const FEW_PLATES: usize = 300;
 
 /// Solves for the light of a scene. `watch` is called before every step and may end the run early.
 ///
@@ -121,10 +124,11 @@ pub fn solve_from(
     check::check(scene)?;
     overlap::check(scene)?;
     in_time()?;
-    let options = &Options { method: Method::choose(options, scene.patches.len()), ..options.clone() };
-    if options.method == Method::Hierarchical {
-        return levels::rounds::solve(scene, options, start, state, &mut watch);
+    if let Some(plates) = in_plates(scene, options) {
+        return levels::rounds::solve(&plates, options, start, state, &mut watch);
     }
+    let method = if options.method == Method::Auto { Method::Mesh } else { options.method };
+    let options = &Options { method, ..options.clone() };
     // Each pass has twice the elements of the one before.
     let mut plan = Plan::even(scene, options.elements >> options.passes.min(LEVELS.into()));
     if options.shadows > 0 {
@@ -149,6 +153,15 @@ pub fn solve_from(
         passes_left -= 1;
         plan = refine::refine(&plan, &subdivision, &solution, options.norm, options.elements >> passes_left);
     }
+}
+
+/// The plates of a scene that is to be solved by levels.
+fn in_plates<'s>(scene: &'s Scene, options: &Options) -> Option<Plates<'s>> {
+    let is_asked_for = options.method == Method::Hierarchical;
+    let may_be = options.method == Method::Auto && options.hemicube.is_none();
+    let plates = (is_asked_for || may_be).then(|| Plates::of(scene))?;
+    let is_quicker = is_asked_for || options.for_camera.is_some() || plates.count() <= FEW_PLATES;
+    is_quicker.then_some(plates)
 }
 
 /// Refuses to go on with very many patches when the time is up: nothing is found yet that could be shown.

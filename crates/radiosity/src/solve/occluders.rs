@@ -17,7 +17,7 @@ const NEAR: f64 = 1e-12;
 type Key = [u64; 3];
 
 /// The polygons, and which of them each patch is a part of.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Occluders {
     pub(crate) polygons: Vec<PlanarPolygon>,
     pub(crate) of_patch: Vec<usize>,
@@ -26,22 +26,8 @@ pub(crate) struct Occluders {
 impl Occluders {
     /// Joins the patches of a scene. O(n log n) for n vertices.
     pub(crate) fn join(scene: &Scene) -> Occluders {
-        let mut sides: BTreeMap<[Key; 2], usize> = BTreeMap::new();
-        let mut groups = UnionFind::new(scene.patches.len());
-        for (index, patch) in scene.patches.iter().enumerate() {
-            for [a, b] in edges(patch) {
-                let other = sides.get(&[key(b), key(a)]).copied();
-                if let Some(other) = other.filter(|&other| continues(&scene.patches[other], patch)) {
-                    groups.join(other, index);
-                }
-                sides.insert([key(a), key(b)], index);
-            }
-        }
-        let (numbers, firsts) = groups.number();
-        let mut members = vec![Vec::new(); firsts.len()];
-        numbers.iter().enumerate().for_each(|(patch, &group)| members[group].push(patch));
         let mut occluders = Occluders { polygons: Vec::new(), of_patch: vec![0; scene.patches.len()] };
-        members.iter().for_each(|patches| occluders.add(scene, patches));
+        groups(scene, |_| true).iter().for_each(|patches| occluders.add(scene, patches));
         occluders
     }
 
@@ -61,6 +47,26 @@ impl Occluders {
             }
         }
     }
+}
+
+/// The patches that continue each other, where that joins them: each group in ascending order, by their first ones. O(n log n) for n vertices.
+pub(crate) fn groups(scene: &Scene, joins: impl Fn([usize; 2]) -> bool) -> Vec<Vec<usize>> {
+    let mut sides: BTreeMap<[Key; 2], usize> = BTreeMap::new();
+    let mut groups = UnionFind::new(scene.patches.len());
+    for (index, patch) in scene.patches.iter().enumerate() {
+        for [a, b] in edges(patch) {
+            let other = sides.get(&[key(b), key(a)]).copied();
+            let joined = |other: &usize| continues(&scene.patches[*other], patch) && joins([*other, index]);
+            if let Some(other) = other.filter(joined) {
+                groups.join(other, index);
+            }
+            sides.insert([key(a), key(b)], index);
+        }
+    }
+    let (numbers, firsts) = groups.number();
+    let mut members = vec![Vec::new(); firsts.len()];
+    numbers.iter().enumerate().for_each(|(patch, &group)| members[group].push(patch));
+    members
 }
 
 /// A place as a key of a map; −0.0 reads as 0.0.
@@ -84,7 +90,7 @@ fn continues(one: &Patch, other: &Patch) -> bool {
 }
 
 /// The polygon that patches cover together: the edges that only one of them has, straight ones as one.
-fn outline(scene: &Scene, patches: &[usize]) -> Option<PlanarPolygon> {
+pub(crate) fn outline(scene: &Scene, patches: &[usize]) -> Option<PlanarPolygon> {
     let mut rim: BTreeMap<[Key; 2], [DVec3; 2]> = BTreeMap::new();
     for [a, b] in patches.iter().flat_map(|&patch| edges(&scene.patches[patch])) {
         if rim.remove(&[key(b), key(a)]).is_none() {

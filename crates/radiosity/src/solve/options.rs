@@ -5,7 +5,8 @@ use crate::scene::camera::Camera;
 /// The method of solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// [`Method::Hierarchical`] for scenes of at most 300 patches and [for a camera](Options::for_camera), else, and with
+    /// [`Method::Hierarchical`] for scenes of at most 300 patches, or 300 plates of patches that are alike and continue each other in one plane,
+    /// and [for a camera](Options::for_camera); else, and with
     /// [`Options::hemicube`], [`Method::Mesh`].
     #[default]
     Auto,
@@ -24,21 +25,6 @@ pub enum Method {
     Cg,
     /// GMRES on the unscaled form factors.
     Gmres,
-}
-
-impl Method {
-    /// Links begin between all pairs of patches: with more patches than this a mesh is quicker.
-    const FEW_PATCHES: usize = 300;
-
-    /// What takes the place of [`Method::Auto`].
-    pub(super) fn choose(options: &Options, patches: usize) -> Method {
-        let is_quicker = patches <= Method::FEW_PATCHES || options.for_camera.is_some();
-        match options.method {
-            Method::Auto if is_quicker && options.hemicube.is_none() => Method::Hierarchical,
-            Method::Auto => Method::Mesh,
-            method => method,
-        }
-    }
 }
 
 /// The options of [`solve`](crate::solve()): how fine the mesh is, how exact the light, and when to stop.

@@ -12,3 +12,4 @@ mod resume;
 mod rough;
 mod sources;
 mod stiff;
+mod tiled;

@@ -38,13 +38,18 @@ impl Allowance {
         }
     }
 
-    /// The shares after estimates were found; `None` where all are within what is asked for, or no shares help.
-    pub(super) fn after(&mut self, estimates: &[f64]) -> Option<&[f64]> {
+    /// The shares as they are.
+    pub(super) fn shares(&self) -> &[f64] {
+        &self.shares
+    }
+
+    /// Takes in estimates; false where all are within what is asked for, or no shares help.
+    pub(super) fn after(&mut self, estimates: &[f64]) -> bool {
         let beyond: f64 = estimates.iter().map(|estimate| (estimate - self.error).max(0.0)).sum();
         let helps = beyond <= HELPS * self.beyond;
         self.idle = if helps { 0 } else { self.idle + 1 };
         if beyond == 0.0 || self.idle > IDLE {
-            return None;
+            return false;
         }
         self.is_own &= helps;
         self.beyond = beyond;
@@ -54,6 +59,6 @@ impl Allowance {
             let estimate = if self.is_own { estimate } else { worst };
             *share *= (less * self.error / estimate).clamp(LESS, 1.0);
         }
-        Some(&self.shares)
+        true
     }
 }

@@ -6,13 +6,15 @@ use super::equilibrium::deviations;
 use super::flow::{Linear, square};
 use super::link::Link;
 use super::tile::SQUARE;
-use super::tiling::Tiling;
+use super::tiling::{Tile, Tiling};
 use rayon::prelude::*;
 
 /// How much of the curvature of what a tile sees of another, times the deviation of the other's light, counts.
 const SENT: f64 = 0.5;
 /// How much the curvature of light within a tile counts beside errors of its mean.
 const WITHIN: f64 = 0.05;
+/// How much it counts where the tile is made of smaller patches, whose means are told as well.
+const PARTS: f64 = 0.5;
 /// How much the curvature of light within a tile counts for those that look at its parts.
 const OTHERS: f64 = 0.3;
 /// How much the deviation of a sender's light counts where each place of it is seen from another place.
@@ -41,8 +43,13 @@ pub(super) struct BandLight {
     direct_error: Vec<f64>,
     /// See [`importances`].
     pub(super) importance: Vec<f64>,
-    /// For each patch: the power that counts as 1.
+    /// For each tile the power of its patch that counts as 1: of a plate that several patches are parts of, as if all of it were as bright as the
+    /// tile.
     pub(super) unit: Vec<f64>,
+    /// How far what each tile receives by itself is from linear, as irradiance.
+    pub(super) bend: Vec<f64>,
+    /// How many times its errors count in each tile: see [`PlateMembers`](super::members::PlateMembers::strain).
+    strain: Vec<f64>,
     /// What all patches send, on average.
     pub(super) mean: f64,
 }
@@ -60,12 +67,12 @@ struct Flaw {
 /// For each tile how much its parts, where others look at them in more detail, matter to one patch: the largest sum of what they send it, in its unit,
 /// for a radiosity of 1.
 fn importances(tiling: &Tiling<'_>, links: &[Link], unit: &[f64]) -> Vec<f64> {
-    let mut of_patch: Vec<Vec<(usize, f64)>> = vec![Vec::new(); unit.len()];
+    let mut of_patch: Vec<Vec<(usize, f64)>> = vec![Vec::new(); tiling.scene.patches.len()];
     for link in links {
         for end in [0, 1] {
-            let patch = tiling.tiles[link.ends[end]].patch;
-            if unit[patch] > 0.0 && tiling.tiles[link.ends[1 - end]].parent.is_some() {
-                of_patch[patch].push((link.ends[1 - end], link.exchange[0] / unit[patch]));
+            let [here, there] = [link.ends[end], link.ends[1 - end]];
+            if unit[here] > 0.0 && tiling.tiles[there].parent.is_some() {
+                of_patch[tiling.tiles[here].patch].push((there, link.exchange[0] / unit[here]));
             }
         }
     }
@@ -96,14 +103,20 @@ impl BandLight {
         let is_missed = usize::from(transfer.from_second) == end;
         let missed = if is_missed { transfer.gap * self.reflected[sender] } else { 0.0 };
         let for_others =
-            self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[tile.patch];
+            self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[receiver];
+        // Patches of a plate that are smaller than a tile receive what the curve, not the tile's linear light says.
+        let is_coarse = tiling.grain[tile.patch].is_some_and(|grain| tile.area > grain);
+        let curved = if is_coarse { PARTS } else { WITHIN };
         let elsewhere = PLACE * transfer.locality() * link.exchange[0];
         let shared = if link.of_total.is_some() { link.error() } else { 0.0 };
+        // Where the total is known only how it is shared can be wrong: no matter where the sender is even, and no part of the receiver is
+        // told by itself.
+        let is_told = tile.parent.is_some() && tiling.is_joined(tile.patch);
+        let is_shared = link.of_total.is_some() && !is_told;
         Flaw {
-            // Where the total is known only how it is shared can be wrong: no matter where the sender is even.
-            of_mean: link.error() * if link.of_total.is_some() { self.stray(sender) } else { bright },
+            of_mean: link.error() * if is_shared { self.stray(sender) } else { bright },
             of_total: link.of_total.map_or(0.0, |error| error * bright),
-            within: (WITHIN + OTHERS * for_others) * (here + shared) * bright,
+            within: (curved + OTHERS * for_others) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
     }
@@ -121,6 +134,9 @@ impl BandLight {
             let light = tile.restrict(self.sent[parent]);
             self.sent.push(light);
             self.deviation.push(HALVED * self.deviation[parent]);
+            self.bend.push(HALVED * self.bend[parent]);
+            self.strain.push(self.strain[parent]);
+            self.unit.push(self.unit[parent]);
             self.reflected.push((light[0] - tiling.emittance(index, self.band)).abs());
             self.importance.push(self.importance[parent]);
             self.level.push(self.level[parent]);
@@ -136,10 +152,12 @@ impl BandLight {
         received: &[Linear],
         band: usize,
         direct: DirectFlaws,
+        strain: Vec<f64>,
     ) -> BandLight {
-        let mut deviation = vec![0.0; sent.len()];
+        let (mut deviation, mut bend) = (vec![0.0; sent.len()], Vec::new());
         for _ in 0..2 {
-            let of_leaves = unresolved(tiling, links, &sent, &deviation, &direct.deviation);
+            bend = unresolved(tiling, links, &sent, &deviation, &direct.deviation);
+            let of_leaves = with_larger(tiling, &bend);
             let of_leaves = tiling.tiles.iter().zip(received).zip(of_leaves).map(|((tile, light), off)| {
                 (tile.reflectance[band] * off).hypot(tile.mottle[band] * light[0])
             });
@@ -152,8 +170,12 @@ impl BandLight {
             powers[tile.patch] += tile.area * light[0].max(0.0);
         }
         let mean = powers.iter().sum::<f64>() / areas.iter().sum::<f64>();
-        let unit: Vec<f64> =
-            powers.iter().zip(&areas).map(|(power, area)| power.max(DARK * mean * area)).collect();
+        let unit = |(tile, light): (&Tile, &Linear)| {
+            let (power, area) = (powers[tile.patch], areas[tile.patch]);
+            let bright = if tiling.is_joined(tile.patch) { light[0] * area } else { power };
+            bright.max(DARK * mean * area)
+        };
+        let unit: Vec<f64> = tiling.tiles.iter().zip(received).map(unit).collect();
         let reflected = sent
             .iter()
             .enumerate()
@@ -168,12 +190,34 @@ impl BandLight {
         let sent_power: f64 = roots().map(|(tile, light)| tile.area * light[0]).sum();
         let mean = sent_power / areas.iter().sum::<f64>();
         let direct_error = direct.error;
-        BandLight { band, reflected, deviation, sent, level, direct_error, importance, unit, mean }
+        BandLight {
+            band,
+            reflected,
+            deviation,
+            bend,
+            strain,
+            sent,
+            level,
+            direct_error,
+            importance,
+            unit,
+            mean,
+        }
     }
 }
 
-/// How far the irradiance of each leaf is from linear: the curvatures of all that it receives, those of larger tiles by their share, and what
-/// lights bring.
+/// How far the irradiance of each leaf is from linear: what it receives by itself, and what larger tiles do by its share.
+fn with_larger(tiling: &Tiling<'_>, bend: &[f64]) -> Vec<f64> {
+    let mut squares: Vec<f64> = bend.iter().map(|bend| bend * bend).collect();
+    for (index, tile) in tiling.tiles.iter().enumerate() {
+        let Some(parent) = tile.parent else { continue };
+        let share = tile.area / tiling.tiles[parent].area;
+        squares[index] += squares[parent] * share * share;
+    }
+    squares.into_iter().map(f64::sqrt).collect()
+}
+
+/// How far what each tile receives by itself is from linear: the curvatures of all, and what lights bring.
 ///
 /// Curvatures of one sign add up, as those of a lamp that is cut into many; others may be wrong independently. The larger counts.
 fn unresolved(
@@ -199,49 +243,40 @@ fn unresolved(
             others[here] += carried * carried;
         }
     }
-    for (index, tile) in tiling.tiles.iter().enumerate() {
-        let [first, second] = sums[index].map(f64::abs);
-        squares[index] = squares[index].max(SQUARE * (first + second) * (first + second)) + others[index];
-        let Some(parent) = tile.parent else { continue };
-        let share = tile.area / tiling.tiles[parent].area;
-        squares[index] += squares[parent] * share * share;
+    for (square, (sums, others)) in squares.iter_mut().zip(sums.into_iter().zip(others)) {
+        let [first, second] = sums.map(f64::abs);
+        *square = (square.max(SQUARE * (first + second) * (first + second)) + others).sqrt();
     }
-    squares.into_iter().map(f64::sqrt).collect()
+    squares
 }
 
-/// The errors of all that every whole tile receives, as powers, each raised to `exponent`, added up.
+/// The errors of all that every tile receives, as powers: each with its tile.
 pub(super) fn errors(
     tiling: &Tiling<'_>,
     links: &[Link],
     clusters: &ClusterLinks,
     light: &BandLight,
-    exponent: f64,
-) -> Vec<f64> {
-    let root_of = tiling.roots();
-    let mut sums = vec![0.0; tiling.tiles.len()];
+    mut to: impl FnMut(usize, f64),
+) {
     for link in &clusters.all {
         for end in [0, 1] {
-            let add = |tile: usize, error: f64| sums[tile] += error.powf(exponent);
-            link.errors(&clusters.clusters, end, &light.sent, add);
+            link.errors(&clusters.clusters, end, &light.sent, &mut to);
         }
     }
     for link in links {
         for end in [0, 1] {
             let flaw = light.flaw(tiling, link, end);
-            sums[root_of[link.ends[end]]] += (flaw.of_mean + flaw.of_sender + flaw.of_total).powf(exponent);
+            to(link.ends[end], flaw.of_mean + flaw.of_sender + flaw.of_total);
         }
     }
-    for leaf in tiling.leaves() {
-        sums[root_of[leaf]] += (tiling.tiles[leaf].area * light.direct_error[leaf]).powf(exponent);
-    }
-    sums
+    tiling.leaves().for_each(|leaf| to(leaf, tiling.tiles[leaf].area * light.direct_error[leaf]));
 }
 
 /// What the light that a leaf receives straight from lights may be off by, as a share of its patch's, in the worst band.
 fn worst_direct(tiling: &Tiling<'_>, leaf: usize, bands: &[BandLight]) -> f64 {
     let tile = &tiling.tiles[leaf];
     let share = |light: &BandLight| {
-        let (power, unit) = (tile.area * light.direct_error[leaf], light.unit[tile.patch]);
+        let (power, unit) = (tile.area * light.direct_error[leaf] * light.strain[leaf], light.unit[leaf]);
         if unit > 0.0 { power / unit } else { 0.0 }
     };
     bands.iter().map(share).fold(0.0, f64::max)
@@ -319,10 +354,10 @@ fn worst_of_cluster(
         all.extend(clusters.tiles(link.ends[end]).iter().map(|tile| (tiling.tiles[*tile].patch, 0.0)));
         for light in bands {
             let mut place = start;
-            link.errors(clusters, end, &light.sent, |_, error| {
-                let (patch, worst) = &mut all[place];
-                if light.unit[*patch] > 0.0 {
-                    *worst = worst.max(error / light.unit[*patch]);
+            link.errors(clusters, end, &light.sent, |tile, error| {
+                let worst = &mut all[place].1;
+                if light.unit[tile] > 0.0 {
+                    *worst = worst.max(error * light.strain[tile] / light.unit[tile]);
                 }
                 place += 1;
             });
@@ -344,13 +379,12 @@ pub(super) fn cut(tiling: &Tiling<'_>, link: &Link, bands: &[BandLight], limits:
 
 /// The error of what one end of a link receives in the worst band, and whether that end is to be cut for it.
 fn worst(tiling: &Tiling<'_>, link: &Link, end: usize, bands: &[BandLight]) -> (f64, bool) {
-    let patch = tiling.tiles[link.ends[end]].patch;
     let at_end = usize::from(link.transfer.from_second) == end;
     let of = |light: &BandLight| {
         let Flaw { of_mean, within, of_sender, .. } = light.flaw(tiling, link, end);
         let (here, there) =
             if at_end { (of_mean + within, of_sender) } else { (within, of_mean + of_sender) };
-        let unit = light.unit[patch];
+        let unit = light.unit[link.ends[end]] / light.strain[link.ends[end]];
         if unit > 0.0 { ((here + there) / unit, here >= there) } else { (0.0, true) }
     };
     bands.iter().map(of).fold((0.0, true), |a, b| if b.0 > a.0 { b } else { a })

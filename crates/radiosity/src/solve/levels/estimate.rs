@@ -2,6 +2,7 @@
 use super::budget::{BandLight, errors};
 use super::cluster_links::ClusterLinks;
 use super::link::Link;
+use super::members::{PlateMembers, Spread};
 use super::tiling::Tiling;
 
 /// Errors add up as this power of them does: between those of one sign, of which it is the first, and independent ones, of which it is the
@@ -13,36 +14,53 @@ const MOST: usize = 60;
 /// The mean error of the irradiance of every patch; patches × `bands`.
 pub(super) fn estimate(
     tiling: &Tiling<'_>,
+    members: &PlateMembers<'_>,
     links: &[Link],
     clusters: &ClusterLinks,
     lights: &[BandLight],
     bands: usize,
 ) -> Vec<f64> {
-    let mut found = vec![0.0; tiling.scene.patches.len() * bands];
+    let spread = members.spread(tiling);
+    let mut found = vec![0.0; members.of_patches.len() * bands];
     for light in lights {
         let unit = tiling.units()[light.band];
-        for (patch, power) in powers(tiling, links, clusters, light).into_iter().enumerate() {
-            found[patch * bands + light.band] = unit * power / tiling.scene.patches[patch].polygon.area();
-        }
+        let errors = errors_of(tiling, links, clusters, light);
+        let all = spread.means(errors.of_tiles);
+        all.into_iter()
+            .enumerate()
+            .for_each(|(patch, error)| found[patch * bands + light.band] = unit * error);
     }
     found
 }
 
-/// The largest error of each patch's irradiance in a band, as a share of its mean or, where that is darker, of 1 % of the scene's.
+/// The largest error in a band of what is received, as a share of the mean there or, where that is darker, of 1 % of the scene's.
+pub(super) struct ErrorShares {
+    pub(super) of_plates: Vec<f64>,
+    pub(super) of_patches: Vec<f64>,
+}
+
+/// What all plates and patches may be off by.
 pub(super) fn shares(
     tiling: &Tiling<'_>,
+    spread: &Spread<'_>,
     links: &[Link],
     clusters: &ClusterLinks,
     lights: &[BandLight],
-) -> Vec<f64> {
-    let mut worst = vec![0.0f64; tiling.scene.patches.len()];
-    for light in lights {
-        let powers = powers(tiling, links, clusters, light);
-        for ((worst, power), unit) in worst.iter_mut().zip(powers).zip(&light.unit) {
-            *worst = worst.max(if *unit > 0.0 { power / unit } else { 0.0 });
+) -> ErrorShares {
+    let mut of_plates = vec![0.0f64; tiling.scene.patches.len()];
+    let mut of_patches = vec![0.0f64; spread.len()];
+    let worse = |worst: &mut [f64], errors: Vec<f64>, units: Vec<f64>| {
+        for ((worst, error), unit) in worst.iter_mut().zip(errors).zip(units) {
+            *worst = worst.max(if unit > 0.0 { error / unit } else { 0.0 });
         }
+    };
+    for light in lights {
+        let Errors { of_roots, of_tiles } = errors_of(tiling, links, clusters, light);
+        let bright = |tile: usize| light.unit[tile] / tiling.patch_area(tiling.tiles[tile].patch);
+        worse(&mut of_plates, tiling.means(|root| of_roots[root]), tiling.means(bright));
+        worse(&mut of_patches, spread.means(of_tiles), spread.means(|tile, _| bright(tile)));
     }
-    worst
+    ErrorShares { of_plates, of_patches }
 }
 
 /// The pairs of whole tiles that are linked, and what the one receives of the other where that shines as bright as it does on average, and the
@@ -65,17 +83,29 @@ fn exchanges(tiling: &Tiling<'_>, links: &[Link], light: &BandLight) -> Vec<([us
     found
 }
 
-/// What the light that every patch receives may be off by in a band, by reflection as well.
+/// What the irradiance may be off by in a band, by reflection as well: of whole tiles, and of what is on a tile, by how much of its area that is.
 ///
 /// An error δ of the irradiance of a tile is light of its own, of which others receive ρ F: ε = δ + F ρ ε, each term raised to the exponent. It
 /// is spread over the tile as its light is: who sees a dark part alone receives nothing of it.
-fn powers(tiling: &Tiling<'_>, links: &[Link], clusters: &ClusterLinks, light: &BandLight) -> Vec<f64> {
+struct Errors<F> {
+    of_roots: Vec<f64>,
+    of_tiles: F,
+}
+
+fn errors_of<'e>(
+    tiling: &'e Tiling<'_>,
+    links: &[Link],
+    clusters: &ClusterLinks,
+    light: &'e BandLight,
+) -> Errors<impl Fn(usize, f64) -> f64 + 'e> {
     let area = |tile: usize| tiling.tiles[tile].area;
-    let direct: Vec<f64> = errors(tiling, links, clusters, light, EXPONENT)
-        .into_iter()
-        .enumerate()
-        .map(|(tile, sum)| sum / area(tile).powf(EXPONENT))
-        .collect();
+    let (root_of, mut direct) = (tiling.roots(), vec![0.0; tiling.tiles.len()]);
+    // What each tile receives by itself, for the parts of plates; and what comes of all on each whole one.
+    let mut own = vec![0.0; tiling.tiles.len()];
+    errors(tiling, links, clusters, light, |tile, error| {
+        own[tile] += (error / area(tile)).powf(EXPONENT);
+        direct[root_of[tile]] += (error / area(root_of[tile])).powf(EXPONENT);
+    });
     let carried = |to: usize, from: usize, exchange: f64| {
         (exchange / area(to) * tiling.tiles[from].reflectance[light.band]).powf(EXPONENT)
     };
@@ -85,7 +115,6 @@ fn powers(tiling: &Tiling<'_>, links: &[Link], clusters: &ClusterLinks, light: &
             ([one, other], [carried(one, other, here), carried(other, one, there)])
         })
         .collect();
-    let mut sums = vec![0.0; tiling.scene.patches.len()];
     let far = |all: &[f64], next: &mut [f64]| {
         for (link, end) in clusters.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
             let sent = |tile: usize| all[tile] * tiling.tiles[tile].reflectance[light.band].powf(EXPONENT);
@@ -95,10 +124,31 @@ fn powers(tiling: &Tiling<'_>, links: &[Link], clusters: &ClusterLinks, light: &
         }
     };
     let all = reflected(&direct, &ways, far);
-    for (tile, error) in tiling.tiles.iter().zip(all).filter(|(tile, _)| tile.parent.is_none()) {
-        sums[tile.patch] += tile.area * error.powf(1.0 / EXPONENT);
+    // Errors of larger tiles are there in all of their parts.
+    for tile in 0..own.len() {
+        own[tile] += tiling.tiles[tile].parent.map_or(0.0, |parent| own[parent]);
     }
-    sums
+    let of_roots: Vec<f64> = all.iter().map(|error| error.powf(1.0 / EXPONENT)).collect();
+    let whole = of_roots.clone();
+    let of_tiles = move |tile: usize, area_on: f64| {
+        let root = root_of[tile];
+        if !tiling.is_joined(tiling.tiles[tile].patch) {
+            return whole[tile];
+        }
+        // What is reflected is as wrong as on the whole tile, in proportion to the light there.
+        let bright = if light.unit[root] > 0.0 { light.unit[tile] / light.unit[root] } else { 1.0 };
+        let reflected = (all[root] - direct[root]).max(0.0) * bright.powf(EXPONENT);
+        // How light bends over what a patch covers makes no difference to its mean.
+        let grain = tiling.grain[tiling.tiles[tile].patch].unwrap_or_default();
+        let beside = |(above, larger): (usize, usize)| {
+            let covers = if above == 0 { area_on } else { area_on.max(grain) };
+            (1.0 - covers / tiling.tiles[larger].area).max(0.0) * light.bend[larger] * light.bend[larger]
+        };
+        let larger = std::iter::successors(Some(tile), |tile| tiling.tiles[*tile].parent);
+        let bend = larger.enumerate().map(beside).sum::<f64>().sqrt();
+        (own[tile] + reflected).powf(1.0 / EXPONENT) + bend
+    };
+    Errors { of_roots, of_tiles }
 }
 
 /// What is there at once with what comes of it by reflection: pairs, and what each carries to the one and to the other.

@@ -59,7 +59,7 @@ fn pairs(tiling: &Tiling<'_>, links: &[Link], light: &BandLight) -> Vec<([usize;
         let [one, other] = link.ends;
         let mut ends = [(one, other), (other, one)].map(|(here, there)| {
             let patch = tiling.tiles[here].patch;
-            (patch, share(link.exchange[0] * light.reflected[there], light.unit[patch]))
+            (patch, share(link.exchange[0] * light.reflected[there], light.unit[here]))
         });
         ends.sort_by_key(|(patch, _)| *patch);
         let sums = found.entry(ends.map(|(patch, _)| patch)).or_default();
@@ -122,9 +122,7 @@ impl Exchanges<'_> {
     }
 
     fn received(&self, link: &ClusterLink, end: usize) -> impl Iterator<Item = (usize, f64)> {
-        link.seen(&self.clusters.clusters, end).map(|(tile, seen)| {
-            let patch = self.tiling.tiles[tile].patch;
-            (patch, share(seen, self.light.unit[patch]))
-        })
+        link.seen(&self.clusters.clusters, end)
+            .map(|(tile, seen)| (self.tiling.tiles[tile].patch, share(seen, self.light.unit[tile])))
     }
 }

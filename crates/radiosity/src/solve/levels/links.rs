@@ -8,6 +8,7 @@ use super::measure::{between, faces, measure, rises};
 use super::tiling::{Tile, Tiling};
 use super::totals::Totals;
 use crate::error::Error;
+use crate::scene::Scene;
 use crate::solve::{fingerprint, state::State, workers::attempt};
 use formfactor::DifferentialArea;
 use rayon::prelude::*;
@@ -63,8 +64,8 @@ impl Links {
     ///
     /// # Errors
     /// [`Error::Foreign`] for a state of other shapes.
-    pub(super) fn new(tiling: &Tiling<'_>, state: &State) -> Result<Links, Error> {
-        let shapes = fingerprint::of_shapes(tiling.scene);
+    pub(super) fn new(tiling: &Tiling<'_>, given: &Scene, state: &State) -> Result<Links, Error> {
+        let shapes = fingerprint::of_shapes(given);
         let foreign = !state.is_empty() && !state.knows_shapes(shapes);
         if foreign {
             Err(Error::Foreign)

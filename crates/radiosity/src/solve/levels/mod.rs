@@ -9,7 +9,9 @@
 //! allowance     how large the errors of the links of every patch may be
 //! stand         where a run stands, and how its light is shown
 //! output        the light of the leaves on a mesh
+//! parting       the mesh of plates, cut along the borders of their patches
 //! pieces        leaves in pieces that are small enough to be shown
+//! corners       what corners of pieces receive
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
@@ -34,6 +36,8 @@
 //! tiling        the tree
 //! boxes         a tree of the boxes around polygons
 //! tile          a convex polygon, its linear functions and its points
+//! members       the patches that plates are made of, on the tiles of these
+//! plates        patches that are alike and continue each other, as one
 //! ```
 //!
 //! Light is linear on every tile, and not continuous. A link is a matrix of 3 × 3 numbers that serves both directions, found by exact form
@@ -46,6 +50,7 @@ mod budget;
 mod cluster_links;
 mod cluster_views;
 mod clusters;
+mod corners;
 mod direct;
 mod equilibrium;
 mod estimate;
@@ -56,9 +61,12 @@ mod in_view;
 mod link;
 mod links;
 mod measure;
+mod members;
 mod nearby;
 mod output;
+mod parting;
 mod pieces;
+pub(super) mod plates;
 mod refinement;
 mod roots;
 pub(super) mod rounds;

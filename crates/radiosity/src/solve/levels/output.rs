@@ -2,13 +2,16 @@
 use super::direct::Direct;
 use super::equilibrium::{Equilibrium, largest};
 use super::flow::Linear;
+use super::members::PlateMembers;
 use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use crate::mesh::{cover::Cover, guests::Guests};
+use crate::scene::Scene;
 use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
 use crate::solve::solution::{Gathered, Solution};
+use glam::DVec2;
 
 /// What the leaves receive, in the units of the bands, and what is known of it, in those of the scene.
 #[derive(Debug)]
@@ -115,12 +118,12 @@ impl LeafLight {
     }
 }
 
-/// A mesh of pieces of the leaves, and the leaf that each element is a part of. Light jumps where other patches touch, and at the edges of
-/// shadows of what is direct.
+/// A mesh of pieces of the leaves, and the leaf that each element is a part of.
 pub(super) fn cover(
     tiling: &Tiling<'_>,
+    members: &PlateMembers<'_>,
     equilibrium: &Equilibrium<'_>,
-    direct: &Direct<'_>,
+    lines: &[Vec<[DVec2; 2]>],
     pieces: &[LeafPart],
 ) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
@@ -128,15 +131,21 @@ pub(super) fn cover(
         of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
     let corners = of_patch.iter().flatten().flat_map(|(_, corners)| corners.iter().map(|corner| corner.1));
-    let (mut cover, all) = (Cover::default(), Guests::new(corners));
-    for (patch, (tiles, edges)) in of_patch.iter().zip(direct.edges(tiling)).enumerate() {
+    let (mut cover, all) = (Cover::default(), Guests::new(corners.chain(members.corners())));
+    for (patch, (tiles, lines)) in of_patch.iter().zip(lines).enumerate() {
         let loops = tiling.scene.patches[patch].polygon.loops();
         let sides = loops.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
         let on_sides = sides.flat_map(|(start, end)| all.on([*start, *end]));
         let guests: Vec<_> = on_sides.map(|place| (tiling.flatten(patch, place), place)).collect();
-        cover.add(patch, tiles, &[tiling.contacts(patch), &edges].concat(), &guests);
+        cover.add(patch, tiles, lines, &guests);
     }
     cover
+}
+
+/// The lines on each patch across which light jumps: where other patches touch it, and the edges of shadows of what is direct.
+pub(super) fn lines(tiling: &Tiling<'_>, direct: &Direct<'_>) -> Vec<Vec<[DVec2; 2]>> {
+    let edges = direct.edges(tiling).into_iter().enumerate();
+    edges.map(|(patch, edges)| [tiling.contacts(patch), &edges].concat()).collect()
 }
 
 /// Light that is negative nowhere, with the same mean: less steep where that is needed.
@@ -151,8 +160,9 @@ fn positive(tile: &Tile, [mean, first, second]: Linear) -> Linear {
     [mean, share * first, share * second]
 }
 
-/// The solution on a mesh of the leaves, as far as it is known here.
+/// The solution of a scene on a mesh of the leaves, as far as it is known here.
 pub(super) fn solution(
+    scene: &Scene,
     tiling: &Tiling<'_>,
     equilibrium: &Equilibrium<'_>,
     light: &LeafLight,
@@ -175,7 +185,7 @@ pub(super) fn solution(
     }
     Solution {
         bands,
-        welds: welds(tiling.scene, &mesh),
+        welds: welds(scene, &mesh),
         mesh,
         radiosity,
         irradiance,
@@ -198,7 +208,12 @@ pub(super) fn solution(
 }
 
 /// The solution with what its vertices receive, in the units of the bands: elements are as bright as their vertices, and patches as bright as they were.
-pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut vertices: Vec<f64>) -> Solution {
+pub(super) fn with_vertices(
+    scene: &Scene,
+    tiling: &Tiling<'_>,
+    mut solution: Solution,
+    mut vertices: Vec<f64>,
+) -> Solution {
     let bands = solution.bands;
     vertices.iter_mut().enumerate().for_each(|(at, light)| *light *= tiling.units()[at % bands]);
     let mean = |element: usize, band: usize| {
@@ -208,7 +223,7 @@ pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut ver
     let count = solution.mesh.elements.len();
     let shown: Vec<f64> = (0..count * bands).map(|at| mean(at / bands, at % bands)).collect();
     let [before, after] =
-        [&solution.irradiance, &shown].map(|light| solution.patch_means(light, tiling.scene.patches.len()));
+        [&solution.irradiance, &shown].map(|light| solution.patch_means(light, scene.patches.len()));
     for (at, shown) in shown.into_iter().enumerate() {
         let (patch, band) = (solution.mesh.elements[at / bands].patch, at % bands);
         // Where no vertex sees what the patch receives it is even.
@@ -224,7 +239,7 @@ pub(super) fn with_vertices(tiling: &Tiling<'_>, mut solution: Solution, mut ver
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Scene, patch::Patch};
+    use crate::scene::patch::Patch;
     use formfactor::PlanarPolygon;
 
     /// Products leave a patch in the dark a little less than nothing, and level.

@@ -1,5 +1,6 @@
 //! Leaves in pieces that are small enough for their light to be shown as linear; where shadows have edges, along these.
 use super::borders::Borders;
+use super::corners::{CornerKey, CornerLight};
 use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::tile::Outline;
@@ -20,7 +21,7 @@ const LEAST: f64 = 1e-6;
 const BENT: f64 = 1.5;
 /// At corners, which are farther out than the points on both sides, so many times as much may be missing.
 const CORNER: f64 = 3.0;
-/// Corners are looked from a little inside of the leaf: by this share of the way to its middle.
+/// Corners where light may jump are looked from a little inside of the leaf: by this share of the way to its middle.
 const INWARD: f64 = 1e-4;
 
 /// A part of a leaf.
@@ -37,9 +38,6 @@ struct OpenPart {
     borders: Vec<usize>,
 }
 
-/// A corner of parts of a tile.
-type CornerKey = (usize, [u64; 2]);
-
 /// How far from linear the light of a piece may be.
 struct Measure<'m> {
     share: f64,
@@ -55,19 +53,22 @@ pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<L
 }
 
 /// The leaves in view in pieces over which light is linear within a share, as five points and the corners of each say, and the others as they
-/// are; nothing when the caller wants to stop. `means` is the mean irradiance in each band.
+/// are, with what corners receive; nothing when the caller wants to stop. `lines` are those on each patch across which light jumps, `means` is
+/// the mean irradiance in each band.
 ///
 /// # Errors
 /// [`Error::Defect`] when a form factor fails.
-pub(super) fn pieces(
-    sights: &Sights<'_>,
+pub(super) fn pieces<'s>(
+    sights: &Sights<'s>,
     equilibrium: &Equilibrium<'_>,
+    lines: &[Vec<[DVec2; 2]>],
     means: &[f64],
     share: f64,
     ask: Ask<'_>,
-) -> Result<Option<Vec<LeafPart>>, Error> {
+) -> Result<Option<(Vec<LeafPart>, CornerLight<'s>)>, Error> {
     let dim: Vec<f64> = means.iter().map(|mean| DIM * mean).collect();
-    let mut cutting = Cutting::new(sights, equilibrium.leaves(), Measure { share, dim: &dim });
+    let corners = CornerLight::new(sights.tiling, lines);
+    let mut cutting = Cutting::new(sights, corners, equilibrium.leaves(), Measure { share, dim: &dim });
     let is_in_view = |part: &LeafPart| sights.in_view[equilibrium.patch(part.leaf)];
     let (seen, mut fine): (Vec<_>, Vec<_>) =
         whole(sights.tiling, equilibrium).into_iter().partition(is_in_view);
@@ -83,27 +84,30 @@ pub(super) fn pieces(
         }
         open = parts;
     }
-    Ok(Some(fine))
+    Ok(Some((fine, cutting.corners)))
 }
 
 /// Leaves on their way to pieces.
-struct Cutting<'c> {
-    tiling: &'c Tiling<'c>,
-    direct: &'c Direct<'c>,
+struct Cutting<'c, 's> {
+    tiling: &'s Tiling<'s>,
+    direct: &'s Direct<'s>,
     leaves: &'c [usize],
     measure: Measure<'c>,
     area: f64,
-    borders: Borders<'c>,
-    /// What corners receive that were looked from, band by band.
-    corners: BTreeMap<CornerKey, Vec<f64>>,
+    borders: Borders<'s>,
+    corners: CornerLight<'s>,
 }
 
-impl<'c> Cutting<'c> {
-    fn new(sights: &Sights<'c>, leaves: &'c [usize], measure: Measure<'c>) -> Cutting<'c> {
+impl<'c, 's> Cutting<'c, 's> {
+    fn new(
+        sights: &Sights<'s>,
+        corners: CornerLight<'s>,
+        leaves: &'c [usize],
+        measure: Measure<'c>,
+    ) -> Cutting<'c, 's> {
         let (tiling, direct) = (sights.tiling, sights.direct);
         let area = leaves.iter().map(|&leaf| tiling.tiles[leaf].area).sum();
-        let (borders, corners) = (Borders::new(tiling), BTreeMap::new());
-        Cutting { tiling, direct, leaves, measure, area, borders, corners }
+        Cutting { tiling, direct, leaves, measure, area, borders: Borders::new(tiling), corners }
     }
 
     fn open(&mut self, part: LeafPart) -> OpenPart {
@@ -126,28 +130,31 @@ impl<'c> Cutting<'c> {
             points.extend(on.map(|point| (tile, point)));
         }
         let new = self.new_corners(parts);
-        for (&(tile, _), &corner) in &new {
-            let inside = corner.lerp(tiling.tiles[tile].outline.centroid, INWARD);
+        for ((_, side, _), &(tile, corner)) in &new {
+            let inward = if side.is_some() { INWARD } else { 0.0 };
+            let inside = corner.lerp(tiling.tiles[tile].outline.centroid, inward);
             points.push((tile, tiling.point(tiling.tiles[tile].patch, inside)?));
         }
         let Some(mut light) = sights.irradiance(&points, ask)? else { return Ok(None) };
         let bands = self.measure.dim.len();
         let at_corners = light.split_off(5 * parts.len() * bands);
-        self.corners.extend(new.into_keys().zip(at_corners.chunks(bands).map(<[f64]>::to_vec)));
+        self.corners.add(new.into_keys().zip(at_corners.chunks(bands).map(<[f64]>::to_vec)));
         Ok(Some(light))
     }
 
     /// The corners that were not looked from yet. Where something stands on a leaf, or a shadow has an edge on it, it is not known on which
     /// side of that a corner is: those are left out.
-    fn new_corners(&self, parts: &[OpenPart]) -> BTreeMap<CornerKey, DVec2> {
+    fn new_corners(&self, parts: &[OpenPart]) -> BTreeMap<CornerKey, (usize, DVec2)> {
         let of_part = |OpenPart { part, .. }: &OpenPart| {
             let tile = self.leaves[part.leaf];
             let is_even = !self.tiling.tiles[tile].is_crossed && !self.direct.has_edges(tile);
             let corners = part.outline.corners.iter().filter(move |_| is_even);
-            corners.map(move |corner| (corner_key(tile, corner.0), corner.0)).collect::<Vec<_>>()
+            corners
+                .map(move |corner| (self.corners.key(tile, corner.0), (tile, corner.0)))
+                .collect::<Vec<_>>()
         };
         let all = parts.iter().flat_map(of_part);
-        all.filter(|(key, _)| !self.corners.contains_key(key)).collect()
+        all.filter(|(key, _)| !self.corners.is_known(key)).collect()
     }
 
     /// The halves of a part whose light is not linear enough, or on which something stands: cut along the border of a shadow where one passes
@@ -158,7 +165,7 @@ impl<'c> Cutting<'c> {
         let patch = self.tiling.tiles[tile].patch;
         let area = self.tiling.area(patch, outline) / self.area;
         let corners = outline.corners.iter().filter_map(|corner| {
-            Some((outline.linear(corner.0), self.corners.get(&corner_key(tile, corner.0))?.as_slice()))
+            Some((outline.linear(corner.0), self.corners.of(&self.corners.key(tile, corner.0))?))
         });
         let uneven =
             self.measure.uneven(light, corners, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
@@ -176,13 +183,9 @@ impl<'c> Cutting<'c> {
     }
 }
 
-fn corner_key(tile: usize, corner: DVec2) -> CornerKey {
-    (tile, corner.to_array().map(f64::to_bits))
-}
-
 impl Measure<'_> {
     /// The axis along which the light of five points bends most, if that, or what corners are off the plane through these points, is more
-    /// than `times` what it may be. Corners come with the linear functions there, and their light.
+    /// than `times` what it may be. CornerLight come with the linear functions there, and their light.
     fn uneven<'c>(
         &self,
         light: &[f64],

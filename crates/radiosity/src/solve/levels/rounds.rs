@@ -3,20 +3,22 @@ use super::allowance::{Allowance, SUM};
 use super::budget::BandLight;
 use super::clusters::Pairs;
 use super::direct::Direct;
-use super::estimate::{estimate, shares};
+use super::estimate::{ErrorShares, estimate, shares};
 use super::flow::Linear;
 use super::importance::eases;
 use super::in_view::in_view;
 use super::link::Candidate;
 use super::links::Links;
+use super::members::PlateMembers;
 use super::output::LeafLight;
+use super::plates::Plates;
 use super::run::Levels;
 use super::stand::{Follower, Stand};
 use super::tally::tally;
 use super::tiling::Tiling;
 use super::totals::Totals;
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::camera::Camera;
 use crate::solve::{options::Options, pace::Pace, solution::Solution, state::State};
 use std::time::Instant;
 
@@ -28,31 +30,38 @@ const LEFT: f64 = 0.6;
 /// So many tiles may there be in the end, or so many times what budgets of links need.
 const MANY: usize = 1024;
 const MORE: usize = 4;
+/// And so many for each patch, where plates are made of these.
+const TILES: usize = 2;
 /// Products in a round of refinement, and at the end.
 const FEW: usize = 8;
 const ALL: usize = 400;
 
 /// Solves a scene by levels.
 pub(crate) fn solve(
-    scene: &Scene,
+    plates: &Plates<'_>,
     options: &Options,
     start: Instant,
     state: &mut State,
     watch: Follower<'_>,
 ) -> Result<Solution, Error> {
-    let tiling = Tiling::new(scene)?;
-    let in_view = options.for_camera.as_ref().map(|camera| in_view(&tiling, camera)).transpose()?;
-    let (links, direct) = (Links::new(&tiling, state)?, Direct::new(&tiling));
+    let (tiling, members) = (Tiling::of(plates)?, &PlateMembers::of(plates)?);
+    let seen = |camera: &Camera| in_view(&Tiling::new(plates.given)?, camera);
+    let patches_in_view = options.for_camera.as_ref().map(seen).transpose()?;
+    let in_view = patches_in_view.as_ref().map(|seen| plates.any(seen));
+    let (links, direct) = (Links::new(&tiling, plates.given, state)?, Direct::new(&tiling));
     let emitted =
         |band: usize| (0..tiling.tiles.len()).map(|tile| [tiling.emittance(tile, band), 0.0, 0.0]).collect();
-    let sent: Vec<Vec<Linear>> = (0..scene.bands).map(emitted).collect();
+    let sent: Vec<Vec<Linear>> = (0..plates.given.bands).map(emitted).collect();
     let light = LeafLight::of(&tiling, &links.equilibrium(&tiling, true), &sent, &direct);
+    let strain = vec![1.0; tiling.tiles.len()];
     let mut levels = Levels {
         options,
         start,
         tiling,
+        members,
         in_view,
         links,
+        strain,
         direct,
         sent,
         rounds: 0,
@@ -62,7 +71,7 @@ pub(crate) fn solve(
         fault: None,
     };
     let is_right = levels.run(state)?;
-    levels.finish(is_right, state)
+    Ok(Solution { in_view: patches_in_view, ..levels.finish(is_right, state)? })
 }
 
 impl Levels<'_> {
@@ -98,13 +107,19 @@ impl Levels<'_> {
     /// Refines the patches whose estimates are beyond what is asked for, as far as that helps; false when the run is to end.
     fn better(&mut self, mut lights: Vec<BandLight>, state: &mut State) -> Result<bool, Error> {
         let mut allowance = Allowance::new(self.tiling.scene.patches.len(), self.options.error);
-        let most = MANY.max(MORE * self.tiling.tiles.len());
+        let patches = self.members.of_patches.len();
+        let most = MANY.max(MORE * self.tiling.tiles.len().max(TILES * patches));
         for _ in 0..FINER {
-            let found = self.seen_shares(&lights);
+            let ErrorShares { of_plates, of_patches } = self.seen_shares(&lights);
             let is_full = self.tiling.tiles.len() > most || !self.has_time();
-            let Some(allowed) = allowance.after(&found).filter(|_| !is_full) else { return Ok(true) };
+            let helps = allowance.after(&of_plates);
+            let spread = self.members.spread(&self.tiling);
+            let is_strained = spread.strain(&self.tiling, &of_patches, self.options.error, &mut self.strain);
+            if is_full || !(helps || is_strained) {
+                return Ok(true);
+            }
             let eased = |(share, ease): (&f64, f64)| share * ease;
-            let allowed: Vec<f64> = allowed.iter().zip(self.eases(&lights)).map(eased).collect();
+            let allowed: Vec<f64> = allowance.shares().iter().zip(self.eases(&lights)).map(eased).collect();
             match self.level(&allowed, most, state)? {
                 None => return Ok(false),
                 Some(better) => lights = better,
@@ -120,15 +135,24 @@ impl Levels<'_> {
         self.in_view.as_ref().map_or_else(|| vec![1.0; self.tiling.scene.patches.len()], of_view)
     }
 
-    /// The errors of all patches as [`shares`], 0 of those that are out of view.
-    fn seen_shares(&self, lights: &[BandLight]) -> Vec<f64> {
-        let mut shares = shares(&self.tiling, &self.links.all, &self.links.clusters, lights);
-        for (share, _) in
-            shares.iter_mut().zip(self.in_view.iter().flatten()).filter(|(_, is_seen)| !**is_seen)
-        {
-            *share = 0.0;
-        }
+    /// The errors of all plates and patches, 0 of those that are out of view.
+    fn seen_shares(&self, lights: &[BandLight]) -> ErrorShares {
+        let spread = self.members.spread(&self.tiling);
+        let mut shares = shares(&self.tiling, &spread, &self.links.all, &self.links.clusters, lights);
+        let Some(in_view) = &self.in_view else { return shares };
+        let unseen = |plate: &usize| !in_view[*plate];
+        (0..in_view.len()).filter(unseen).for_each(|plate| shares.of_plates[plate] = 0.0);
+        let of_patches = shares.of_patches.iter_mut().zip(&self.members.of_patches);
+        of_patches.filter(|(_, plate)| unseen(plate)).for_each(|(share, _)| *share = 0.0);
         shares
+    }
+
+    /// Whether estimates are within the error that is asked for.
+    fn is_within(&self, lights: &[BandLight]) -> bool {
+        let ErrorShares { of_plates, of_patches } = self.seen_shares(lights);
+        let error = self.options.error;
+        let spread = self.members.spread(&self.tiling);
+        of_plates.into_iter().all(|share| share <= error) && spread.beyond(&of_patches, error).is_empty()
     }
 
     /// Finds what whole tiles exchange in all, as well as it matters in such light; false when the watcher wants to stop.
@@ -172,7 +196,10 @@ impl Levels<'_> {
             match self.refine(&mut lights, shares, state)? {
                 None => return Ok(None),
                 Some(true) if self.tiling.tiles.len() <= most => {}
-                Some(_) => return Ok(Some(lights)),
+                // What was cut last has light of its own before anyone asks how wrong it is.
+                Some(true) if !self.shine(state)? => return Ok(None),
+                Some(true) => return Ok(Some(self.settle(FEW, false))),
+                Some(false) => return Ok(Some(lights)),
             }
         }
     }
@@ -187,12 +214,11 @@ impl Levels<'_> {
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
-        let worst = self.seen_shares(&lights).into_iter().fold(0.0, f64::max);
-        let in_view = self.in_view.clone();
+        let is_within = self.is_within(&lights);
         let (stand, watch) = self.stand();
-        let Stand { options, tiling, links, sent, light, .. } = stand;
+        let Stand { options, tiling, members, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = estimate(tiling, &links.all, &links.clusters, &lights, sent.len());
+        let estimate = estimate(tiling, members, &links.all, &links.clusters, &lights, sent.len());
         let shown = match is_right.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
@@ -204,9 +230,8 @@ impl Levels<'_> {
         let solution = shown.unwrap_or_else(|| stand.solution(&equilibrium, light));
         Ok(Solution {
             estimate: Some(estimate),
-            in_view,
             transfers: Some(tally(tiling, links)),
-            converged: is_shown && light.is_within(options.tolerance) && worst <= options.error,
+            converged: is_shown && light.is_within(options.tolerance) && is_within,
             seconds: stand.start.elapsed().as_secs_f64(),
             fault,
             ..solution

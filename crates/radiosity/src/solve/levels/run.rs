@@ -7,6 +7,7 @@ use super::flow::Linear;
 use super::gradients::Gradients;
 use super::link::{Candidate, Link};
 use super::links::Links;
+use super::members::PlateMembers;
 use super::output::LeafLight;
 use super::stand::{Follower, Stand};
 use super::tiling::Tiling;
@@ -23,9 +24,12 @@ pub(super) struct Levels<'l> {
     pub(super) options: &'l Options,
     pub(super) start: Instant,
     pub(super) tiling: Tiling<'l>,
+    pub(super) members: &'l PlateMembers<'l>,
     /// Which patches the camera sees, where the run is for one.
     pub(super) in_view: Option<Vec<bool>>,
     pub(super) links: Links,
+    /// How many times its errors count in each tile.
+    pub(super) strain: Vec<f64>,
     pub(super) direct: Direct<'l>,
     /// What each tile sends, band by band.
     pub(super) sent: Vec<Vec<Linear>>,
@@ -121,6 +125,7 @@ impl Levels<'_> {
             options,
             start,
             tiling,
+            members,
             in_view,
             links,
             direct,
@@ -135,6 +140,7 @@ impl Levels<'_> {
             options,
             start: *start,
             tiling,
+            members,
             in_view: in_view.as_deref(),
             links,
             direct,
@@ -177,7 +183,8 @@ impl Levels<'_> {
         let light = |band: usize| {
             let received = equilibrium.spread(&self.light.received[band]);
             let flaws = self.direct.flaws(&self.tiling, band);
-            BandLight::new(&self.tiling, &self.links.all, self.sent[band].clone(), &received, band, flaws)
+            let (sent, strain) = (self.sent[band].clone(), self.strain.clone());
+            BandLight::new(&self.tiling, &self.links.all, sent, &received, band, flaws, strain)
         };
         lit.collect::<Vec<usize>>().into_par_iter().map(light).collect()
     }
@@ -192,6 +199,7 @@ impl Levels<'_> {
                 sent.extend(halves.map(|half| self.tiling.tiles[half].restrict(whole)));
             }
             self.direct.inherit(&self.tiling);
+            self.strain.extend([self.strain[tile]; 2]);
         }
         Ok(halves)
     }

@@ -3,7 +3,9 @@ use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::flow::Linear;
 use super::links::Links;
-use super::output::{LeafLight, cover, solution, with_vertices};
+use super::members::PlateMembers;
+use super::output::{LeafLight, cover, lines, solution, with_vertices};
+use super::parting::part;
 use super::pieces::{pieces, whole};
 use super::tiling::Tiling;
 use super::vertices::Sights;
@@ -20,6 +22,7 @@ pub(super) struct Stand<'s> {
     pub(super) options: &'s Options,
     pub(super) start: Instant,
     pub(super) tiling: &'s Tiling<'s>,
+    pub(super) members: &'s PlateMembers<'s>,
     pub(super) in_view: Option<&'s [bool]>,
     pub(super) links: &'s Links,
     pub(super) direct: &'s Direct<'s>,
@@ -57,8 +60,12 @@ impl Stand<'_> {
 
     /// The light on the leaves.
     pub(super) fn solution(&self, equilibrium: &Equilibrium<'_>, light: &LeafLight) -> Solution {
-        let cover = cover(self.tiling, equilibrium, self.direct, &whole(self.tiling, equilibrium));
-        Solution { products: self.products, ..solution(self.tiling, equilibrium, light, cover) }
+        let Stand { tiling, members, .. } = self;
+        let lines = lines(tiling, self.direct);
+        let cover = cover(tiling, members, equilibrium, &lines, &whole(tiling, equilibrium));
+        let cover = part(tiling, members, &lines, &cover).cover;
+        let solution = solution(members.plates.given, tiling, equilibrium, light, cover);
+        Solution { products: self.products, ..solution }
     }
 
     /// The light on a mesh that shows it, gathered at every vertex; nothing when the watcher, or the time, says to stop.
@@ -71,18 +78,24 @@ impl Stand<'_> {
         watch: Follower<'_>,
         state: &State,
     ) -> Result<Option<Solution>, Error> {
-        let Stand { tiling, in_view, links, direct, sent, light, .. } = self;
+        let Stand { tiling, members, in_view, links, direct, sent, light, .. } = self;
         let means = light.means(equilibrium);
         let fine: Vec<f64> = means.iter().map(|mean| self.options.error * mean).collect();
         let in_view = in_view.map_or_else(|| vec![true; tiling.scene.patches.len()], <[bool]>::to_vec);
         let sights = Sights::new(tiling, in_view, links, direct, sent, &fine);
         let mut ask = || self.show(watch, state);
-        let pieces = pieces(&sights, equilibrium, &means, self.options.error, &mut ask)?;
-        let Some(pieces) = pieces else { return Ok(None) };
-        let cover = cover(tiling, equilibrium, direct, &pieces);
+        let lines = lines(tiling, direct);
+        let pieces = pieces(&sights, equilibrium, &lines, &means, self.options.error, &mut ask)?;
+        let Some((pieces, corners)) = pieces else { return Ok(None) };
+        let cover = cover(tiling, members, equilibrium, &lines, &pieces);
         let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
-        let Some(vertices) = sights.vertices(&cover.mesh, tile_of, &mut ask)? else { return Ok(None) };
-        let solution = solution(tiling, equilibrium, light, cover);
-        Ok(Some(Solution { products: self.products, ..with_vertices(tiling, solution, vertices) }))
+        let Some(vertices) = sights.vertices(&cover.mesh, &corners, tile_of, &mut ask)? else {
+            return Ok(None);
+        };
+        let parted = part(tiling, members, &lines, &cover);
+        let vertices = parted.vertices(&cover.mesh, &vertices, sent.len());
+        let scene = members.plates.given;
+        let solution = solution(scene, tiling, equilibrium, light, parted.cover);
+        Ok(Some(Solution { products: self.products, ..with_vertices(scene, tiling, solution, vertices) }))
     }
 }

@@ -1,4 +1,5 @@
 //! Tiles: convex parts of patches, over which light is linear.
+use crate::mesh::convex::PlacedCorner;
 use glam::{DVec2, DVec3};
 
 /// Over how many standard deviations the points stand beside the centroid: so few that those of a triangle are inside of it.
@@ -11,6 +12,9 @@ pub(super) const SQUARE: f64 = 1.0 / (REACH * REACH);
 /// What each of the outer points weighs in a mean, and what the centroid does: exact for quadratic functions.
 pub(super) const OUTER: f64 = SQUARE / 2.0;
 pub(super) const INNER: f64 = 1.0 - 4.0 * OUTER;
+
+/// What is nearer to a side than this share of how far the other corners are is on it.
+const ON: f64 = 1e-9;
 
 /// No tile is made longer than this many times its width.
 const SLENDER: f64 = 3.0;
@@ -151,6 +155,42 @@ impl Outline {
         }
         (high - low).max(0.0)
     }
+}
+
+/// What of a convex polygon is within another one, both counter-clockwise; of a line and its reverse new corners have the same bits.
+pub(super) fn clipped(polygon: Vec<PlacedCorner>, within: &[PlacedCorner]) -> Vec<PlacedCorner> {
+    edges(within).fold(polygon, |rest, [start, end]| {
+        let is_forth = start.to_array() < end.to_array();
+        let [low, high] = if is_forth { [start, end] } else { [end, start] };
+        let height = |at: DVec2| (high - low).perp_dot(at - low) * if is_forth { 1.0 } else { -1.0 };
+        left_of(&rest, height)
+    })
+}
+
+/// The part of a convex polygon where a linear function is positive.
+fn left_of(polygon: &[PlacedCorner], height: impl Fn(DVec2) -> f64) -> Vec<PlacedCorner> {
+    let heights: Vec<f64> = polygon.iter().map(|corner| height(corner.0)).collect();
+    let near = ON * heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (k, &corner) in polygon.iter().enumerate() {
+        let next = (k + 1) % polygon.len();
+        let (here, there) = (heights[k], heights[next]);
+        if here >= -near {
+            kept.push(corner);
+        }
+        if here.abs() > near && there.abs() > near && (here > 0.0) != (there > 0.0) {
+            kept.push(between([(corner, here), (polygon[next], there)]));
+        }
+    }
+    if heights.iter().any(|height| *height > near) { kept } else { Vec::new() }
+}
+
+/// The point of a side where a linear function is 0: the same from both ends.
+fn between(ends: [(PlacedCorner, f64); 2]) -> PlacedCorner {
+    let [(one, here), (other, there)] =
+        if ends[0].0.0.to_array() < ends[1].0.0.to_array() { ends } else { [ends[1], ends[0]] };
+    let share = here / (here - there);
+    (one.0 + (other.0 - one.0) * share, one.1 + (other.1 - one.1) * share)
 }
 
 fn edges(corners: &[(DVec2, DVec3)]) -> impl Iterator<Item = [DVec2; 2]> {

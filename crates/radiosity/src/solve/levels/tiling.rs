@@ -1,5 +1,6 @@
 //! The tree of tiles of a scene, which grows where light is not resolved.
 use super::boxes::Boxes;
+use super::plates::Plates;
 use super::tile::{Outline, SQUARE};
 use crate::error::Error;
 use crate::extent::Extent;
@@ -71,6 +72,8 @@ pub(super) struct Tiling<'s> {
     pub(super) tiles: Vec<Tile>,
     bases: Vec<Base>,
     surface_of: Vec<usize>,
+    /// The mean area of the parts that each patch is made of, where it is.
+    pub(super) grain: Vec<Option<f64>>,
     /// Radiosity is counted in these: band by band a power of two near the largest that is emitted, so that its squares are in range.
     units: Vec<f64>,
 }
@@ -78,7 +81,17 @@ pub(super) struct Tiling<'s> {
 impl<'s> Tiling<'s> {
     /// The convex parts of all patches.
     pub(super) fn new(scene: &'s Scene) -> Result<Tiling<'s>, Error> {
-        let Occluders { polygons, of_patch } = Occluders::join(scene);
+        Tiling::past(scene, Occluders::join(scene), vec![None; scene.patches.len()])
+    }
+
+    /// The convex parts of all plates.
+    pub(super) fn of(plates: &'s Plates<'_>) -> Result<Tiling<'s>, Error> {
+        let grain = (0..plates.count()).map(|plate| plates.grain(plate)).collect();
+        Tiling::past(&plates.scene, plates.occluders.clone(), grain)
+    }
+
+    fn past(scene: &'s Scene, occluders: Occluders, grain: Vec<Option<f64>>) -> Result<Tiling<'s>, Error> {
+        let Occluders { polygons, of_patch } = occluders;
         let [low, high] = scene.extent();
         let size = (high - low).length();
         let neighbourhood = Neighbourhood::of(scene);
@@ -102,6 +115,7 @@ impl<'s> Tiling<'s> {
             tiles: Vec::new(),
             bases: scene.patches.iter().map(|patch| &patch.polygon).enumerate().map(base).collect(),
             surface_of: of_patch,
+            grain,
             units: (0..scene.bands).map(|band| unit(scene, band)).collect(),
         };
         for patch in 0..scene.patches.len() {
@@ -117,8 +131,9 @@ impl<'s> Tiling<'s> {
         let outlines: Vec<Outline> = parts.into_iter().filter_map(Outline::new).collect();
         let apart: Vec<Outline> =
             outlines.into_iter().flat_map(|outline| self.apart(patch, outline)).collect();
+        let shape = crate::solve::fingerprint::of_polygon(&self.scene.patches[patch].polygon);
         for (index, outline) in (0..).zip(apart) {
-            let key = crate::solve::fingerprint::of(&[patch as u64, index].map(u64::to_le_bytes).concat());
+            let key = crate::solve::fingerprint::of(&[shape, index].map(u64::to_le_bytes).concat());
             let tile = self.tile(patch, outline, None, key)?;
             self.tiles.push(tile);
         }
@@ -191,6 +206,16 @@ impl<'s> Tiling<'s> {
     pub(super) fn area(&self, patch: usize, outline: &Outline) -> f64 {
         let unit = self.bases[patch].frame.unit();
         outline.area * unit * unit
+    }
+
+    /// Whether a patch is made of several.
+    pub(super) fn is_joined(&self, patch: usize) -> bool {
+        self.grain[patch].is_some()
+    }
+
+    /// The area of a patch.
+    pub(super) fn patch_area(&self, patch: usize) -> f64 {
+        self.scene.patches[patch].polygon.area()
     }
 
     /// A point of space in the frame of a patch.
@@ -304,6 +329,16 @@ impl<'s> Tiling<'s> {
             roots.push(tile.parent.map_or(index, |parent| roots[parent]));
         }
         roots
+    }
+
+    /// The mean over the whole tiles of each patch.
+    pub(super) fn means(&self, of_root: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut sums = vec![[0.0; 2]; self.scene.patches.len()];
+        for (index, tile) in self.tiles.iter().enumerate().filter(|(_, tile)| tile.parent.is_none()) {
+            let [sum, area] = &mut sums[tile.patch];
+            (*sum, *area) = (*sum + tile.area * of_root(index), *area + tile.area);
+        }
+        sums.into_iter().map(|[sum, area]| if area > 0.0 { sum / area } else { 0.0 }).collect()
     }
 
     /// The tiles that are not cut.

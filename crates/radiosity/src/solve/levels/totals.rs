@@ -102,7 +102,7 @@ fn shares(tiling: &Tiling<'_>, links: &[Link], lights: &[BandLight]) -> Vec<f64>
     let of = |light: &BandLight, [here, there]: [usize; 2]| {
         // What seems dark so far counts as if it were as bright as others.
         let bright = square(light.sent[there]).sqrt().max(light.mean);
-        light.unit[patch_of(here)] / counts[patch_of(here)] / bright
+        light.unit[here] / counts[patch_of(here)] / bright
     };
     let share = |link: &Link| {
         let [one, other] = link.ends;

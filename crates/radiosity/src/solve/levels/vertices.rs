@@ -1,4 +1,5 @@
 //! What points receive: from every linked tile as bright as it was found, and from lights, exactly past what stands in between.
+use super::corners::CornerLight;
 use super::direct::Direct;
 use super::flow::Linear;
 use super::link::Link;
@@ -109,13 +110,15 @@ impl<'s> Sights<'s> {
         Sights { tiling, in_view, links, direct, of_tile, sent, known }
     }
 
-    /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `tile_of` is the tile of an element.
+    /// The irradiance of the vertices of a mesh, of which some corners' is known: vertices × bands; nothing when the caller wants to stop. `tile_of`
+    /// is the tile of an element.
     ///
     /// # Errors
     /// [`Error::Defect`] when a form factor fails.
     pub(super) fn vertices(
         &self,
         mesh: &Mesh,
+        corners: &CornerLight<'_>,
         tile_of: impl Fn(usize) -> usize,
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
@@ -123,8 +126,18 @@ impl<'s> Sights<'s> {
             let tile = tile_of(receiver.element);
             Ok((tile, receiver.inside(AT_RIM)?.owned_by(self.tiling.tiles[tile].surface)))
         };
-        let points = receivers(self.tiling.scene, mesh).iter().map(on_tile).collect::<Result<Vec<_>, _>>()?;
-        self.irradiance(&points, ask)
+        let receivers = receivers(self.tiling.scene, mesh);
+        let known: Vec<Option<&[f64]>> = receivers
+            .iter()
+            .zip(&mesh.vertices)
+            .map(|(receiver, place)| corners.at(mesh.elements[receiver.element].patch, *place))
+            .collect();
+        let unknown = receivers.iter().zip(&known).filter(|(_, known)| known.is_none());
+        let points = unknown.map(|(receiver, _)| on_tile(receiver)).collect::<Result<Vec<_>, Error>>()?;
+        let Some(found) = self.irradiance(&points, ask)? else { return Ok(None) };
+        let mut found = found.chunks(self.sent.len() - 1);
+        let of = |known: Option<&[f64]>| known.or_else(|| found.next()).unwrap_or_default().to_vec();
+        Ok(Some(known.into_iter().flat_map(of).collect()))
     }
 
     /// The irradiance of points, each on a tile: points × bands; nothing when the caller wants to stop.

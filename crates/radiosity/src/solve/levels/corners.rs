@@ -1,0 +1,102 @@
+//! What the corners of parts of leaves receive: those that several leaves share are looked from once.
+use super::tiling::Tiling;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// Places in the frame of a patch are told apart by this.
+const APART: f64 = 1.0 / (1u64 << 32) as f64;
+
+/// A place on a patch, with the tile where light may jump there: nothing where all tiles around it see the same.
+pub(super) type CornerKey = (usize, Option<usize>, [u64; 2]);
+
+/// The light at corners, band by band.
+pub(super) struct CornerLight<'c> {
+    tiling: &'c Tiling<'c>,
+    /// The lines on each patch across which light may jump, its sides among them.
+    jumps: Vec<Vec<[DVec2; 2]>>,
+    light: BTreeMap<CornerKey, Vec<f64>>,
+}
+
+impl<'c> CornerLight<'c> {
+    /// `lines` are those on each patch across which light jumps.
+    pub(super) fn new(tiling: &'c Tiling<'c>, lines: &[Vec<[DVec2; 2]>]) -> CornerLight<'c> {
+        let sides = |patch: usize| {
+            let loops = tiling.scene.patches[patch].polygon.loops();
+            let sides = loops.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+            sides.map(move |(start, end)| [*start, *end].map(|place| tiling.flatten(patch, place)))
+        };
+        let jumps = lines.iter().enumerate();
+        let jumps = jumps.map(|(patch, lines)| lines.iter().copied().chain(sides(patch)).collect());
+        CornerLight { tiling, jumps: jumps.collect(), light: BTreeMap::new() }
+    }
+
+    /// The key of a corner of a part of a tile.
+    pub(super) fn key(&self, tile: usize, corner: DVec2) -> CornerKey {
+        let patch = self.tiling.tiles[tile].patch;
+        let jumps = self.jumps[patch].iter().any(|line| distance(corner, *line) < 2.0 * APART);
+        (patch, jumps.then_some(tile), place(corner))
+    }
+
+    pub(super) fn is_known(&self, key: &CornerKey) -> bool {
+        self.light.contains_key(key)
+    }
+
+    pub(super) fn add(&mut self, light: impl Iterator<Item = (CornerKey, Vec<f64>)>) {
+        self.light.extend(light);
+    }
+
+    /// The light at a corner, where that was looked from.
+    pub(super) fn of(&self, key: &CornerKey) -> Option<&[f64]> {
+        self.light.get(key).map(Vec::as_slice)
+    }
+
+    /// The light at a place within a patch, where that is the same for all around it and was looked from.
+    pub(super) fn at(&self, patch: usize, at: DVec3) -> Option<&[f64]> {
+        self.of(&(patch, None, place(self.tiling.flatten(patch, at))))
+    }
+}
+
+/// Names a place.
+fn place(corner: DVec2) -> [u64; 2] {
+    // The sum makes −0 a 0.
+    corner.to_array().map(|along| ((along / APART).round() + 0.0).to_bits())
+}
+
+/// How far a point is from a line between two.
+fn distance(point: DVec2, [start, end]: [DVec2; 2]) -> f64 {
+    let way = end - start;
+    let share = ((point - start).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (start + way * share).distance(point)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use formfactor::PlanarPolygon;
+
+    /// A floor in two tiles, on which a wall stands across its middle.
+    #[test]
+    fn corners_are_shared_within_a_patch_but_not_across_what_stands_on_it() {
+        let square = |corners: [[f64; 3]; 4]| {
+            Patch::new("square", PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![0.0])
+        };
+        let floor = square([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+        let wall = square([[1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [1.0, 0.5, 1.0], [1.0, 0.0, 1.0]]);
+        let scene = Scene { patches: vec![floor, wall], bands: 1, ..Scene::default() };
+        let tiling = Tiling::new(&scene).unwrap();
+        let mut corners =
+            CornerLight::new(&tiling, &[tiling.contacts(0).to_vec(), tiling.contacts(1).to_vec()]);
+        let key = |corners: &CornerLight<'_>, tile: usize, place: [f64; 3]| {
+            corners.key(tile, tiling.flatten(0, place.into()))
+        };
+        let within = key(&corners, 0, [0.25, 0.5, 0.0]);
+        assert_eq!(within.1, None);
+        for on_a_line in [[1.0, 0.25, 0.0], [0.5, 0.0, 0.0], [2.0, 1.0, 0.0]] {
+            assert_eq!(key(&corners, 0, on_a_line).1, Some(0), "{on_a_line:?}");
+        }
+        corners.add([(within, vec![7.0])].into_iter());
+        assert_eq!(corners.at(0, DVec3::new(0.25, 0.5, 0.0)), Some(&[7.0][..]));
+        assert_eq!(corners.at(0, DVec3::new(0.25, 0.5 + 1e-6, 0.0)), None);
+    }
+}
