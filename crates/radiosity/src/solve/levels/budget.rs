@@ -48,7 +48,7 @@ pub(super) struct BandLight {
     pub(super) unit: Vec<f64>,
     /// How far what each tile receives by itself is from linear, as irradiance.
     pub(super) bend: Vec<f64>,
-    /// How many times its errors count in each tile: see [`PlateMembers`](super::members::PlateMembers::strain).
+    /// How many times its errors count in each tile: see [`Spread::strain`](super::members::Spread::strain).
     strain: Vec<f64>,
     /// What all patches send, on average.
     pub(super) mean: f64,
