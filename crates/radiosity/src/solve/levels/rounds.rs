@@ -32,6 +32,8 @@ const MANY: usize = 1024;
 const MORE: usize = 4;
 /// And so many for each patch, where plates are made of these.
 const TILES: usize = 2;
+/// Patches of plates are looked at again when there are so many times the tiles.
+const AT_ONCE: usize = 2;
 /// Products in a round of refinement, and at the end.
 const FEW: usize = 8;
 const ALL: usize = 400;
@@ -120,7 +122,9 @@ impl Levels<'_> {
             }
             let eased = |(share, ease): (&f64, f64)| share * ease;
             let allowed: Vec<f64> = allowance.shares().iter().zip(self.eases(&lights)).map(eased).collect();
-            match self.level(&allowed, most, state)? {
+            // Most of what is strained is right long before all links are within their limits.
+            let at_once = if is_strained { most.min(AT_ONCE * self.tiling.tiles.len()) } else { most };
+            match self.level(&allowed, at_once, state)? {
                 None => return Ok(false),
                 Some(better) => lights = better,
             }
