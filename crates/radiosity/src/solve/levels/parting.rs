@@ -145,13 +145,30 @@ impl Parted {
     }
 }
 
-/// The shares of a triangle's corners in a place on it.
-fn weights([a, b, c]: [DVec3; 3], place: DVec3) -> [f64; 3] {
+/// The shares of a triangle's corners in a place on it: all of a corner that is there, however thin the triangle is.
+fn weights(corners: [DVec3; 3], place: DVec3) -> [f64; 3] {
+    if let Some(corner) = corners.iter().position(|corner| *corner == place) {
+        return [0, 1, 2].map(|k| if k == corner { 1.0 } else { 0.0 });
+    }
+    let [a, b, c] = corners;
     let normal = (b - a).cross(c - a);
-    let part = |one: DVec3, other: DVec3| {
-        ((one - place).cross(other - place).dot(normal) / normal.length_squared()).clamp(0.0, 1.0)
-    };
+    let part = |one: DVec3, other: DVec3| (one - place).cross(other - place).dot(normal).max(0.0);
     let parts = [part(b, c), part(c, a), part(a, b)];
     let sum: f64 = parts.iter().sum();
-    parts.map(|part| part / sum)
+    if sum > 0.0 { parts.map(|part| part / sum) } else { [1.0 / 3.0; 3] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thin_triangles_have_shares_too() {
+        let [a, b] = [DVec3::ZERO, DVec3::X];
+        for c in [DVec3::Y, DVec3::X * 0.25, DVec3::Y * 1e-200] {
+            assert_eq!(weights([a, b, c], c), [0.0, 0.0, 1.0]);
+            let inside = weights([a, b, c], (a + b + c) / 3.0);
+            assert!(inside.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-12), "{c}: {inside:?}");
+        }
+    }
 }
