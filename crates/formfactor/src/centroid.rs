@@ -31,14 +31,14 @@ pub(crate) fn with_centroid(
 ) -> (FormFactor, DVec3) {
     let plane = PolarPlane::seen_from(from, to);
     let others = || occluders.iter().copied().enumerate();
-    let (factor, moment) =
-        match quick::boundary(from, to, |_, taker| each(others(), taker), &mut buffers.quick) {
-            Some(factor) => (factor, buffers.quick.recorded().iter().map(|edge| plane.moment(*edge)).sum()),
-            None => (
-                past(from, to, |_, taker| each(others(), taker), None, buffers),
-                plane.moment_of_part(from, to, occluders),
-            ),
-        };
+    let (factor, moment) = match quick::parts(from, to, |_, taker| each(others(), taker), &mut buffers.quick)
+    {
+        Some(factor) => (factor, buffers.quick.recorded().iter().map(|edge| plane.moment(*edge)).sum()),
+        None => (
+            past(from, to, |_, taker| each(others(), taker), None, buffers),
+            plane.moment_of_part(from, to, occluders),
+        ),
+    };
     let centroid = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
     (factor, plane.place(from, centroid))
 }

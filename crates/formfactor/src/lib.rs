@@ -150,7 +150,7 @@ mod shapes;
 mod stats;
 mod visible_part;
 
-pub use area::{AreaFormFactor, BoundedFormFactor, Limits, Part, Row, Tolerance};
+pub use area::{AreaFormFactor, BoundedFormFactor, Limits, Part, Row, Tolerance, unoccluded_area};
 pub use complement::unoccluded_complement;
 pub use error::Error;
 pub use form_factor::FormFactor;

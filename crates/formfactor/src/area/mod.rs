@@ -25,6 +25,7 @@ mod silhouettes;
 mod swept;
 mod tolerance;
 mod uncut;
+mod unoccluded;
 
 use crate::error::Error;
 use crate::scene::enclosure::Enclosure;
@@ -36,6 +37,7 @@ use point::Eye;
 pub use bounded::BoundedFormFactor;
 pub use part::Part;
 pub use tolerance::{Limits, Tolerance};
+pub use unoccluded::unoccluded_area;
 
 /// A form factor from a polygon to a polygon, with an estimate of its error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -216,7 +216,7 @@ fn is_wholly_before(surface: &Surface, [on, normal]: Face) -> bool {
 }
 
 /// With nothing in between and each wholly before the other's plane: the cheapest rule that is good enough.
-fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Integral> {
+pub(super) fn unobstructed(one: &Surface, other: &Surface, allowed: &Allowed) -> Option<Integral> {
     if !are_before([one, other]) {
         return None;
     }

@@ -45,6 +45,7 @@ use glam::DVec3;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use target::{HalfSpace, Target};
+use trace::Kept;
 use uncovered::Uncovered;
 
 /// The quick route's buffers, to be used again.
@@ -65,7 +66,7 @@ pub(crate) struct QuickBuffers {
 }
 
 impl QuickBuffers {
-    /// The visible boundary of the last target, if [`boundary`] found it: parts of edges relative to dA.
+    /// What [`boundary`] or [`parts`] found last: parts of edges relative to dA.
     pub(crate) fn recorded(&self) -> &[[DVec3; 2]] {
         &self.trace.record.parts
     }
@@ -81,9 +82,29 @@ pub(crate) fn boundary<'a>(
     occluders: impl Fn(&Reach, Taker<'_, 'a>),
     buffers: &mut QuickBuffers,
 ) -> Option<FormFactor> {
-    buffers.trace.record.is_kept = true;
+    kept(Kept::Boundary, from, to, occluders, buffers)
+}
+
+/// The same with the boundaries of parts that make up what is visible: doubles decide these more often.
+pub(crate) fn parts<'a>(
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
+    buffers: &mut QuickBuffers,
+) -> Option<FormFactor> {
+    kept(Kept::Parts, from, to, occluders, buffers)
+}
+
+fn kept<'a>(
+    kept: Kept,
+    from: &DifferentialArea,
+    to: &PlanarPolygon,
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
+    buffers: &mut QuickBuffers,
+) -> Option<FormFactor> {
+    buffers.trace.record.kept = kept;
     let factor = form_factor(from, to, occluders, Some(ROUGH), buffers, &mut Stats::default());
-    buffers.trace.record.is_kept = false;
+    buffers.trace.record.kept = Kept::Nothing;
     factor
 }
 
@@ -141,7 +162,7 @@ fn to_piece<'a>(
         return Some(FormFactor { value: 0.0, error_bound });
     };
     // A boundary is wanted as it is.
-    let is_rough = within.is_some() && !trace.record.is_kept;
+    let is_rough = within.is_some() && trace.record.kept != Kept::Boundary;
     let most = within.unwrap_or(0.0) - target.error;
     let near = |taker: Taker<'_, 'a>| occluders(&Reach::Quick(&target), taker);
     let rough = is_rough.then_some((&mut *uncovered, most));
@@ -154,6 +175,9 @@ fn to_piece<'a>(
             let found = uncovered.form_factor(&target, open);
             let found = found.filter(|found| Some(found.error_bound) <= within);
             stats.partial += u64::from(found.is_some());
+            if found.is_some() && trace.record.kept == Kept::Parts {
+                trace.record.parts.extend(uncovered.edges());
+            }
             found.or_else(|| trace::sum(&target, cones, (open, within), trace, stats))
         }
         Hidden::Part { open } => trace::sum(&target, cones, (open, within), trace, stats),

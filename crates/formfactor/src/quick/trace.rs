@@ -25,18 +25,28 @@ pub(super) struct TraceBuffers {
     pub(super) record: Record,
 }
 
-/// The visible boundary in parts of edges, each with the visible part to its left as seen from the target's front. Kept only where it
-/// is asked for.
+/// What is to be known of what is visible, beside how much that is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Kept {
+    #[default]
+    Nothing,
+    /// Its boundary.
+    Boundary,
+    /// The boundaries of parts of it, or its own.
+    Parts,
+}
+
+/// Boundaries in parts of edges, each with the visible part to its left as seen from the target's front.
 #[derive(Debug, Default)]
 pub(super) struct Record {
-    pub(super) is_kept: bool,
+    pub(super) kept: Kept,
     pub(super) parts: Vec<[DVec3; 2]>,
 }
 
 impl Record {
     /// Notes the part of an edge between two parameters, reversed where the sign is negative; not of one through dA, which has no plane.
     fn add(&mut self, edge: &Edge, sign: f64, part: [f64; 2]) {
-        if self.is_kept && edge.inward != DVec3::ZERO {
+        if self.kept != Kept::Nothing && edge.inward != DVec3::ZERO {
             let [start, end] = part.map(|at| edge.start + edge.along * at);
             self.parts.push(if sign < 0.0 { [end, start] } else { [start, end] });
         }

@@ -132,17 +132,22 @@ impl Uncovered {
         *error += BAND * planes.map(|(_, plane)| angle(plane)).sum::<f64>();
     }
 
+    /// The edges of all pieces that are left: unit vectors.
+    pub(super) fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        let edges = self.pieces.iter().flat_map(|piece| {
+            let corners = &self.corners[piece.corners.clone()];
+            corners.iter().zip(corners.iter().cycle().skip(1)).map(|(start, end)| [*start, *end])
+        });
+        edges.filter(|[start, end]| start != end)
+    }
+
     /// The form factor of what is left, with an error of at most `open` from elsewhere; `None` where too much is misplaced.
     pub(super) fn form_factor(&self, target: &Target, open: f64) -> Option<FormFactor> {
         let mut sum = Sum::new(target.from.normal());
-        for piece in self.pieces.iter().map(|piece| &self.corners[piece.corners.clone()]) {
-            for (&start, &end) in
-                piece.iter().zip(piece.iter().cycle().skip(1)).filter(|(start, end)| start != end)
-            {
-                let edge = Edge::new(start, end, end - start);
-                let line = sum.line(edge.inward, edge.error);
-                sum.add_whole(&edge, &line);
-            }
+        for [start, end] in self.edges() {
+            let edge = Edge::new(start, end, end - start);
+            let line = sum.line(edge.inward, edge.error);
+            sum.add_whole(&edge, &line);
         }
         sum.form_factor(target.error + open + self.error)
     }

@@ -160,7 +160,7 @@ impl Surfaces {
 }
 
 impl Surface {
-    fn new(polygon: &PlanarPolygon, plane: usize, body: Option<usize>) -> Self {
+    pub(crate) fn new(polygon: &PlanarPolygon, plane: usize, body: Option<usize>) -> Self {
         let points = polygon.points();
         let (middle, radius) = ball(points);
         let pieces = pieces(polygon);

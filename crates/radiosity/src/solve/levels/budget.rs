@@ -23,6 +23,8 @@ const PLACE: f64 = 0.3;
 const BLIND: f64 = 0.3;
 /// Patches whose errors add up to so much more than their share are not refined for the rest.
 const ENOUGH: f64 = 1.25;
+/// What part of the square of all curvatures of light from clusters is left where these are added up: they are of both signs.
+const ALIKE: f64 = 0.1;
 /// How much less than that of a whole the light of a half deviates from linear.
 const HALVED: f64 = 0.5;
 /// Patches that are darker than this share of the mean count as if they were as bright.
@@ -102,11 +104,6 @@ impl BandLight {
         // What the sender's points miss, the receiver's see, but not how bright it is.
         let is_missed = usize::from(transfer.from_second) == end;
         let missed = if is_missed { transfer.gap * self.reflected[sender] } else { 0.0 };
-        let for_others =
-            self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[receiver];
-        // Patches of a plate that are smaller than a tile receive what the curve, not the tile's linear light says.
-        let is_coarse = tiling.grain[tile.patch].is_some_and(|grain| tile.area > grain);
-        let curved = if is_coarse { PARTS } else { WITHIN };
         let elsewhere = PLACE * transfer.locality() * link.exchange[0];
         let shared = if link.of_total.is_some() { link.error() } else { 0.0 };
         // Where the total is known only how it is shared can be wrong: no matter where the sender is even, and no part of the receiver is
@@ -116,9 +113,19 @@ impl BandLight {
         Flaw {
             of_mean: link.error() * if is_shared { self.stray(sender) } else { bright },
             of_total: link.of_total.map_or(0.0, |error| error * bright),
-            within: (curved + OTHERS * for_others) * (here + shared) * bright,
+            within: self.within(tiling, receiver) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
+    }
+
+    /// How much the curvature of light within a tile counts.
+    fn within(&self, tiling: &Tiling<'_>, receiver: usize) -> f64 {
+        let tile = &tiling.tiles[receiver];
+        let for_others =
+            self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[receiver];
+        // Patches of a plate that are smaller than a tile receive what the curve, not the tile's linear light says.
+        let is_coarse = tiling.grain[tile.patch].is_some_and(|grain| tile.area > grain);
+        (if is_coarse { PARTS } else { WITHIN }) + OTHERS * for_others
     }
 
     /// How far what a tile sends is from the mean of its whole.
@@ -147,7 +154,7 @@ impl BandLight {
     /// `received` is the irradiance of the leaves, spread over the tree.
     pub(super) fn new(
         tiling: &Tiling<'_>,
-        links: &[Link],
+        (links, clusters): (&[Link], &ClusterLinks),
         sent: Vec<Linear>,
         received: &[Linear],
         band: usize,
@@ -156,7 +163,7 @@ impl BandLight {
     ) -> BandLight {
         let (mut deviation, mut bend) = (vec![0.0; sent.len()], Vec::new());
         for _ in 0..2 {
-            bend = unresolved(tiling, links, &sent, &deviation, &direct.deviation);
+            bend = unresolved(tiling, (links, clusters), &sent, &deviation, &direct.deviation);
             let of_leaves = with_larger(tiling, &bend);
             let of_leaves = tiling.tiles.iter().zip(received).zip(of_leaves).map(|((tile, light), off)| {
                 (tile.reflectance[band] * off).hypot(tile.mottle[band] * light[0])
@@ -222,7 +229,7 @@ fn with_larger(tiling: &Tiling<'_>, bend: &[f64]) -> Vec<f64> {
 /// Curvatures of one sign add up, as those of a lamp that is cut into many; others may be wrong independently. The larger counts.
 fn unresolved(
     tiling: &Tiling<'_>,
-    links: &[Link],
+    (links, clusters): (&[Link], &ClusterLinks),
     sent: &[Linear],
     deviation: &[f64],
     direct: &[f64],
@@ -243,6 +250,13 @@ fn unresolved(
             others[here] += carried * carried;
         }
     }
+    let mut far = vec![0.0; direct.len()];
+    for (link, end) in clusters.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
+        if let Some((tile, power)) = link.curvature(&clusters.clusters, end, sent) {
+            far[tile] += power / tiling.tiles[tile].area;
+        }
+    }
+    others.iter_mut().zip(far).for_each(|(square, far)| *square += ALIKE * far * far);
     for (square, (sums, others)) in squares.iter_mut().zip(sums.into_iter().zip(others)) {
         let [first, second] = sums.map(f64::abs);
         *square = (square.max(SQUARE * (first + second) * (first + second)) + others).sqrt();
@@ -260,7 +274,7 @@ pub(super) fn errors(
 ) {
     for link in &clusters.all {
         for end in [0, 1] {
-            link.errors(&clusters.clusters, end, &light.sent, &mut to);
+            link.errors(&clusters.clusters, end, (&light.sent, &light.deviation), &mut to);
         }
     }
     for link in links {
@@ -354,7 +368,9 @@ fn worst_of_cluster(
         all.extend(clusters.tiles(link.ends[end]).iter().map(|tile| (tiling.tiles[*tile].patch, 0.0)));
         for light in bands {
             let mut place = start;
-            link.errors(clusters, end, &light.sent, |tile, error| {
+            let curvature = link.curvature(clusters, end, &light.sent).map_or(0.0, |(_, power)| power);
+            link.errors(clusters, end, (&light.sent, &light.deviation), |tile, error| {
+                let error = error + light.within(tiling, tile) * curvature;
                 let worst = &mut all[place].1;
                 if light.unit[tile] > 0.0 {
                     *worst = worst.max(error * light.strain[tile] / light.unit[tile]);

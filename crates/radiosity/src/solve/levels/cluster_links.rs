@@ -11,13 +11,16 @@
 use super::cluster_views::{ClusterView, stands_between, views};
 use super::clusters::Clusters;
 use super::flow::Linear;
+use super::tile::SQUARE;
 use super::tiling::Tiling;
 use std::f64::consts::PI;
 
 /// How many times the product of the radii over the squared distance an exchange may be off by.
 const BILINEAR: f64 = 3.0;
 /// What share of what could be exchanged may be wrong where something stands in between, however all points agree.
-const BETWEEN: f64 = 0.15;
+const BETWEEN: f64 = 0.03;
+/// How far from linear what a tile sees of a cluster may be, as a share: so many times the square of its radius over its distance.
+const CURVED: f64 = 1.0;
 /// How much of what some points see and others do not may be wrong.
 const PARTLY: f64 = 0.5;
 
@@ -27,6 +30,8 @@ pub(super) struct ClusterLink {
     pub(super) ends: [usize; 2],
     /// For each tile of each end, what the other end sees of it.
     seen: [Vec<f64>; 2],
+    /// The same of the linear functions of an end that is one tile.
+    slopes: [[f64; 2]; 2],
     /// The same without what stands between the clusters, where something does.
     open: Option<[Vec<f64>; 2]>,
     /// What is seen of two tiles times this is what they exchange.
@@ -35,6 +40,8 @@ pub(super) struct ClusterLink {
     /// How wrong that may be, as a share of it, and of what could be exchanged were nothing in between.
     error: f64,
     open_error: f64,
+    /// For each end that is one tile, how far what it sees may be from linear, as a share.
+    bends: [f64; 2],
 }
 
 /// The links between clusters, and their clusters.
@@ -54,8 +61,13 @@ impl ClusterLink {
         let visible = (of_first.visible() * of_second.visible()).sqrt();
         let doubt = [&of_first, &of_second].map(ClusterView::doubt).into_iter().fold(0.0, f64::max);
         let partly = doubt.max((of_first.visible() - of_second.visible()).abs());
+        let bend = |end: usize, other: usize| match clusters.tiles(end).len() {
+            1 => CURVED * clusters.reach(other, end),
+            _ => 0.0,
+        };
         let link = ClusterLink {
             ends,
+            bends: [bend(ends[0], ends[1]), bend(ends[1], ends[0])],
             scale: if visible > 0.0 { open_scale / visible } else { 0.0 },
             open_scale,
             error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt,
@@ -64,6 +76,7 @@ impl ClusterLink {
             } else {
                 0.0
             },
+            slopes: [of_first.slopes, of_second.slopes],
             seen: [of_first.seen, of_second.seen],
             open: of_first.open.zip(of_second.open).map(|(one, other)| [one, other]),
         };
@@ -72,24 +85,43 @@ impl ClusterLink {
     }
 
     /// What each tile of one end receives, as powers, when the tiles send so much.
-    fn carry(&self, clusters: &Clusters, end: usize, sent: &[Linear], mut to: impl FnMut(usize, f64)) {
-        let brings = self.scale * weighed(clusters.tiles(self.ends[1 - end]), &self.seen[1 - end], sent);
+    fn carry(&self, clusters: &Clusters, end: usize, sent: &[Linear], mut to: impl FnMut(usize, Linear)) {
+        let brings = self.scale * self.sent(clusters, 1 - end, sent);
         if brings != 0.0 {
+            let [first, second] = self.slopes[end];
             let tiles = clusters.tiles(self.ends[end]).iter();
-            tiles.zip(&self.seen[end]).for_each(|(tile, seen)| to(*tile, brings * seen));
+            tiles
+                .zip(&self.seen[end])
+                .for_each(|(tile, seen)| to(*tile, [*seen, first, second].map(|s| s * brings)));
         }
     }
 
-    /// What may be wrong with that.
+    /// What an end sends, as the other sees it.
+    fn sent(&self, clusters: &Clusters, end: usize, sent: &[Linear]) -> f64 {
+        let tiles = clusters.tiles(self.ends[end]);
+        let [_, first, second] = sent[tiles[0]];
+        weighed(tiles, &self.seen[end], sent) + self.slopes[end][0] * first + self.slopes[end][1] * second
+    }
+
+    /// An end that is one tile, and how far what it receives may be from linear, as a power.
+    pub(super) fn curvature(&self, clusters: &Clusters, end: usize, sent: &[Linear]) -> Option<(usize, f64)> {
+        let tile = clusters.tiles(self.ends[end])[0];
+        let curvature =
+            || self.bends[end] * self.scale * self.seen[end][0] * self.sent(clusters, 1 - end, sent).abs();
+        (self.bends[end] > 0.0).then(|| (tile, curvature()))
+    }
+
+    /// What may be wrong with what each tile of an end receives; `deviation` is how far what tiles send is from linear.
     pub(super) fn errors(
         &self,
         clusters: &Clusters,
         end: usize,
-        sent: &[Linear],
+        (sent, deviation): (&[Linear], &[f64]),
         mut to: impl FnMut(usize, f64),
     ) {
         let others = clusters.tiles(self.ends[1 - end]);
-        let brings = self.error * self.scale * weighed(others, &self.seen[1 - end], sent).abs();
+        let uneven = self.bends[1 - end] * self.seen[1 - end][0] * deviation[others[0]];
+        let brings = self.scale * (self.error * self.sent(clusters, 1 - end, sent).abs() + uneven);
         let open = self.open.as_ref().map(|open| {
             let brings = self.open_error * self.open_scale * weighed(others, &open[1 - end], sent).abs();
             (brings, &open[end])
@@ -100,20 +132,10 @@ impl ClusterLink {
         }
     }
 
-    /// For each exchange of two of its tiles raised to a power: what each end receives of `sent`.
-    pub(super) fn carry_powers(
-        &self,
-        clusters: &Clusters,
-        end: usize,
-        exponent: f64,
-        sent: impl Fn(usize) -> f64,
-        mut to: impl FnMut(usize, f64),
-    ) {
-        let others = clusters.tiles(self.ends[1 - end]).iter().zip(&self.seen[1 - end]);
-        let sum: f64 = others.map(|(tile, seen)| seen.powf(exponent) * sent(*tile)).sum();
-        let brings = self.scale.powf(exponent) * sum;
-        let tiles = clusters.tiles(self.ends[end]).iter();
-        tiles.zip(&self.seen[end]).for_each(|(tile, seen)| to(*tile, brings * seen.powf(exponent)));
+    /// For each tile of each end a number: the products of those of two tiles are what these exchange, raised to a power.
+    pub(super) fn powers(&self, exponent: f64) -> [Vec<f64>; 2] {
+        let half = self.scale.sqrt();
+        self.seen.each_ref().map(|seen| seen.iter().map(|seen| (half * seen).powf(exponent)).collect())
     }
 
     /// The tiles of an end, with what the other end sees of each: the product of what is seen of two tiles times the scale is what these
@@ -141,7 +163,13 @@ impl ClusterLinks {
         for link in &self.all {
             for end in [0, 1] {
                 link.carry(&self.clusters, end, sent, |tile, power| {
-                    received[tile][0] += power / tiling.tiles[tile].area;
+                    let per = 1.0 / tiling.tiles[tile].area;
+                    let scales = [per, per / SQUARE, per / SQUARE];
+                    received[tile]
+                        .iter_mut()
+                        .zip(power)
+                        .zip(scales)
+                        .for_each(|((sum, power), per)| *sum += power * per);
                 });
             }
         }
@@ -194,9 +222,9 @@ mod tests {
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
         let (mut power, mut back, mut error) = (0.0, 0.0, 0.0);
         if let Some(link) = link {
-            link.carry(&clusters, 0, &even, |_, received| power += received);
-            link.carry(&clusters, 1, &even, |_, received| back += received);
-            link.errors(&clusters, 0, &even, |_, wrong| error += wrong);
+            link.carry(&clusters, 0, &even, |_, received| power += received[0]);
+            link.carry(&clusters, 1, &even, |_, received| back += received[0]);
+            link.errors(&clusters, 0, (&even, &vec![0.0; even.len()]), |_, wrong| error += wrong);
         }
         assert!((power - back).abs() <= 1e-14 * power, "both ways alike");
         let exact = |one: usize, other: usize| {

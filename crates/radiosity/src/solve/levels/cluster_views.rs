@@ -1,11 +1,16 @@
 //! What clusters see of each other, from points of one to all tiles of the other.
 use super::clusters::Clusters;
 use super::tiling::{Tile, Tiling};
-use formfactor::DifferentialArea;
+use formfactor::{Blockers, DifferentialArea};
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// Tiles that are seen at less than this cosine are seen as if they were at that.
 const GRAZING: f64 = 0.05;
+/// What is seen of a tile may be off by such a share of what a cluster fills of the view, which its tiles share.
+pub(super) const ROUGH: f64 = 1e-3;
+/// So many tiles of a cluster tell how much its tiles hide of each other.
+const LOOKED_AT: usize = 8;
 /// Points look from this share of the radius above all of their cluster.
 const ABOVE: f64 = 1e-6;
 /// What reaches above a plane by less than this share of the distance does not.
@@ -16,12 +21,21 @@ const NEAR: f64 = 1e-9;
 pub(super) struct ClusterView {
     /// For each tile the form factor from points of the other cluster, as from its centre.
     pub(super) seen: Vec<f64>,
+    /// Of a single tile: the integrals over it of the kernel times its linear functions.
+    pub(super) slopes: [f64; 2],
     /// The same without what stands between the clusters, where something does.
     pub(super) open: Option<Vec<f64>>,
-    /// What each point sees of all: with all that is in between, and without.
-    sums: Vec<[f64; 2]>,
+    points: Vec<Looked>,
     /// How much of what is seen by one point is not seen by another, as a share.
     apart: f64,
+}
+
+/// What a point sees of a cluster: of all of it, and of those of its tiles that are looked at past the cluster alone as well, with what that is.
+#[derive(Clone, Copy, Debug)]
+struct Looked {
+    all: f64,
+    seen: f64,
+    open: f64,
 }
 
 /// A point that looks at a cluster, and where the centre of its own is.
@@ -29,6 +43,8 @@ pub(super) struct ClusterView {
 struct Viewpoint {
     from: DifferentialArea,
     centre: DVec3,
+    /// What a form factor to a tile may be off by.
+    within: f64,
 }
 
 /// What each of two clusters is seen of from the other; nothing where one does not face the other.
@@ -85,10 +101,11 @@ fn viewpoint(
 ) -> Option<Viewpoint> {
     let (cluster, tiles) = (&clusters.all[from], clusters.tiles(from));
     let way = (clusters.all[to].centre - cluster.centre).normalize_or_zero();
+    let within = ROUGH * clusters.reach(from, to) / clusters.tiles(to).len() as f64;
     let tile = |k: &usize| &tiling.tiles[tiles[*k]];
     if tiles.len() == 1 {
         // The ends of the long axis, and the plane of the tile itself.
-        return Some(Viewpoint { from: tile(&0).points[1 + turn], centre: cluster.centre });
+        return Some(Viewpoint { from: tile(&0).points[1 + turn], centre: cluster.centre, within });
     }
     let rises = |k: usize| tile(&k).area * tile(&k).normal.dot(way);
     let largest = |is_open: &dyn Fn(usize) -> bool| {
@@ -100,10 +117,37 @@ fn viewpoint(
     let places = || tiles.iter().flat_map(|tile| tiling.tiles[*tile].outline.places());
     let top = places().map(|place| way.dot(place - position)).fold(0.0, f64::max);
     let at = position + way * (top + ABOVE * cluster.radius);
-    Some(Viewpoint { from: DifferentialArea::new(at, way).ok()?, centre: cluster.centre })
+    Some(Viewpoint { from: DifferentialArea::new(at, way).ok()?, centre: cluster.centre, within })
 }
 
 impl Viewpoint {
+    /// The form factor to a disk of the area of a tile, as from the centre to where it looks.
+    fn disk(&self, tile: &Tile) -> f64 {
+        let way = tile.points[0].position() - self.from.position();
+        let square = way.length_squared();
+        let cosine = (-tile.normal.dot(way) / square.sqrt()).max(0.0);
+        let is_before = self.from.normal().dot(way) > 0.0;
+        let spread = self.weight(tile) * self.from.normal().dot(way) / square.sqrt();
+        if is_before { spread * tile.area * cosine / (PI * square + tile.area) } else { 0.0 }
+    }
+
+    /// The form factor to a tile. What hid all of the one before may hide all of this.
+    fn factor(&self, tiling: &Tiling<'_>, tile: &Tile, blockers: &mut Blockers) -> f64 {
+        let (from, surface, polygon, within) = (&self.from, tile.surface, &tile.polygon, self.within);
+        let is_known = !blockers.ids().is_empty();
+        let behind = |blockers: &Blockers| {
+            tiling.enclosure.form_factor_behind(from, surface, polygon, blockers, within).0.value
+        };
+        if is_known && behind(blockers) == 0.0 {
+            return 0.0;
+        }
+        let (factor, found) = tiling.enclosure.form_factor_and_blockers(from, surface, polygon, within);
+        if factor.value == 0.0 {
+            *blockers = found;
+        }
+        factor.value
+    }
+
     /// What the form factor to a tile is to be multiplied by to be that from the centre to where it looks.
     fn weight(&self, tile: &Tile) -> f64 {
         let place = tile.points[0].position();
@@ -116,39 +160,48 @@ impl Viewpoint {
 impl ClusterView {
     fn none(count: usize, is_past_others: bool) -> ClusterView {
         let none = vec![0.0; count];
-        ClusterView { open: is_past_others.then(|| none.clone()), seen: none, sums: Vec::new(), apart: 0.0 }
+        ClusterView {
+            open: is_past_others.then(|| none.clone()),
+            seen: none,
+            slopes: [0.0; 2],
+            points: Vec::new(),
+            apart: 0.0,
+        }
     }
 
     /// Adds what a point sees.
     fn look(&mut self, tiling: &Tiling<'_>, tiles: &[usize], view: &Viewpoint) {
-        let own = surfaces(tiling, tiles);
-        let mut sums = [0.0; 2];
-        let mut common = 0.0;
+        let mut found = Vec::with_capacity(tiles.len());
+        let [mut common, mut all] = [0.0; 2];
+        let mut blockers = Blockers::default();
         for (k, tile) in tiles.iter().map(|tile| &tiling.tiles[*tile]).enumerate() {
             let weight = view.weight(tile);
-            let seen =
-                weight * tiling.enclosure.form_factor_to_part(&view.from, tile.surface, &tile.polygon).value;
+            let seen = weight * view.factor(tiling, tile, &mut blockers);
+            if tiles.len() == 1 && seen > 0.0 {
+                let slopes = slopes(tiling, tile, view);
+                self.slopes.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += seen * slope);
+            }
             common += seen.min(self.seen[k]);
             self.seen[k] += seen;
-            sums[0] += seen;
-            let Some(open) = &mut self.open else { continue };
-            let (factor, _) =
-                tiling.enclosure.form_factor_and_centroid(&view.from, tile.surface, &tile.polygon, &own);
-            open[k] += weight * factor.value;
-            sums[1] += weight * factor.value;
+            all += seen;
+            found.push(seen);
         }
-        let before: f64 = self.sums.iter().map(|sums| sums[0]).sum();
-        let least = before.min(sums[0]);
+        let before: f64 = self.points.iter().map(|point| point.all).sum();
+        let least = before.min(all);
         self.apart = if least > 0.0 { 1.0 - common / least } else { 0.0 };
-        self.sums.push(sums);
+        let [seen, open] = match &mut self.open {
+            None => [all, all],
+            Some(open) => look_past_own(tiling, tiles, view, &found, open),
+        };
+        self.points.push(Looked { all, seen, open });
     }
 
-    /// Takes the mean over the points that see something.
+    /// Takes the mean over the points before which something is.
     fn settle(&mut self) {
-        let count = |column: usize| self.sums.iter().filter(|sums| sums[column] > 0.0).count().max(1);
-        let [seen, open] = [0, 1].map(|column| 1.0 / f64::from(u32::try_from(count(column)).unwrap_or(1)));
-        self.seen.iter_mut().for_each(|factor| *factor *= seen);
-        self.open.iter_mut().flatten().for_each(|factor| *factor *= open);
+        let count = self.points.iter().filter(|point| point.all.max(point.open) > 0.0).count().max(1);
+        let share = 1.0 / f64::from(u32::try_from(count).unwrap_or(1));
+        let all = self.seen.iter_mut().chain(&mut self.slopes).chain(self.open.iter_mut().flatten());
+        all.for_each(|factor| *factor *= share);
     }
 
     /// What share of what could be seen is.
@@ -156,16 +209,59 @@ impl ClusterView {
         if self.open.is_none() {
             return 1.0;
         }
-        let [seen, open] = [0, 1].map(|column| self.sums.iter().map(|sums| sums[column]).sum::<f64>());
+        let seen: f64 = self.points.iter().map(|point| point.seen).sum();
+        let open: f64 = self.points.iter().map(|point| point.open).sum();
         if open > 0.0 { (seen / open).min(1.0) } else { 0.0 }
     }
 
     /// How much points see different things, as a share.
     pub(super) fn doubt(&self) -> f64 {
-        let shares = || self.sums.iter().filter(|sums| sums[1] > 0.0).map(|sums| sums[0] / sums[1]);
+        let points = || self.points.iter().filter(|point| point.open > 0.0);
+        let shares = || points().map(|point| point.seen / point.open);
         let spread = shares().fold(0.0, f64::max) - shares().fold(f64::INFINITY, f64::min);
         self.apart.max(spread)
     }
+}
+
+/// Adds what each tile could be seen of were nothing before the cluster but itself: as a disk, but for what hides of one another those of the
+/// tiles that look largest. Gives what is seen of these, and what could be.
+fn look_past_own(
+    tiling: &Tiling<'_>,
+    tiles: &[usize],
+    view: &Viewpoint,
+    seen: &[f64],
+    open: &mut [f64],
+) -> [f64; 2] {
+    let disks: Vec<f64> = tiles.iter().map(|tile| view.disk(&tiling.tiles[*tile])).collect();
+    let mut largest: Vec<usize> = (0..tiles.len()).filter(|k| disks[*k] > 0.0).collect();
+    largest.sort_by(|a, b| disks[*b].total_cmp(&disks[*a]).then(a.cmp(b)));
+    largest.truncate(LOOKED_AT);
+    let [mut looked_at, mut found] = [0.0; 2];
+    // Where nothing is seen, what could be is no matter but for the error.
+    if seen.iter().any(|seen| *seen > 0.0) {
+        let own = surfaces(tiling, tiles);
+        for &k in &largest {
+            let tile = &tiling.tiles[tiles[k]];
+            let (factor, _) =
+                tiling.enclosure.form_factor_and_centroid(&view.from, tile.surface, &tile.polygon, &own);
+            looked_at += seen[k];
+            found += view.weight(tile) * factor.value;
+        }
+    } else {
+        found = largest.iter().map(|k| disks[*k]).sum();
+    }
+    let all: f64 = largest.iter().map(|k| disks[*k]).sum();
+    let share = if all > 0.0 { found / all } else { 1.0 };
+    open.iter_mut().zip(disks).for_each(|(sum, disk)| *sum += share * disk);
+    [looked_at, found]
+}
+
+/// The linear functions of a tile at the centroid of what a point sees of it.
+fn slopes(tiling: &Tiling<'_>, tile: &Tile, Viewpoint { from, within, .. }: &Viewpoint) -> [f64; 2] {
+    let (enclosure, to) = (&tiling.enclosure, &tile.polygon);
+    let (_, blockers) = enclosure.form_factor_and_blockers(from, tile.surface, to, *within);
+    let (_, centroid) = enclosure.form_factor_and_centroid(from, tile.surface, to, blockers.ids());
+    tile.outline.linear(tiling.flatten(tile.patch, centroid)).map(|value| value.clamp(-2.0, 2.0))
 }
 
 /// The polygons that some tiles are parts of.

@@ -1,19 +1,32 @@
 //! Clusters: tiles near each other, which exchange light as a whole with what is far away (Smits, Arvo and Greenberg 1994).
+//!
+//! ```text
+//!                all
+//!            /         \
+//!      houses           houses and ground
+//!      /    \            /            \
+//!    ...    ...      houses           ground      whole tiles are clusters of one, and are cut
+//!                                     /    \      where what is near them is smaller
+//!                                  part    part
+//! ```
 use super::tiling::Tiling;
+use crate::error::Error;
 use crate::extent::Extent;
 use glam::DVec3;
-use std::ops::Range;
+use std::{cmp::Ordering, ops::Range};
 
 /// Two clusters are far from each other when the product of their radii is less than this share of the square of their distance, …
-const NEAR: f64 = 0.06;
+const NEAR: f64 = 0.15;
 /// … and neither reaches so much of the way to the other.
 const REACH: f64 = 0.6;
+/// Clusters of so few tiles are halved before a larger tile is cut for them.
+const FEW: usize = 8;
 /// Normals that differ by less than this from the axis of their cone are along it.
 const FLAT: f64 = 1e-12;
 /// What rises above a flat cluster by less than this share of its distance does not.
 const LOW: f64 = 1e-9;
 
-/// Whole tiles near each other.
+/// Whole tiles near each other, or one that may be a part.
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
     members: Range<usize>,
@@ -21,6 +34,8 @@ pub(super) struct Cluster {
     pub(super) extent: Extent,
     pub(super) centre: DVec3,
     pub(super) radius: f64,
+    /// The normals of its tiles, each once.
+    normals: Vec<DVec3>,
     /// All normals are within an angle of this, in radians.
     axis: DVec3,
     spread: f64,
@@ -28,14 +43,18 @@ pub(super) struct Cluster {
     low: f64,
 }
 
-/// All whole tiles in a tree, halved where they lie furthest apart.
+/// All whole tiles in a tree, halved where they lie furthest apart, and the parts of those that are cut for what is near them.
 #[derive(Debug, Default)]
 pub(super) struct Clusters {
+    /// Whole tiles, then parts.
     order: Vec<usize>,
     pub(super) all: Vec<Cluster>,
     /// For each polygon the first and the last place in the order of its tiles.
     of_surface: Vec<[usize; 2]>,
 }
+
+/// Cuts a tile: its halves, each as a cluster; nothing when it is too small.
+pub(super) type Cut<'c> = &'c mut dyn FnMut(usize) -> Result<Option<[(usize, Cluster); 2]>, Error>;
 
 /// Pairs of clusters that are to be linked, and pairs of tiles that are too near each other for that.
 #[derive(Debug, Default)]
@@ -65,7 +84,9 @@ impl Clusters {
 
     fn grow(&mut self, tiling: &Tiling<'_>, extents: &[Extent], members: Range<usize>) -> usize {
         let index = self.all.len();
-        self.all.push(Cluster::of(tiling, &self.order[members.clone()], members.clone(), extents));
+        let extent =
+            self.order[members.clone()].iter().fold(Extent::NOTHING, |all, tile| all.with(&extents[*tile]));
+        self.all.push(Cluster::of(tiling, &self.order[members.clone()], members.clone(), extent));
         if members.len() > 1 {
             let axis = self.all[index].extent.longest();
             let middle = |tile: &usize| extents[*tile].low[axis] + extents[*tile].high[axis];
@@ -85,41 +106,79 @@ impl Clusters {
     }
 
     /// All pairs that may see each other, in clusters that are as large as their distance allows.
-    pub(super) fn pairs(&self) -> Pairs {
+    pub(super) fn pairs(&mut self, cut: Cut<'_>) -> Result<Pairs, Error> {
         let mut pairs = Pairs::default();
         let mut within: Vec<usize> = (!self.all.is_empty()).then_some(0).into_iter().collect();
         while let Some(cluster) = within.pop() {
-            if let Some(halves) = self.all[cluster].halves {
+            let halves = self.all[cluster].halves.filter(|_| self.tiles(cluster).len() > 1);
+            if let Some(halves) = halves {
                 within.extend(halves);
-                self.part(halves, &mut pairs);
+                self.part(halves, &mut pairs, cut)?;
             }
         }
-        pairs
+        Ok(pairs)
     }
 
     /// Adds a pair, or the pairs of its parts that are far enough from each other.
-    pub(super) fn part(&self, pair: [usize; 2], pairs: &mut Pairs) {
+    pub(super) fn part(&mut self, pair: [usize; 2], pairs: &mut Pairs, cut: Cut<'_>) -> Result<(), Error> {
         let mut open = vec![pair];
         while let Some(pair) = open.pop() {
             if self.faces(pair) {
                 if self.is_far(pair) {
                     pairs.far.push(pair);
+                } else if let Some(parts) = self.halve(pair, cut)? {
+                    open.extend(parts);
                 } else {
-                    match self.halve(pair) {
-                        Some(parts) => open.extend(parts),
-                        None => pairs.near.push(pair.map(|cluster| self.tiles(cluster)[0])),
-                    }
+                    pairs.near.push(pair.map(|cluster| self.tiles(cluster)[0]));
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the pairs that take the place of a pair.
+    pub(super) fn replace(&mut self, pair: [usize; 2], pairs: &mut Pairs, cut: Cut<'_>) -> Result<(), Error> {
+        match self.halve(pair, cut)? {
+            Some(parts) => parts.into_iter().try_for_each(|part| self.part(part, pairs, cut)),
+            None => {
+                pairs.near.push(pair.map(|cluster| self.tiles(cluster)[0]));
+                Ok(())
             }
         }
     }
 
     /// The pairs that take the place of a pair: the larger cluster is halved; nothing for two tiles.
-    pub(super) fn halve(&self, pair: [usize; 2]) -> Option<[[usize; 2]; 2]> {
-        let [one, other] = pair.map(|cluster| &self.all[cluster]);
-        let is_first = other.halves.is_none() || (one.halves.is_some() && one.radius >= other.radius);
-        let halves = if is_first { one.halves } else { other.halves };
-        Some(halves?.map(|half| if is_first { [half, pair[1]] } else { [pair[0], half] }))
+    pub(super) fn halve(&mut self, pair: [usize; 2], cut: Cut<'_>) -> Result<Option<[[usize; 2]; 2]>, Error> {
+        let counts = pair.map(|cluster| self.tiles(cluster).len());
+        if counts == [1, 1] {
+            return Ok(None);
+        }
+        let [one, other] = pair.map(|cluster| self.all[cluster].radius);
+        let larger = usize::from(other > one);
+        let is_of_few = counts[larger] == 1 && counts[1 - larger] <= FEW;
+        let first = if is_of_few { 1 - larger } else { larger };
+        for end in [first, 1 - first] {
+            if let Some(halves) = self.halves(pair[end], cut)? {
+                let with = |half| if end == 0 { [half, pair[1]] } else { [pair[0], half] };
+                return Ok(Some(halves.map(with)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The halves of a cluster, of one tile as well.
+    fn halves(&mut self, cluster: usize, cut: Cut<'_>) -> Result<Option<[usize; 2]>, Error> {
+        if self.all[cluster].halves.is_none() {
+            let Some(halves) = cut(self.tiles(cluster)[0])? else { return Ok(None) };
+            let added = halves.map(|(tile, half)| {
+                let at = self.order.len();
+                self.order.push(tile);
+                self.all.push(Cluster { members: at..at + 1, ..half });
+                self.all.len() - 1
+            });
+            self.all[cluster].halves = Some(added);
+        }
+        Ok(self.all[cluster].halves)
     }
 
     /// Whether all tiles of a polygon are in one of two clusters.
@@ -133,13 +192,22 @@ impl Clusters {
 
     fn is_far(&self, pair: [usize; 2]) -> bool {
         let [one, other] = pair.map(|cluster| &self.all[cluster]);
-        self.nearness(pair) < NEAR && one.radius.max(other.radius) < REACH * one.centre.distance(other.centre)
+        self.nearness(pair) < NEAR
+            && one.radius.max(other.radius) < REACH * one.centre.distance(other.centre)
+            && one.looks_at(other.centre)
+            && other.looks_at(one.centre)
     }
 
     /// The product of the radii over the square of the distance.
     pub(super) fn nearness(&self, pair: [usize; 2]) -> f64 {
         let [one, other] = pair.map(|cluster| &self.all[cluster]);
         one.radius * other.radius / one.centre.distance_squared(other.centre)
+    }
+
+    /// The share of the view from one cluster that another one may fill, about.
+    pub(super) fn reach(&self, from: usize, to: usize) -> f64 {
+        let reach = self.all[to].radius / self.all[from].centre.distance(self.all[to].centre);
+        (reach * reach).min(1.0)
     }
 
     /// Whether some tile of one may be before some tile of the other, and the other way round, as far as normals and boxes tell.
@@ -150,16 +218,25 @@ impl Clusters {
 }
 
 impl Cluster {
-    fn of(tiling: &Tiling<'_>, tiles: &[usize], members: Range<usize>, extents: &[Extent]) -> Cluster {
+    /// One tile.
+    pub(super) fn of_tile(tiling: &Tiling<'_>, tile: usize) -> Cluster {
+        let extent = Extent::of_points(tiling.tiles[tile].outline.places());
+        Cluster::of(tiling, &[tile], 0..1, extent)
+    }
+
+    fn of(tiling: &Tiling<'_>, tiles: &[usize], members: Range<usize>, extent: Extent) -> Cluster {
         let all = || tiles.iter().map(|tile| &tiling.tiles[*tile]);
-        let extent = tiles.iter().map(|tile| &extents[*tile]).fold(Extent::NOTHING, |a, b| a.with(b));
         let centre = (extent.low + extent.high) / 2.0;
         let places = || all().flat_map(|tile| tile.outline.places());
+        let mut normals: Vec<DVec3> = all().map(|tile| tile.normal).collect();
+        normals.sort_unstable_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
+        normals.dedup();
         let axis = all().map(|tile| tile.normal).sum::<DVec3>().normalize_or_zero();
         let spread = all().map(|tile| (1.0 - axis.dot(tile.normal)).max(0.0)).fold(0.0, f64::max);
         Cluster {
             members,
             halves: None,
+            normals,
             extent,
             centre,
             radius: places().map(|place| place.distance(centre)).fold(0.0, f64::max),
@@ -167,6 +244,12 @@ impl Cluster {
             low: places().map(|place| axis.dot(place)).fold(f64::INFINITY, f64::min),
             spread: if spread <= FLAT { 0.0 } else { (1.0 - spread).clamp(-1.0, 1.0).acos() },
         }
+    }
+
+    /// Whether a place may be before some tile of it, wherever that is in it.
+    fn looks_at(&self, place: DVec3) -> bool {
+        let way = (place - self.centre).normalize_or_zero();
+        self.normals.iter().any(|normal| normal.dot(way) > 0.0)
     }
 
     /// Whether some tile of it may have a part of another cluster before it.
@@ -216,8 +299,9 @@ mod tests {
     fn every_pair_that_may_see_each_other_is_in_one_pair_of_clusters() {
         let scene = boxes();
         let tiling = Tiling::new(&scene).unwrap();
-        let clusters = Clusters::of(&tiling);
-        let Pairs { far, near } = clusters.pairs();
+        let mut clusters = Clusters::of(&tiling);
+        let Pairs { far, near } =
+            clusters.pairs(&mut |_| panic!("no tile is larger than its house")).unwrap();
         assert!(
             far.len() < 144 * 143 / 4
                 && far.iter().any(|pair| pair.iter().any(|&c| clusters.tiles(c).len() > 2))
@@ -242,6 +326,42 @@ mod tests {
                 let sees = rises(other, one) && rises(one, other);
                 assert!(!sees || found.contains_key(&[a, b]), "{a} and {b}");
             }
+        }
+    }
+
+    /// A ground under small boxes is cut for them, and no place of it is forgotten or linked twice with a box.
+    #[test]
+    fn a_ground_is_cut_for_what_stands_on_it() {
+        let corners = [[-1.0, -1.0], [9.0, -1.0], [9.0, 9.0], [-1.0, 9.0]];
+        let ground = PlanarPolygon::new([corners.map(|[x, y]| DVec3::new(x, y, -0.1))]).unwrap();
+        let mut scene = boxes();
+        scene.patches.push(Patch::new("ground", ground, vec![0.5], vec![0.0]));
+        let mut tiling = Tiling::new(&scene).unwrap();
+        let mut clusters = Clusters::of(&tiling);
+        let cut = &mut |tile: usize| {
+            let halves = tiling.halve(tile, 0)?;
+            Ok(halves.map(|halves| halves.map(|half| (half, Cluster::of_tile(&tiling, half)))))
+        };
+        let Pairs { far, near } = clusters.pairs(cut).unwrap();
+        assert!(tiling.tiles.len() > 160, "{} tiles", tiling.tiles.len());
+        let root_of = tiling.roots();
+        let mut found = vec![0.0; 144];
+        let mut add = |one: usize, other: usize| {
+            let [ground, other] = if root_of[one] == 144 { [one, other] } else { [other, one] };
+            if root_of[ground] == 144 {
+                found[other] += tiling.tiles[ground].area / tiling.tiles[144].area;
+            }
+        };
+        for [one, other] in far {
+            for &a in clusters.tiles(one) {
+                clusters.tiles(other).iter().for_each(|&b| add(a, b));
+            }
+        }
+        near.into_iter().for_each(|[one, other]| add(one, other));
+        for (share, tile) in found.iter().zip(&tiling.tiles) {
+            assert!(*share <= 1.0 + 1e-9, "{share}");
+            // Undersides see all of the ground.
+            assert!(tile.normal.z > -0.5 || (share - 1.0).abs() < 1e-9, "{share}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! All links of a run, found by all threads.
 use super::budget::BandLight;
 use super::cluster_links::{ClusterLink, ClusterLinks};
-use super::clusters::{Clusters, Pairs};
+use super::clusters::Clusters;
 use super::equilibrium::Equilibrium;
 use super::link::{Candidate, Link, UNSEEN};
 use super::measure::{between, faces, measure, rises};
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// With more whole tiles than this, those that are far from each other are linked in clusters.
-const FEW: usize = 300;
+const FEW: usize = 128;
 /// A point is in a closed room when ΣF is 1 within this, and covered when it is 0 within this.
 const CLOSED: f64 = 1e-9;
 
@@ -83,16 +83,7 @@ impl Links {
         }
     }
 
-    /// The pairs to begin with: all, or all that see each other as clusters.
-    pub(super) fn first_pairs(&self, tiling: &Tiling<'_>) -> Pairs {
-        if self.has_clusters() {
-            return self.clusters.clusters.pairs();
-        }
-        let near = (0..tiling.tiles.len()).flat_map(|one| (0..one).map(move |other| [other, one]));
-        Pairs { far: Vec::new(), near: near.collect() }
-    }
-
-    fn has_clusters(&self) -> bool {
+    pub(super) fn has_clusters(&self) -> bool {
         !self.clusters.clusters.all.is_empty()
     }
 
@@ -284,11 +275,14 @@ impl Links {
     }
 }
 
-/// Whether all of some tiles, taken at equal distances in the scene's order, see nothing but tiles.
+/// Whether all of some tiles, taken at equal distances in the scene's order, see nothing but tiles; those of which the middle is covered do not
+/// tell.
 fn samples_are_enclosed(tiling: &Tiling<'_>) -> bool {
     let step = tiling.tiles.len().div_ceil(SAMPLES);
     let samples: Vec<&Tile> = tiling.tiles.iter().step_by(step).collect();
-    samples.par_iter().all(|tile| (sum(tiling, &tile.points[0]) - 1.0).abs() <= CLOSED)
+    let sums: Vec<f64> = samples.par_iter().map(|tile| sum(tiling, &tile.points[0])).collect();
+    let mut told = sums.iter().filter(|sum| **sum > CLOSED).peekable();
+    told.peek().is_some() && told.all(|sum| (sum - 1.0).abs() <= CLOSED)
 }
 
 /// ΣF of a point to all that rises above its plane: whether it sees what touches it face to face is up to rounding.

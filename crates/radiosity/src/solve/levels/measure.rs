@@ -61,7 +61,7 @@ pub(super) fn measure(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u3
     let gap = (first.exchange[0] - second.exchange[0]).abs();
     let mut error = gap.min(CUBATURE * bend);
     let ends = if from_second { [other, one] } else { [one, other] };
-    if let Some(times) = correction(ends, exchange[0], bend) {
+    if let Some(times) = correction(tiling, ends, (exchange[0], among.is_empty()), bend) {
         exchange = exchange.map(|g| g * times);
         error *= if among.is_empty() { SLOPES } else { 1.0 };
     }

@@ -1,6 +1,7 @@
 //! Refining links whose errors exceed the budgets of their patches.
 use super::budget::{BandLight, cut, is_beyond, limits, uneven};
-use super::clusters::Pairs;
+use super::cluster_links::ClusterLink;
+use super::clusters::{Cluster, Clusters, Cut, Pairs};
 use super::link::{Candidate, Link};
 use super::run::Levels;
 use crate::error::Error;
@@ -8,6 +9,29 @@ use crate::solve::state::State;
 use rayon::prelude::*;
 
 impl Levels<'_> {
+    /// The pairs to begin with: all, or all that may see each other as clusters.
+    pub(super) fn first_pairs(&mut self) -> Result<Pairs, Error> {
+        if self.links.has_clusters() {
+            return self.with_clusters(|clusters, cut| clusters.pairs(cut));
+        }
+        let near = (0..self.tiling.tiles.len()).flat_map(|one| (0..one).map(move |other| [other, one]));
+        Ok(Pairs { far: Vec::new(), near: near.collect() })
+    }
+
+    /// Does something with the clusters that may cut tiles.
+    fn with_clusters<T>(
+        &mut self,
+        f: impl FnOnce(&mut Clusters, Cut<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let mut clusters = std::mem::take(&mut self.links.clusters.clusters);
+        let found = f(&mut clusters, &mut |tile| {
+            let halves = self.cut_tile(tile, 0)?;
+            Ok(halves.map(|halves| halves.map(|half| (half, Cluster::of_tile(&self.tiling, half)))))
+        });
+        self.links.clusters.clusters = clusters;
+        found
+    }
+
     /// Refines the links whose errors exceed the budgets; false when there is nothing to refine, nothing when the run is to end.
     ///
     /// What takes the place of a link is refined as well, in the light as it is now, as long as it is beyond what its patches allow.
@@ -25,7 +49,10 @@ impl Levels<'_> {
         lights.iter_mut().for_each(|light| light.grow(&self.tiling));
         let kept = self.links.all.clone();
         let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
-        let Some(near) = self.part_clusters(lights, &limits, state)? else { return Ok(None) };
+        let clusters = self.links.clusters.all.clone();
+        let Some((clusters, near)) = self.part_clusters(clusters, lights, &limits, state)? else {
+            return Ok(None);
+        };
         candidates.extend(near);
         is_cut |= !candidates.is_empty();
         while !candidates.is_empty() {
@@ -35,37 +62,42 @@ impl Levels<'_> {
             candidates = coarse;
         }
         self.links.replace(kept);
+        self.links.clusters.all = clusters;
         Ok(Some(is_cut))
     }
 
-    /// Keeps the links of clusters that are within the limits of their patches, or takes links of parts of theirs; gives the pairs of tiles that
-    /// are to be linked by themselves.
+    /// Keeps the links of clusters that are within the limits of their patches, or takes links of parts of theirs; gives the pairs of tiles as well
+    /// that are to be linked by themselves.
     fn part_clusters(
         &mut self,
-        lights: &[BandLight],
+        mut open: Vec<ClusterLink>,
+        lights: &mut [BandLight],
         limits: &[f64],
         state: &State,
-    ) -> Result<Option<Vec<Candidate>>, Error> {
-        let mut open = std::mem::take(&mut self.links.clusters.all);
+    ) -> Result<Option<(Vec<ClusterLink>, Vec<Candidate>)>, Error> {
         let (mut kept, mut near) = (Vec::with_capacity(open.len()), Vec::new());
         while !open.is_empty() {
+            lights.iter_mut().for_each(|light| light.grow(&self.tiling));
             let clusters = &self.links.clusters.clusters;
             let beyond: Vec<bool> =
                 open.par_iter().map(|link| is_beyond(&self.tiling, clusters, link, lights, limits)).collect();
-            let mut pairs = Pairs::default();
-            for (link, is_beyond) in open.into_iter().zip(beyond) {
-                match clusters.halve(link.ends) {
-                    _ if !is_beyond => kept.push(link),
-                    Some(parts) => parts.into_iter().for_each(|part| clusters.part(part, &mut pairs)),
-                    None => near.push(link.ends.map(|end| clusters.tiles(end)[0])),
+            let mut pairs = self.with_clusters(|clusters, cut| {
+                let mut pairs = Pairs::default();
+                for (link, is_beyond) in open.into_iter().zip(beyond) {
+                    if is_beyond {
+                        clusters.replace(link.ends, &mut pairs, cut)?;
+                    } else {
+                        kept.push(link);
+                    }
                 }
-            }
+                Ok(pairs)
+            })?;
             near.append(&mut pairs.near);
             let Some(links) = self.measure_clusters(&pairs.far, state)? else { return Ok(None) };
             open = links;
         }
-        self.links.clusters.all = kept;
-        Ok(Some(near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect()))
+        let near = near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
+        Ok(Some((kept, near)))
     }
 
     /// The links that are within the limits of their patches, and what takes the place of the others.

@@ -35,8 +35,9 @@ impl Roots {
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
         let mut of_clusters = vec![[0.0; 3]; tiling.tiles.len()];
         clusters.gather(tiling, &even, &mut of_clusters);
-        let sums = tiling.tiles.iter().zip(of_clusters);
-        let mut wholes: Vec<f64> = sums.map(|(tile, sum)| tile.area * sum[0]).collect();
+        let mut wholes = vec![0.0; tiling.tiles.len()];
+        let sums = tiling.tiles.iter().zip(of_clusters).zip(&root_of);
+        sums.for_each(|((tile, sum), &root)| wholes[root] += tile.area * sum[0]);
         for link in links {
             link.ends.iter().for_each(|&end| wholes[root_of[end]] += link.exchange[0]);
         }

@@ -79,7 +79,7 @@ pub(crate) fn solve(
 impl Levels<'_> {
     /// Goes on until every patch is within its budget (true), or the watcher, the time or a defect ends the run (false).
     fn run(&mut self, state: &mut State) -> Result<bool, Error> {
-        let Pairs { far, near } = self.links.first_pairs(&self.tiling);
+        let Pairs { far, near } = self.first_pairs()?;
         let Some(clusters) = self.measure_clusters(&far, state)? else { return Ok(false) };
         self.links.clusters.all = clusters;
         let candidates: Vec<Candidate> =

@@ -184,7 +184,8 @@ impl Levels<'_> {
             let received = equilibrium.spread(&self.light.received[band]);
             let flaws = self.direct.flaws(&self.tiling, band);
             let (sent, strain) = (self.sent[band].clone(), self.strain.clone());
-            BandLight::new(&self.tiling, &self.links.all, sent, &received, band, flaws, strain)
+            let links = (&self.links.all[..], &self.links.clusters);
+            BandLight::new(&self.tiling, links, sent, &received, band, flaws, strain)
         };
         lit.collect::<Vec<usize>>().into_par_iter().map(light).collect()
     }

@@ -1,5 +1,6 @@
 //! How light was taken between tiles.
 use super::cluster_links::{ClusterLink, ClusterLinks};
+use super::link::Link;
 use super::links::Links;
 use super::tiling::Tiling;
 use crate::solve::solution::Transfers;
@@ -8,8 +9,13 @@ use std::collections::BTreeSet;
 /// Counts links, and pairs of whole tiles.
 pub(super) fn tally(tiling: &Tiling<'_>, links: &Links) -> Transfers {
     let roots = tiling.tiles.iter().filter(|tile| tile.parent.is_none()).count();
-    let clusters = by_clusters(&links.clusters);
-    let linked: BTreeSet<usize> = links.all.iter().map(|link| link.pair).collect();
+    let clusters = by_clusters(tiling, &links.clusters);
+    let root_of = tiling.roots();
+    let whole = |link: &Link| {
+        let [one, other] = link.ends.map(|end| root_of[end]);
+        [one.min(other), one.max(other)]
+    };
+    let linked: BTreeSet<[usize; 2]> = links.all.iter().map(whole).collect();
     let known = links.all.iter().filter(|link| link.of_total.is_some()).map(|link| link.pair);
     let open = links.all.iter().filter(|link| link.among.is_empty()).count();
     Transfers {
@@ -21,10 +27,13 @@ pub(super) fn tally(tiling: &Tiling<'_>, links: &Links) -> Transfers {
     }
 }
 
-/// The pairs of whole tiles of which each is seen from the other's cluster.
-fn by_clusters(links: &ClusterLinks) -> usize {
-    let count = |link: &ClusterLink, end: usize| {
-        link.seen(&links.clusters, end).filter(|(_, seen)| *seen > 0.0).count()
+/// The pairs of whole tiles of which each is seen from the other's cluster; parts count by their areas.
+fn by_clusters(tiling: &Tiling<'_>, links: &ClusterLinks) -> usize {
+    let root_of = tiling.roots();
+    let share = |tile: usize| tiling.tiles[tile].area / tiling.tiles[root_of[tile]].area;
+    let count = |link: &ClusterLink, end: usize| -> f64 {
+        let seen = link.seen(&links.clusters, end).filter(|(_, seen)| *seen > 0.0);
+        seen.map(|(tile, _)| share(tile)).sum()
     };
-    links.all.iter().map(|link| count(link, 0) * count(link, 1)).sum()
+    links.all.iter().map(|link| count(link, 0) * count(link, 1)).sum::<f64>().round() as usize
 }
