@@ -9,7 +9,7 @@
 //!                                     /    \      where what is near them is smaller
 //!                                  part    part
 //! ```
-use super::tiling::Tiling;
+use super::tiling::{Tile, Tiling};
 use crate::error::Error;
 use crate::extent::Extent;
 use glam::DVec3;
@@ -19,6 +19,8 @@ use std::{cmp::Ordering, ops::Range};
 const NEAR: f64 = 0.15;
 /// … and neither reaches so much of the way to the other.
 const REACH: f64 = 0.6;
+/// … or so much where it is a tile of many patches, each of which is told its light.
+const REACH_OF_MANY: f64 = 0.3;
 /// Clusters of so few tiles are halved before a larger tile is cut for them.
 const FEW: usize = 8;
 /// Normals that differ by less than this from the axis of their cone are along it.
@@ -34,6 +36,8 @@ pub(super) struct Cluster {
     pub(super) extent: Extent,
     pub(super) centre: DVec3,
     pub(super) radius: f64,
+    /// What is far is farther away than this.
+    reach: f64,
     /// The normals of its tiles, each once.
     normals: Vec<DVec3>,
     /// All normals are within an angle of this, in radians.
@@ -193,7 +197,7 @@ impl Clusters {
     fn is_far(&self, pair: [usize; 2]) -> bool {
         let [one, other] = pair.map(|cluster| &self.all[cluster]);
         self.nearness(pair) < NEAR
-            && one.radius.max(other.radius) < REACH * one.centre.distance(other.centre)
+            && one.reach.max(other.reach) < one.centre.distance(other.centre)
             && one.looks_at(other.centre)
             && other.looks_at(one.centre)
     }
@@ -228,6 +232,9 @@ impl Cluster {
         let all = || tiles.iter().map(|tile| &tiling.tiles[*tile]);
         let centre = (extent.low + extent.high) / 2.0;
         let places = || all().flat_map(|tile| tile.outline.places());
+        let radius = places().map(|place| place.distance(centre)).fold(0.0, f64::max);
+        let is_of_many = |tile: &Tile| tiling.grain[tile.patch].is_some_and(|grain| tile.area > grain);
+        let reach = if all().any(is_of_many) { REACH_OF_MANY } else { REACH };
         let mut normals: Vec<DVec3> = all().map(|tile| tile.normal).collect();
         normals.sort_unstable_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
         normals.dedup();
@@ -239,7 +246,8 @@ impl Cluster {
             normals,
             extent,
             centre,
-            radius: places().map(|place| place.distance(centre)).fold(0.0, f64::max),
+            radius,
+            reach: radius / reach,
             axis,
             low: places().map(|place| axis.dot(place)).fold(f64::INFINITY, f64::min),
             spread: if spread <= FLAT { 0.0 } else { (1.0 - spread).clamp(-1.0, 1.0).acos() },
@@ -271,7 +279,6 @@ impl Cluster {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tiling::Tile;
     use super::*;
     use crate::scene::{Scene, patch::Patch};
     use formfactor::PlanarPolygon;
