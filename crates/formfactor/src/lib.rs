@@ -28,6 +28,7 @@
 //! | --- | --- | --- |
 //! | one target, some occluders | the form factor from a point | [`form_factor`](fn@form_factor), [`unoccluded`] |
 //! | one target, some occluders | the part of the target that the point sees | [`visible_part`](fn@visible_part) |
+//! | two polygons alone | the form factor from polygon to polygon | [`unoccluded_area`] |
 //! | many polygons that are targets and occluders | form factors from a point to one, or to all | [`Enclosure::form_factor`], [`Enclosure::row`] |
 //! | many polygons | form factors from many points to one of them, or to a part | [`Enclosure::form_factors`], [`Enclosure::form_factors_within`] |
 //! | many polygons | whether points see a place | [`Enclosure::sees`], [`Enclosure::each_sees`] |

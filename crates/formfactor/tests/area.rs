@@ -3,6 +3,7 @@
 use formfactor::glam::DMat3;
 use formfactor::{
     AreaFormFactor, DVec3, DifferentialArea, Enclosure, Error, Limits, PlanarPolygon, Tolerance, unoccluded,
+    unoccluded_area,
 };
 
 fn rectangle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> PlanarPolygon {
@@ -214,6 +215,31 @@ fn closed_forms_hold() {
         let found = enclosure.area_form_factor(0, 1, 1e-12, &Limits::default()).unwrap().unwrap();
         assert!((found.value - closed_form(id)).abs() <= 1e-12, "{id}: {found:?}");
     }
+}
+
+/// Tiles of two walls that meet, of two that face each other, and far apart.
+#[test]
+fn two_polygons_alone_see_what_they_do_in_a_scene() {
+    for (x, y) in [(0.0, 1.0), (0.0, 0.1), (0.5, 3.0), (-2.0, 0.7), (30.0, 1.0)] {
+        let wall =
+            [[0.0, 0.0, 0.0], [0.0, y, 0.0], [0.0, y, 1.0], [0.0, 0.0, 1.0]].map(|[_, y, z]| [x, y, z]);
+        for wall in [PlanarPolygon::new([wall]).unwrap(), turned(&rectangle([x, x + 1.0], [0.0, y], 1.5))] {
+            let floor = rectangle([x.max(0.0), x.max(0.0) + 1.0], UNIT, 0.0);
+            let alone = unoccluded_area(&floor, &wall, 1e-10).unwrap().unwrap();
+            let room = Enclosure::new(vec![floor, wall]);
+            let found = room.area_form_factor(0, 1, 1e-10, &Limits::default()).unwrap().unwrap();
+            assert!((alone.value - found.value).abs() < 1e-10 && found.value > 0.0, "{alone:?} {found:?}");
+        }
+    }
+}
+
+/// A part of the floor is behind the wall: no closed form knows how much.
+#[test]
+fn a_polygon_that_reaches_behind_another_is_not_told_alone() {
+    let wall =
+        PlanarPolygon::new([[[0.5, 0.0, 0.0], [0.5, 1.0, 0.0], [0.5, 1.0, 1.0], [0.5, 0.0, 1.0]]]).unwrap();
+    assert_eq!(unoccluded_area(&rectangle(UNIT, UNIT, 0.0), &wall, 1e-6), Ok(None));
+    assert!(unoccluded_area(&rectangle(UNIT, UNIT, 0.0), &wall, 0.0).is_err());
 }
 
 #[test]

@@ -87,8 +87,8 @@ use std::{ops::ControlFlow, time::Instant};
 
 /// What is done with so few patches before the first step takes less than a second, and is done whatever the time.
 const FEW_PATCHES: usize = 10_000;
-/// Links begin between all pairs of plates: with more of these a mesh is quicker.
-const FEW_PLATES: usize = 300;
+/// With more plates than these there is light on a mesh before all clusters are linked.
+const FEW_PLATES: usize = 1000;
 
 /// Solves for the light of a scene. `watch` is called before every step and may end the run early.
 ///

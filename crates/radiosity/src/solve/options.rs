@@ -5,9 +5,8 @@ use crate::scene::camera::Camera;
 /// The method of solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// [`Method::Hierarchical`] for scenes of at most 300 patches, or 300 plates of patches that are alike and continue each other in one plane,
-    /// and [for a camera](Options::for_camera); else, and with
-    /// [`Options::hemicube`], [`Method::Mesh`].
+    /// [`Method::Hierarchical`] for scenes of at most 1000 patches, where those that are alike and continue each other in one plane count as one,
+    /// and [for a camera](Options::for_camera); else, and with [`Options::hemicube`], [`Method::Mesh`].
     #[default]
     Auto,
     /// By levels: light goes between parts of patches as large as [`Options::error`] allows; the mesh follows from that.

@@ -116,7 +116,7 @@ pub(super) enum Norm {
 /// `--method`
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Method {
-    /// `hierarchical` for scenes of at most 300 patches, those of a plane that are alike as one, and with `--error`; else `mesh`, and with an option of meshes
+    /// `hierarchical` for scenes of at most 1000 patches, those of a plane that are alike as one, and with `--error`; else `mesh`, and with an option of meshes
     Auto,
     /// By levels: light goes between parts of patches as large as `--error` allows, and each patch gets an estimate of its error
     Hierarchical,

@@ -5,7 +5,7 @@
 //!    eye  <   |  four sides, and not all of that is hidden by the fronts of others:
 //!            \|  pictures show nothing from behind
 //! ```
-use super::measure::rises;
+use super::look::rises;
 use super::tiling::{Tile, Tiling};
 use crate::error::Error;
 use crate::scene::camera::Camera;

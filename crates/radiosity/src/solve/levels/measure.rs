@@ -1,12 +1,12 @@
 //! Measuring what two tiles exchange.
+use super::look::{look, rises};
 use super::nearby::correction;
 use super::screen::hides;
 use super::shaft::Shaft;
 use super::tile::{INNER, OUTER};
 use super::tiling::{Tile, Tiling};
 use super::transfer::Transfer;
-use formfactor::{DifferentialArea, unoccluded};
-use glam::DVec3;
+use formfactor::unoccluded;
 
 /// How many curvatures a mean over five points may be off by.
 const CUBATURE: f64 = 0.3;
@@ -16,8 +16,6 @@ const SLOPES: f64 = 0.2;
 
 /// What reaches less far into a shaft, beside the smaller of its ends, hides nothing that counts.
 const SLIGHT: f64 = 1e-9;
-/// What rises above a plane by less than this share of how far away it is, is in it.
-const NEAR: f64 = 1e-12;
 
 /// What one end sees of the other.
 struct View {
@@ -92,23 +90,6 @@ impl View {
         let bend = [[1, 2], [3, 4]].map(|[a, b]| from.area * ((factors[a] + factors[b]) / 2.0 - factors[0]));
         View { exchange, bend, seen: factors }
     }
-}
-
-/// What a point sees of a tile: the integrals over it of the kernel times each function.
-pub(super) fn look(tiling: &Tiling<'_>, point: &DifferentialArea, to: &Tile, among: &[usize]) -> [f64; 3] {
-    if !to.outline.corners.iter().any(|(_, place)| rises(*place, point)) {
-        return [0.0; 3];
-    }
-    let (factor, centroid) = tiling.enclosure.form_factor_and_centroid(point, to.surface, &to.polygon, among);
-    // Where hardly anything is seen the centroid is not known.
-    let linear = to.outline.linear(tiling.flatten(to.patch, centroid)).map(|value| value.clamp(-2.0, 2.0));
-    [factor.value, factor.value * linear[0], factor.value * linear[1]]
-}
-
-/// Whether a place is above the plane of a point.
-pub(super) fn rises(place: DVec3, point: &DifferentialArea) -> bool {
-    let way = place - point.position();
-    point.normal().dot(way) > NEAR * way.length()
 }
 
 fn transposed(g: [f64; 9]) -> [f64; 9] {

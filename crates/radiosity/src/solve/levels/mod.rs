@@ -26,10 +26,11 @@
 //! flow          light up the tree, across the links, and down
 //! cluster_links light between tiles that are far from each other
 //! cluster_views what clusters see of each other
-//! clusters      the tree of whole tiles
+//! clusters      the tree of whole tiles, and of their parts where these are linked with clusters
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
 //! nearby        the mean over tiles that touch
+//! look          what points see of tiles
 //! transfer      the numbers of that
 //! screen        what hides all of one from the other
 //! shaft         what can stand between two tiles
@@ -60,6 +61,7 @@ mod importance;
 mod in_view;
 mod link;
 mod links;
+mod look;
 mod measure;
 mod members;
 mod nearby;

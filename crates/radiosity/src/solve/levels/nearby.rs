@@ -5,7 +5,7 @@
 //! |  F of a point of the floor to the wall falls like
 //! |_ the first steps of a stair: what five points miss has one sign wherever two walls meet
 //! ```
-use super::measure::look;
+use super::look::look;
 use super::tile::{INNER, OUTER};
 use super::tiling::{Tile, Tiling};
 use formfactor::{Enclosure, Limits, unoccluded_area};

@@ -4,7 +4,7 @@ use super::direct::Direct;
 use super::flow::Linear;
 use super::link::Link;
 use super::links::Links;
-use super::measure::look;
+use super::look::look;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use crate::error::Error;
