@@ -8,6 +8,12 @@ use crate::error::Error;
 use crate::solve::state::State;
 use rayon::prelude::*;
 
+/// Links of clusters that may stay, and pairs of tiles that are to be linked by themselves.
+struct ClusterParts {
+    links: Vec<ClusterLink>,
+    near: Vec<Candidate>,
+}
+
 impl Levels<'_> {
     /// The pairs to begin with: all, or all that may see each other as clusters.
     pub(super) fn first_pairs(&mut self) -> Result<Pairs, Error> {
@@ -50,7 +56,9 @@ impl Levels<'_> {
         let kept = self.links.all.clone();
         let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
         let clusters = self.links.clusters.all.clone();
-        let Some((clusters, near)) = self.part_clusters(clusters, lights, &limits, state)? else {
+        let Some(ClusterParts { links: clusters, near }) =
+            self.part_clusters(clusters, lights, &limits, state)?
+        else {
             return Ok(None);
         };
         candidates.extend(near);
@@ -66,15 +74,15 @@ impl Levels<'_> {
         Ok(Some(is_cut))
     }
 
-    /// Keeps the links of clusters that are within the limits of their patches, or takes links of parts of theirs; gives the pairs of tiles as well
-    /// that are to be linked by themselves.
+    /// Keeps the links of clusters that are within the limits of their patches, and takes links of parts of theirs in place of the others; nothing when
+    /// the run is to end.
     fn part_clusters(
         &mut self,
         mut open: Vec<ClusterLink>,
         lights: &mut [BandLight],
         limits: &[f64],
         state: &State,
-    ) -> Result<Option<(Vec<ClusterLink>, Vec<Candidate>)>, Error> {
+    ) -> Result<Option<ClusterParts>, Error> {
         let (mut kept, mut near) = (Vec::with_capacity(open.len()), Vec::new());
         while !open.is_empty() {
             lights.iter_mut().for_each(|light| light.grow(&self.tiling));
@@ -97,7 +105,7 @@ impl Levels<'_> {
             open = links;
         }
         let near = near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
-        Ok(Some((kept, near)))
+        Ok(Some(ClusterParts { links: kept, near }))
     }
 
     /// The links that are within the limits of their patches, and what takes the place of the others.

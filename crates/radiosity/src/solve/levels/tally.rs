@@ -28,6 +28,11 @@ pub(super) fn tally(tiling: &Tiling<'_>, links: &Links) -> Transfers {
 }
 
 /// The pairs of whole tiles of which each is seen from the other's cluster; parts count by their areas.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "fewer pairs than a double counts"
+)]
 fn by_clusters(tiling: &Tiling<'_>, links: &ClusterLinks) -> usize {
     let root_of = tiling.roots();
     let share = |tile: usize| tiling.tiles[tile].area / tiling.tiles[root_of[tile]].area;
