@@ -1,0 +1,73 @@
+//! Light in a town, whose ground is far larger than what stands on it, by clusters of houses and parts of the ground: beside path tracing.
+use glam::{DMat3, DVec3};
+use radiosity::formfactor::PlanarPolygon;
+use radiosity::{Method, Options, Patch, Quality, Scene, solve};
+use std::ops::ControlFlow;
+use tests::light::{Estimate, Surface, mean_irradiance};
+use tests::random::Random;
+
+const SIDE: usize = 6;
+const STREET: f64 = 3.0;
+const PATHS: u32 = 10_000;
+
+fn surface(name: String, corners: [DVec3; 4], reflectance: f64, radiance: f64) -> Surface {
+    Surface { name, loops: vec![corners.to_vec()], reflectance: [reflectance; 3], radiance: [radiance; 3] }
+}
+
+/// Turned houses of any size on one ground, under a lamp that is as large as some of them.
+fn town(seed: u64) -> Vec<Surface> {
+    let mut random = Random::new(seed);
+    let end = STREET * SIDE as f64;
+    let level = |low: f64, high: f64, z: f64| {
+        [[low, low], [high, low], [high, high], [low, high]].map(|[x, y]| DVec3::new(x, y, z))
+    };
+    let mut all = vec![surface("ground".into(), level(0.0, end, 0.0), 0.4, 0.0)];
+    let mut above = level(0.3 * end, 0.5 * end, 0.8 * end);
+    above.reverse();
+    all.push(surface("lamp".into(), above, 0.0, 10.0));
+    for house in 0..SIDE * SIDE {
+        let middle = STREET * DVec3::new((house % SIDE) as f64 + 0.5, (house / SIDE) as f64 + 0.5, 0.0);
+        let turn = DMat3::from_rotation_z(random.range(-0.5, 0.5));
+        let [a, b] = [0, 1].map(|_| random.range(0.4, 0.9));
+        let base = [[-a, -b], [a, -b], [a, b], [-a, b]].map(|[x, y]| middle + turn * DVec3::new(x, y, 0.0));
+        let rise = DVec3::new(0.0, 0.0, random.range(0.5, 4.0));
+        let reflectance = random.range(0.2, 0.7);
+        for side in 0..4 {
+            let [p, q] = [base[side], base[(side + 1) % 4]];
+            all.push(surface(format!("wall-{house}-{side}"), [p, q, q + rise, p + rise], reflectance, 0.0));
+        }
+        all.push(surface(format!("roof-{house}"), base.map(|p| p + rise), reflectance, 0.0));
+    }
+    all
+}
+
+fn scene(surfaces: &[Surface]) -> Scene {
+    let patch = |surface: &Surface| {
+        let polygon = PlanarPolygon::new(&surface.loops).expect("a polygon");
+        Patch::new(&surface.name, polygon, surface.reflectance.to_vec(), surface.radiance.to_vec())
+    };
+    Scene { patches: surfaces.iter().map(patch).collect(), bands: 3, ..Scene::default() }
+}
+
+#[test]
+fn a_town_has_the_light_that_paths_find_within_its_estimates() {
+    let (mut errors, mut too_low) = (Vec::new(), 0);
+    let surfaces = town(0);
+    let options = Options { method: Method::Hierarchical, ..Quality::Draft.options() };
+    let solution = solve(&scene(&surfaces), &options, |_| ControlFlow::Continue(())).expect("a solution");
+    let means = solution.patch_means(&solution.irradiance, surfaces.len());
+    let transfers = solution.transfers.expect("by levels");
+    assert!(solution.converged && transfers.clusters > 100, "{transfers:?}");
+    let scene_mean = means.iter().map(|mean| mean[0]).sum::<f64>() / means.len() as f64;
+    for of in (0..surfaces.len()).step_by(7) {
+        let [Estimate { mean, error }, ..] = mean_irradiance(&surfaces, of, PATHS, of as u64);
+        let beyond = ((means[of][0] - mean).abs() - 3.0 * error).max(0.0);
+        too_low += usize::from(beyond > solution.patch_estimate(of)[0]);
+        errors.push(beyond / mean.max(0.01 * scene_mean));
+    }
+    let square: f64 = errors.iter().map(|error| error * error).sum();
+    let root_mean_square = (square / errors.len() as f64).sqrt();
+    println!("root mean square {root_mean_square:.4}, {too_low} of {} estimates too low", errors.len());
+    assert!(root_mean_square < 0.015, "{root_mean_square}");
+    assert!(20 * too_low <= errors.len(), "{too_low} of {}", errors.len());
+}
