@@ -6,9 +6,10 @@
 //!   '-----'             d              '-----'
 //! ```
 //!
-//! What is seen is exact, past all that stands in between and within both clusters: n + m form factors tell what n × m pairs exchange.
+//! What is seen is within a small tolerance, past all that stands in between and within both clusters: n + m form factors tell what n × m pairs
+//! exchange. How light climbs over an end that is one tile is known, as all of it is looked at from the other end.
 //! Where both clusters are small for their distance, the error is of second order: the product of their radii over its square.
-use super::cluster_views::{ClusterView, stands_between, views};
+use super::cluster_views::{ClusterView, ROUGH, stands_between, views};
 use super::clusters::Clusters;
 use super::flow::Linear;
 use super::tile::SQUARE;
@@ -62,7 +63,7 @@ impl ClusterLink {
         let doubt = [&of_first, &of_second].map(ClusterView::doubt).into_iter().fold(0.0, f64::max);
         let partly = doubt.max((of_first.visible() - of_second.visible()).abs());
         let bend = |end: usize, other: usize| match clusters.tiles(end).len() {
-            1 => CURVED * clusters.reach(other, end),
+            1 => CURVED * clusters.fill(other, end),
             _ => 0.0,
         };
         let link = ClusterLink {
@@ -70,7 +71,7 @@ impl ClusterLink {
             bends: [bend(ends[0], ends[1]), bend(ends[1], ends[0])],
             scale: if visible > 0.0 { open_scale / visible } else { 0.0 },
             open_scale,
-            error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt,
+            error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt + ROUGH,
             open_error: if is_past_others {
                 BETWEEN + PARTLY * partly.max((visible * (1.0 - visible)).max(0.0).sqrt())
             } else {

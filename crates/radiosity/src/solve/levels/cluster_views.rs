@@ -101,7 +101,7 @@ fn viewpoint(
 ) -> Option<Viewpoint> {
     let (cluster, tiles) = (&clusters.all[from], clusters.tiles(from));
     let way = (clusters.all[to].centre - cluster.centre).normalize_or_zero();
-    let within = ROUGH * clusters.reach(from, to) / clusters.tiles(to).len() as f64;
+    let within = ROUGH * clusters.fill(from, to) / clusters.tiles(to).len() as f64;
     let tile = |k: &usize| &tiling.tiles[tiles[*k]];
     if tiles.len() == 1 {
         // The ends of the long axis, and the plane of the tile itself.

@@ -209,7 +209,7 @@ impl Clusters {
     }
 
     /// The share of the view from one cluster that another one may fill, about.
-    pub(super) fn reach(&self, from: usize, to: usize) -> f64 {
+    pub(super) fn fill(&self, from: usize, to: usize) -> f64 {
         let reach = self.all[to].radius / self.all[from].centre.distance(self.all[to].centre);
         (reach * reach).min(1.0)
     }

@@ -20,6 +20,9 @@ const FEW: usize = 128;
 /// A point is in a closed room when ΣF is 1 within this, and covered when it is 0 within this.
 const CLOSED: f64 = 1e-9;
 
+/// Where clusters are linked, what covers a tile is known by ΣF alone, which is 1 elsewhere but for the errors of links.
+const COVERED: f64 = 0.5;
+
 /// Of many tiles so many tell whether all are in closed rooms.
 const SAMPLES: usize = 64;
 
@@ -121,10 +124,11 @@ impl Links {
     /// Takes the links of whole tiles, and finds which of these are in closed rooms.
     pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>) {
         if self.has_clusters() {
-            let is_closed = samples_are_enclosed(tiling);
-            let all = if is_closed { Enclosed::Wholly } else { Enclosed::Nowhere };
-            self.enclosed = vec![all; tiling.tiles.len()];
+            self.enclosed = vec![Enclosed::Nowhere; tiling.tiles.len()];
             self.all = links;
+            if samples_are_enclosed(tiling) {
+                self.enclosed = self.uncovered(tiling);
+            }
             return;
         }
         let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
@@ -138,6 +142,15 @@ impl Links {
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.pairs = links.len();
         self.all = links;
+    }
+
+    /// All tiles but those that see so little across their links that something covers them are in closed rooms.
+    fn uncovered(&self, tiling: &Tiling<'_>) -> Vec<Enclosed> {
+        let mut enclosed = vec![Enclosed::Wholly; tiling.tiles.len()];
+        let equilibrium = self.equilibrium(tiling, false);
+        let covered = (0..equilibrium.leaves().len()).filter(|leaf| equilibrium.sums(*leaf)[0] < COVERED);
+        covered.for_each(|leaf| enclosed[equilibrium.leaves()[leaf]] = Enclosed::Nowhere);
+        enclosed
     }
 
     /// How exact it is to be known what whole tiles exchange in all, in such light; nothing where they are too many.
