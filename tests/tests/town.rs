@@ -100,7 +100,6 @@ fn assert_within_estimates(surfaces: &[Surface], most: f64) {
     }
     let square: f64 = errors.iter().map(|error| error * error).sum();
     let root_mean_square = (square / errors.len() as f64).sqrt();
-    println!("root mean square {root_mean_square:.4}, {too_low} of {} estimates too low", errors.len());
     assert!(root_mean_square < most, "{root_mean_square}");
     assert!(20 * too_low <= errors.len(), "{too_low} of {}", errors.len());
 }
