@@ -3,12 +3,15 @@ use super::budget::{BandLight, errors};
 use super::cluster_links::ClusterLinks;
 use super::link::Link;
 use super::members::{PlateMembers, Spread};
-use super::tiling::Tiling;
+use super::tile::SQUARE;
+use super::tiling::{Tile, Tiling};
 use rayon::prelude::*;
 
 /// Errors add up as this power of them does: between those of one sign, of which it is the first, and independent ones, of which it is the
 /// second. So are those of the rooms of seven kinds of which the benchmarks tell.
 const EXPONENT: f64 = 1.2;
+/// The root mean square over a rectangle of a² + b² less its mean, a and b the linear functions.
+const PARABOLA: f64 = 0.66;
 /// Reflections that are followed.
 const MOST: usize = 60;
 /// No more of them when none changes anything by more than this share.
@@ -152,13 +155,20 @@ fn errors_of<'e>(
         let grain = tiling.grain[tiling.tiles[tile].patch].unwrap_or_default();
         let beside = |(above, larger): (usize, usize)| {
             let covers = if above == 0 { area_on } else { area_on.max(grain) };
-            (1.0 - covers / tiling.tiles[larger].area).max(0.0) * light.bend[larger] * light.bend[larger]
+            let bend = light.bend[larger] * residual(&tiling.tiles[larger], &tiling.tiles[tile]);
+            (1.0 - covers / tiling.tiles[larger].area).max(0.0) * bend * bend
         };
         let larger = std::iter::successors(Some(tile), |tile| tiling.tiles[*tile].parent);
         let bend = larger.enumerate().map(beside).sum::<f64>().sqrt();
         (own[tile] + reflected).powf(1.0 / EXPONENT) + bend
     };
     Errors { of_roots, of_tiles }
+}
+
+/// How much farther than on average over a tile a parabola over it is from linear at a part of it: three times as far in its corners.
+fn residual(tile: &Tile, part: &Tile) -> f64 {
+    let [a, b] = tile.outline.linear(part.outline.centroid);
+    ((a * a + b * b - 2.0 * SQUARE).abs() / PARABOLA).max(1.0)
 }
 
 /// What is there at once with what comes of it by reflection: pairs, and what each carries to the one and to the other.
