@@ -12,7 +12,7 @@
 //! which Gauss's rule finds to four digits and more.
 use crate::buffers::Buffers;
 use crate::form_factor::FormFactor;
-use crate::numeric::gauss::RULE_4;
+use crate::numeric::gauss::{RULE_2, RULE_4};
 use crate::occluders::each;
 use crate::pipeline::past;
 use crate::quick;
@@ -20,6 +20,10 @@ use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon}
 use crate::visible_part::visible_part;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
+
+/// Rules of four and of two nodes find an edge's integral over its line to about 1e-5 where what is not analytic is so many times half the edge
+/// away: they err by (d + (d^2 + 1)^(1/2))^(-2n) (Trefethen 2008, theorem 4.5).
+const CLEAR: [f64; 2] = [2.0, 8.0];
 
 /// The form factor, and the mean of the target's visible points, each weighed by what it contributes; of a target that is not seen
 /// some point.
@@ -88,7 +92,42 @@ impl PolarPlane {
             return DVec2::ZERO;
         }
         let (away, across) = (away * distance.signum(), distance.abs());
-        let [low, high] = [start, end].map(|end| end.dot(along).atan2(across));
+        let ends = [start, end].map(|end| end.dot(along));
+        // As a function of the place on the edge's line the integrand is analytic but where r^2 = -h^2.
+        let half = (ends[1] - ends[0]).abs() / 2.0;
+        let beyond = (f64::midpoint(ends[0], ends[1]).abs() - half).max(0.0);
+        let clear = across.hypot(self.height).hypot(beyond) / half;
+        let sum = if clear >= CLEAR[1] {
+            self.over_line([away, along], across, ends, &RULE_2)
+        } else if clear >= CLEAR[0] {
+            self.over_line([away, along], across, ends, &RULE_4)
+        } else {
+            self.over_angle([away, along], across, ends)
+        };
+        sum * distance.signum() / PI
+    }
+
+    /// The integral over the angle, by its place on the edge: ds = (r^2 / across) dphi.
+    fn over_line(
+        &self,
+        [away, along]: [DVec2; 2],
+        across: f64,
+        [low, high]: [f64; 2],
+        rule: &[[f64; 2]],
+    ) -> DVec2 {
+        let step = high - low;
+        let at = |[node, weight]: &[f64; 2]| {
+            let place = low + step * node;
+            let radius = across.hypot(place);
+            let toward = (away * across + along * place) / radius;
+            toward * (weight * step * across / (radius * radius) * self.within(radius, self.tilt.dot(toward)))
+        };
+        rule.iter().map(at).sum()
+    }
+
+    /// The same by equal angles.
+    fn over_angle(&self, [away, along]: [DVec2; 2], across: f64, ends: [f64; 2]) -> DVec2 {
+        let [low, high] = ends.map(|end| end.atan2(across));
         let halves = ((high - low).abs() / (PI / 4.0)).ceil().clamp(1.0, 4.0);
         let step = (high - low) / halves;
         let mut sum = DVec2::ZERO;
@@ -101,7 +140,7 @@ impl PolarPlane {
             }
             first += step;
         }
-        sum * distance.signum() / PI
+        sum
     }
 
     /// a J2 + h w J3.

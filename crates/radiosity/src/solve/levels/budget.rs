@@ -10,7 +10,7 @@ use super::tiling::{Tile, Tiling};
 use rayon::prelude::*;
 
 /// How much of the curvature of what a tile sees of another, times the deviation of the other's light, counts.
-const SENT: f64 = 0.5;
+const SENT: f64 = 0.7;
 /// How much the curvature of light within a tile counts beside errors of its mean.
 const WITHIN: f64 = 0.05;
 /// How much it counts where the tile is made of smaller patches, whose means are told as well.
@@ -59,11 +59,11 @@ pub(super) struct BandLight {
 /// What may be wrong with the light that one end of a link receives, as a power: the mean, what its curvature leaves, the sender's part, and
 /// that of the total which the links of the pair add up to, which no cut betters.
 #[derive(Clone, Copy, Debug)]
-struct Flaw {
-    of_mean: f64,
+pub(super) struct Flaw {
+    pub(super) of_mean: f64,
     within: f64,
-    of_sender: f64,
-    of_total: f64,
+    pub(super) of_sender: f64,
+    pub(super) of_total: f64,
 }
 
 /// For each tile how much its parts, where others look at them in more detail, matter to one patch: the largest sum of what they send it, in its unit,
@@ -95,7 +95,7 @@ fn importances(tiling: &Tiling<'_>, links: &[Link], unit: &[f64]) -> Vec<f64> {
 
 impl BandLight {
     /// What is wrong with what one end of a link receives.
-    fn flaw(&self, tiling: &Tiling<'_>, link: &Link, end: usize) -> Flaw {
+    pub(super) fn flaw(&self, tiling: &Tiling<'_>, link: &Link, end: usize) -> Flaw {
         let [receiver, sender] = [link.ends[end], link.ends[1 - end]];
         let transfer = &link.transfer;
         let [here, there] = [end, 1 - end].map(|end| link.curvature(end));
@@ -116,6 +116,11 @@ impl BandLight {
             within: self.within(tiling, receiver) * (here + shared) * bright,
             of_sender: self.deviation[sender] * (SENT * there + elsewhere) + BLIND * missed,
         }
+    }
+
+    /// What the light that a leaf receives straight from lights may be off by, as a power.
+    pub(super) fn direct_power(&self, tiling: &Tiling<'_>, leaf: usize) -> f64 {
+        tiling.tiles[leaf].area * self.direct_error[leaf]
     }
 
     /// How much the curvature of light within a tile counts.
@@ -214,7 +219,7 @@ impl BandLight {
 }
 
 /// How far the irradiance of each leaf is from linear: what it receives by itself, and what larger tiles do by its share.
-fn with_larger(tiling: &Tiling<'_>, bend: &[f64]) -> Vec<f64> {
+pub(super) fn with_larger(tiling: &Tiling<'_>, bend: &[f64]) -> Vec<f64> {
     let mut squares: Vec<f64> = bend.iter().map(|bend| bend * bend).collect();
     for (index, tile) in tiling.tiles.iter().enumerate() {
         let Some(parent) = tile.parent else { continue };
@@ -264,33 +269,10 @@ fn unresolved(
     squares
 }
 
-/// The errors of all that every tile receives, as powers: each with its tile.
-pub(super) fn errors(
-    tiling: &Tiling<'_>,
-    links: &[Link],
-    clusters: &ClusterLinks,
-    light: &BandLight,
-    mut to: impl FnMut(usize, f64),
-) {
-    for link in &clusters.all {
-        for end in [0, 1] {
-            link.errors(&clusters.clusters, end, (&light.sent, &light.deviation), &mut to);
-        }
-    }
-    for link in links {
-        for end in [0, 1] {
-            let flaw = light.flaw(tiling, link, end);
-            to(link.ends[end], flaw.of_mean + flaw.of_sender + flaw.of_total);
-        }
-    }
-    tiling.leaves().for_each(|leaf| to(leaf, tiling.tiles[leaf].area * light.direct_error[leaf]));
-}
-
 /// What the light that a leaf receives straight from lights may be off by, as a share of its patch's, in the worst band.
 fn worst_direct(tiling: &Tiling<'_>, leaf: usize, bands: &[BandLight]) -> f64 {
-    let tile = &tiling.tiles[leaf];
     let share = |light: &BandLight| {
-        let (power, unit) = (tile.area * light.direct_error[leaf] * light.strain[leaf], light.unit[leaf]);
+        let (power, unit) = (light.direct_power(tiling, leaf) * light.strain[leaf], light.unit[leaf]);
         if unit > 0.0 { power / unit } else { 0.0 }
     };
     bands.iter().map(share).fold(0.0, f64::max)

@@ -7,7 +7,7 @@ use super::link::{Candidate, Link, UNSEEN};
 use super::look::rises;
 use super::measure::{between, faces, measure};
 use super::tiling::{Tile, Tiling};
-use super::totals::Totals;
+use super::totals::{Totals, Wanted};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::solve::{fingerprint, state::State, workers::attempt};
@@ -154,7 +154,7 @@ impl Links {
     }
 
     /// How exact it is to be known what whole tiles exchange in all, in such light; nothing where they are too many.
-    pub(super) fn wanted(&self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) -> Vec<[f64; 2]> {
+    pub(super) fn wanted(&self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) -> Vec<Wanted> {
         if self.has_clusters() { Vec::new() } else { Totals::wanted(tiling, &self.all, lights, error) }
     }
 

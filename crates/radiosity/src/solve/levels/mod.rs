@@ -16,7 +16,9 @@
 //! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
 //! totals        what whole tiles exchange, which the links of their parts add up to
-//! estimate      what every patch may be off by
+//! estimate      what every patch may be off by, and which links that comes of
+//! reflections   how errors are reflected
+//! errors        what every tile is wrong by before that
 //! tally         how many links of each kind there are
 //! direct        what lights without surfaces bring to the leaves
 //! budget        the errors of links, and which are too large
@@ -54,6 +56,7 @@ mod clusters;
 mod corners;
 mod direct;
 mod equilibrium;
+mod errors;
 mod estimate;
 mod flow;
 mod gradients;
@@ -70,6 +73,7 @@ mod parting;
 mod pieces;
 pub(super) mod plates;
 mod refinement;
+mod reflections;
 mod roots;
 pub(super) mod rounds;
 mod run;

@@ -3,12 +3,13 @@ use super::borders::Borders;
 use super::corners::{CornerKey, CornerLight};
 use super::direct::Direct;
 use super::equilibrium::Equilibrium;
+use super::flow::Linear;
 use super::tile::Outline;
 use super::tiling::Tiling;
 use super::vertices::{Ask, Sights};
 use crate::error::Error;
 use formfactor::DifferentialArea;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// Light is as bright as the eye makes it where it is more than this share of the mean.
@@ -19,6 +20,9 @@ const SMALL: f64 = 1e-4;
 const LEAST: f64 = 1e-6;
 /// Pieces become fans around their middles, where nothing is missing: they may bend by so many times what is allowed.
 const BENT: f64 = 1.5;
+/// Leaves are small enough, and are looked at from their corners alone, where light is estimated to be off linear by less than this share of what
+/// it may be, and corners agree with that.
+const FLAT: f64 = 1.0;
 /// At corners, which are farther out than the points on both sides, so many times as much may be missing.
 const CORNER: f64 = 3.0;
 /// Corners where light may jump are looked from a little inside of the leaf: by this share of the way to its middle.
@@ -38,6 +42,13 @@ struct OpenPart {
     borders: Vec<usize>,
 }
 
+/// The light of the leaves as it was found, band by band.
+pub(super) struct FoundLight<'f> {
+    pub(super) received: &'f [Vec<Linear>],
+    /// How far from linear it may be, as irradiance.
+    pub(super) bend: Vec<Vec<f64>>,
+}
+
 /// How far from linear the light of a piece may be.
 struct Measure<'m> {
     share: f64,
@@ -54,16 +65,16 @@ pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<L
 
 /// The leaves in view in pieces over which light is linear within a share, as five points and the corners of each say, and the others as they
 /// are, with what corners receive; nothing when the caller wants to stop. `lines` are those on each patch across which light jumps, `means` is
-/// the mean irradiance in each band.
+/// the mean irradiance in each band, `share` of which pieces may be off by.
 ///
 /// # Errors
 /// [`Error::Defect`] when a form factor fails.
 pub(super) fn pieces<'s>(
     sights: &Sights<'s>,
     equilibrium: &Equilibrium<'_>,
+    found: &FoundLight<'_>,
     lines: &[Vec<[DVec2; 2]>],
-    means: &[f64],
-    share: f64,
+    (means, share): (&[f64], f64),
     ask: Ask<'_>,
 ) -> Result<Option<(Vec<LeafPart>, CornerLight<'s>)>, Error> {
     let dim: Vec<f64> = means.iter().map(|mean| DIM * mean).collect();
@@ -72,7 +83,13 @@ pub(super) fn pieces<'s>(
     let is_in_view = |part: &LeafPart| sights.in_view[equilibrium.patch(part.leaf)];
     let (seen, mut fine): (Vec<_>, Vec<_>) =
         whole(sights.tiling, equilibrium).into_iter().partition(is_in_view);
-    let mut open: Vec<OpenPart> = seen.into_iter().map(|part| cutting.open(part)).collect();
+    let seen: Vec<OpenPart> = seen.into_iter().map(|part| cutting.open(part)).collect();
+    if !cutting.look_from_corners(sights, &seen, &mut *ask)? {
+        return Ok(None);
+    }
+    let (flat, mut open): (Vec<_>, Vec<_>) =
+        seen.into_iter().partition(|piece| cutting.is_flat(&piece.part, found));
+    fine.extend(flat.into_iter().map(|piece| piece.part));
     while !open.is_empty() {
         let Some(light) = cutting.look(sights, &open, &mut *ask)? else { return Ok(None) };
         let mut parts = Vec::new();
@@ -122,24 +139,36 @@ impl<'c, 's> Cutting<'c, 's> {
         parts: &[OpenPart],
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
-        let tiling = self.tiling;
+        if !self.look_from_corners(sights, parts, &mut *ask)? {
+            return Ok(None);
+        }
         let mut points: Vec<(usize, DifferentialArea)> = Vec::with_capacity(5 * parts.len());
         for OpenPart { part, .. } in parts {
             let tile = self.leaves[part.leaf];
-            let on = tiling.points(tiling.tiles[tile].patch, &part.outline)?;
+            let on = self.tiling.points(self.tiling.tiles[tile].patch, &part.outline)?;
             points.extend(on.map(|point| (tile, point)));
         }
-        let new = self.new_corners(parts);
+        sights.irradiance(&points, ask)
+    }
+
+    /// Looks from the corners that were not looked from yet; false when the caller wants to stop.
+    fn look_from_corners(
+        &mut self,
+        sights: &Sights<'_>,
+        parts: &[OpenPart],
+        ask: Ask<'_>,
+    ) -> Result<bool, Error> {
+        let (tiling, new) = (self.tiling, self.new_corners(parts));
+        let mut points = Vec::with_capacity(new.len());
         for ((_, side, _), &(tile, corner)) in &new {
             let inward = if side.is_some() { INWARD } else { 0.0 };
             let inside = corner.lerp(tiling.tiles[tile].outline.centroid, inward);
             points.push((tile, tiling.point(tiling.tiles[tile].patch, inside)?));
         }
-        let Some(mut light) = sights.irradiance(&points, ask)? else { return Ok(None) };
-        let bands = self.measure.dim.len();
-        let at_corners = light.split_off(5 * parts.len() * bands);
-        self.corners.add(new.into_keys().zip(at_corners.chunks(bands).map(<[f64]>::to_vec)));
-        Ok(Some(light))
+        let Some(light) = sights.irradiance(&points, ask)? else { return Ok(false) };
+        let each = light.chunks(self.measure.dim.len()).map(<[f64]>::to_vec);
+        self.corners.add(new.into_keys().zip(each));
+        Ok(true)
     }
 
     /// The corners that were not looked from yet. Where something stands on a leaf, or a shadow has an edge on it, it is not known on which
@@ -157,6 +186,32 @@ impl<'c, 's> Cutting<'c, 's> {
         all.filter(|(key, _)| !self.corners.is_known(key)).collect()
     }
 
+    /// Whether the light of a whole leaf is known to be linear enough: its corners, all looked from, receive what they were found to, and it bends
+    /// little.
+    fn is_flat(&self, LeafPart { leaf, outline }: &LeafPart, found: &FoundLight<'_>) -> bool {
+        let tile = self.leaves[*leaf];
+        let most = self.most(self.tiling.tiles[tile].patch, outline);
+        let is_within = |corner: &(DVec2, DVec3)| {
+            let Some(light) = self.corners.of(&self.corners.key(tile, corner.0)) else { return false };
+            let [a, b] = outline.linear(corner.0);
+            let off = |(received, light): (&Vec<Linear>, &f64)| {
+                let [mean, first, second] = received[*leaf];
+                let plane = mean + a * first + b * second;
+                [light - plane, plane.max(*light)]
+            };
+            self.measure.worst(found.received.iter().zip(light).map(off)) <= most
+        };
+        let bends =
+            found.bend.iter().zip(found.received).map(|(bend, received)| [bend[tile], received[*leaf][0]]);
+        self.measure.worst(bends) <= FLAT * most && outline.corners.iter().all(is_within)
+    }
+
+    /// How far from linear the light of a part may be, as a share.
+    fn most(&self, patch: usize, outline: &Outline) -> f64 {
+        let area = self.tiling.area(patch, outline) / self.area;
+        (SMALL / area).sqrt().max(1.0) * BENT * self.measure.share
+    }
+
     /// The halves of a part whose light is not linear enough, or on which something stands: cut along the border of a shadow where one passes
     /// through.
     fn halves(&self, piece: &OpenPart, light: &[f64]) -> Option<[OpenPart; 2]> {
@@ -167,8 +222,7 @@ impl<'c, 's> Cutting<'c, 's> {
         let corners = outline.corners.iter().filter_map(|corner| {
             Some((outline.linear(corner.0), self.corners.of(&self.corners.key(tile, corner.0))?))
         });
-        let uneven =
-            self.measure.uneven(light, corners, (SMALL / area).sqrt().max(1.0)).filter(|_| area > LEAST);
+        let uneven = self.measure.uneven(light, corners, self.most(patch, outline)).filter(|_| area > LEAST);
         // What stands on a leaf parts what it covers from what is lit.
         let is_crossed = self.tiling.is_crossed(patch, outline);
         let axis = uneven.or(is_crossed.then_some(0))?;
@@ -185,23 +239,16 @@ impl<'c, 's> Cutting<'c, 's> {
 
 impl Measure<'_> {
     /// The axis along which the light of five points bends most, if that, or what corners are off the plane through these points, is more
-    /// than `times` what it may be. CornerLight come with the linear functions there, and their light.
+    /// than it may be. CornerLight come with the linear functions there, and their light.
     fn uneven<'c>(
         &self,
         light: &[f64],
         corners: impl Iterator<Item = ([f64; 2], &'c [f64])>,
-        times: f64,
+        allowed: f64,
     ) -> Option<usize> {
         let bands = self.dim.len();
         let at = |point: usize, band: usize| light[point * bands + band];
-        let worst = |off: &dyn Fn(usize) -> [f64; 2]| {
-            let share = |band: usize| {
-                let [off, bright] = off(band);
-                let unit = bright + self.dim[band];
-                if unit > 0.0 { off.abs() / unit } else { 0.0 }
-            };
-            (0..bands).map(share).fold(0.0, f64::max)
-        };
+        let worst = |off: &dyn Fn(usize) -> [f64; 2]| self.worst((0..bands).map(off));
         let bend = |ends: [usize; 2]| {
             worst(&|band| {
                 let [middle, mean] = [at(0, band), f64::midpoint(at(ends[0], band), at(ends[1], band))];
@@ -217,6 +264,15 @@ impl Measure<'_> {
             })
         });
         let most = out.fold(0.0, f64::max) / CORNER;
-        (long.max(short).max(most) > BENT * times * self.share).then_some(usize::from(short > long))
+        (long.max(short).max(most) > allowed).then_some(usize::from(short > long))
+    }
+
+    /// The largest share of what is off in a band of how bright it is there.
+    fn worst(&self, off: impl Iterator<Item = [f64; 2]>) -> f64 {
+        let share = |([off, bright], dim): ([f64; 2], &f64)| {
+            let unit = bright + dim;
+            if unit > 0.0 { off.abs() / unit } else { 0.0 }
+        };
+        off.zip(self.dim).map(share).fold(0.0, f64::max)
     }
 }

@@ -3,7 +3,7 @@ use super::allowance::{Allowance, SUM};
 use super::budget::BandLight;
 use super::clusters::Pairs;
 use super::direct::Direct;
-use super::estimate::{ErrorShares, estimate, shares};
+use super::estimate::{ErrorShares, causes, estimate, shares};
 use super::flow::Linear;
 use super::importance::eases;
 use super::in_view::in_view;
@@ -114,7 +114,7 @@ impl Levels<'_> {
         for _ in 0..FINER {
             let ErrorShares { of_plates, of_patches } = self.seen_shares(&lights);
             let is_full = self.tiling.tiles.len() > most || !self.has_time();
-            let helps = allowance.after(&of_plates);
+            let helps = allowance.after(&of_plates, |worst| self.causes(&lights, worst));
             let spread = self.members.spread(&self.tiling);
             let is_strained = spread.strain(&self.tiling, &of_patches, self.options.error, &mut self.strain);
             if is_full || !(helps || is_strained) {
@@ -149,6 +149,11 @@ impl Levels<'_> {
         let of_patches = shares.of_patches.iter_mut().zip(&self.members.of_patches);
         of_patches.filter(|(_, plate)| unseen(plate)).for_each(|(share, _)| *share = 0.0);
         shares
+    }
+
+    /// See [`causes`].
+    fn causes(&self, lights: &[BandLight], plates: &[usize]) -> Vec<Vec<f64>> {
+        causes(&self.tiling, &self.links.all, &self.links.clusters, lights, plates)
     }
 
     /// Whether estimates are within the error that is asked for.
@@ -223,7 +228,7 @@ impl Levels<'_> {
         let Stand { options, tiling, members, links, sent, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
         let estimate = estimate(tiling, members, &links.all, &links.clusters, &lights, sent.len());
-        let shown = match is_right.then(|| stand.shown(&equilibrium, watch, state)).transpose() {
+        let shown = match is_right.then(|| stand.shown(&equilibrium, &lights, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);
                 None

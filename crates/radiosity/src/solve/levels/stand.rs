@@ -1,4 +1,5 @@
 //! Where a run stands, and how its light is shown.
+use super::budget::{BandLight, with_larger};
 use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::flow::Linear;
@@ -6,7 +7,7 @@ use super::links::Links;
 use super::members::PlateMembers;
 use super::output::{LeafLight, cover, lines, solution, with_vertices};
 use super::parting::part;
-use super::pieces::{pieces, whole};
+use super::pieces::{FoundLight, pieces, whole};
 use super::tiling::Tiling;
 use super::vertices::Sights;
 use crate::error::Error;
@@ -75,6 +76,7 @@ impl Stand<'_> {
     pub(super) fn shown(
         &self,
         equilibrium: &Equilibrium<'_>,
+        bands: &[BandLight],
         watch: Follower<'_>,
         state: &State,
     ) -> Result<Option<Solution>, Error> {
@@ -85,7 +87,10 @@ impl Stand<'_> {
         let sights = Sights::new(tiling, in_view, links, direct, sent, &fine);
         let mut ask = || self.show(watch, state);
         let lines = lines(tiling, direct);
-        let pieces = pieces(&sights, equilibrium, &lines, &means, self.options.error, &mut ask)?;
+        let mut bend = vec![vec![0.0; tiling.tiles.len()]; sent.len()];
+        bands.iter().for_each(|light| bend[light.band] = with_larger(tiling, &light.bend));
+        let found = FoundLight { received: &light.received, bend };
+        let pieces = pieces(&sights, equilibrium, &found, &lines, (&means, self.options.error), &mut ask)?;
         let Some((pieces, corners)) = pieces else { return Ok(None) };
         let cover = cover(tiling, members, equilibrium, &lines, &pieces);
         let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
