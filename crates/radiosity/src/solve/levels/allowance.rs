@@ -61,24 +61,27 @@ impl Allowance {
         }
         self.is_own &= helps;
         self.beyond = beyond;
-        let less = if helps { A_LITTLE } else { LESS * A_LITTLE };
         let mut worst: Vec<usize> =
             (0..estimates.len()).filter(|&patch| estimates[patch] > self.error).collect();
         worst.sort_by(|a, b| estimates[*b].total_cmp(&estimates[*a]).then(a.cmp(b)));
         let (by_causes, by_own) = worst.split_at(if self.is_own { 0 } else { worst.len().min(WORST) });
+        let less = if helps { A_LITTLE } else { LESS * A_LITTLE };
         for &patch in by_own {
             self.shares[patch] *= (less * self.error / estimates[patch]).max(LESS);
         }
-        let by_causes =
-            by_causes.iter().zip(if by_causes.is_empty() { Vec::new() } else { causes(by_causes) });
-        for (&patch, causes) in by_causes {
-            let within = self.error / estimates[patch];
-            let most = most(&causes, within);
-            let factors = causes.iter().map(|cause| (most / cause).powf(1.0 / EXPONENT));
-            let shares = self.shares.iter_mut().zip(factors);
-            shares.for_each(|(share, factor)| *share *= factor.clamp(LESS, 1.0));
+        let of_causes = if by_causes.is_empty() { Vec::new() } else { causes(by_causes) };
+        for (&patch, causes) in by_causes.iter().zip(of_causes) {
+            self.lessen(&causes, self.error / estimates[patch]);
         }
         true
+    }
+
+    /// Makes the shares smaller of which most of an estimate comes, for it to be within such a share of itself.
+    fn lessen(&mut self, causes: &[f64], within: f64) {
+        let most = most(causes, within);
+        for (share, cause) in self.shares.iter_mut().zip(causes) {
+            *share *= (most / cause).powf(1.0 / EXPONENT).clamp(LESS, 1.0);
+        }
     }
 }
 
