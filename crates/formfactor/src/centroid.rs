@@ -9,10 +9,10 @@
 //! J2 = (atan z - z / (1 + z^2)) / 2,   J3 = (ln(1 + z^2) - z^2 / (1 + z^2)) / 2,
 //! ```
 //!
-//! which Gauss's rule finds to four digits and more.
+//! which Gauss's rule finds to seven digits and more.
 use crate::buffers::Buffers;
 use crate::form_factor::FormFactor;
-use crate::numeric::gauss::{RULE_2, RULE_4};
+use crate::numeric::gauss::{RULE_2, RULE_3, RULE_4, RULE_6};
 use crate::occluders::each;
 use crate::pipeline::past;
 use crate::quick;
@@ -21,9 +21,12 @@ use crate::visible_part::visible_part;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Rules of four and of two nodes find an edge's integral over its line to about 1e-5 where what is not analytic is so many times half the edge
-/// away: they err by (d + (d^2 + 1)^(1/2))^(-2n) (Trefethen 2008, theorem 4.5).
-const CLEAR: [f64; 2] = [2.0, 8.0];
+/// Gauss's rules, and the longest stretches over which they find an integral to 1e-10 that is analytic but from pi / 2 aside on: where that is d
+/// times half the stretch they err by (d + (d^2 + 1)^(1/2))^(-2n) (Trefethen 2008, theorem 4.5). The moments of a strip's edges cancel but for its
+/// width: their errors may not be as large as what is left.
+const RULES: [(f64, &[[f64; 2]]); 4] =
+    [(0.02, &RULE_2), (0.13, &RULE_3), (0.35, &RULE_4), (LONGEST, &RULE_6)];
+const LONGEST: f64 = 0.9;
 
 /// The form factor, and the mean of the target's visible points, each weighed by what it contributes; of a target that is not seen
 /// some point.
@@ -93,54 +96,31 @@ impl PolarPlane {
         }
         let (away, across) = (away * distance.signum(), distance.abs());
         let ends = [start, end].map(|end| end.dot(along));
-        // As a function of the place on the edge's line the integrand is analytic but where r^2 = -h^2.
-        let half = (ends[1] - ends[0]).abs() / 2.0;
-        let beyond = (f64::midpoint(ends[0], ends[1]).abs() - half).max(0.0);
-        let clear = across.hypot(self.height).hypot(beyond) / half;
-        let sum = if clear >= CLEAR[1] {
-            self.over_line([away, along], across, ends, &RULE_2)
-        } else if clear >= CLEAR[0] {
-            self.over_line([away, along], across, ends, &RULE_4)
-        } else {
-            self.over_angle([away, along], across, ends)
-        };
-        sum * distance.signum() / PI
+        self.over_line([away, along], across, ends) * distance.signum() / PI
     }
 
-    /// The integral over the angle, by its place on the edge: ds = (r^2 / across) dphi.
-    fn over_line(
-        &self,
-        [away, along]: [DVec2; 2],
-        across: f64,
-        [low, high]: [f64; 2],
-        rule: &[[f64; 2]],
-    ) -> DVec2 {
-        let step = high - low;
-        let at = |[node, weight]: &[f64; 2]| {
-            let place = low + step * node;
-            let radius = across.hypot(place);
-            let toward = (away * across + along * place) / radius;
-            toward * (weight * step * across / (radius * radius) * self.within(radius, self.tilt.dot(toward)))
+    /// The integral over the angle, by the place on the edge's line: ds = (r^2 / across) dphi.
+    ///
+    /// It is analytic but where r^2 = -h^2, at s = i c and -i c, c^2 = across^2 + h^2: with s = c sinh t at pi / 2 aside of every real t.
+    fn over_line(&self, [away, along]: [DVec2; 2], across: f64, ends: [f64; 2]) -> DVec2 {
+        let clear = across.hypot(self.height);
+        let [low, high] = ends.map(|end| (end / clear).asinh());
+        let count = ((high - low).abs() / LONGEST).ceil().max(1.0);
+        let step = (high - low) / count;
+        let rule =
+            RULES.iter().find(|(longest, _)| step.abs() <= *longest).map_or(&RULE_6[..], |(_, rule)| rule);
+        let at = |stretch: usize| {
+            let of_node = move |[node, weight]: &[f64; 2]| {
+                let sinh = (low + step * (stretch as f64 + node)).sinh();
+                let (place, speed) = (clear * sinh, clear * sinh.hypot(1.0));
+                let radius = across.hypot(place);
+                let toward = (away * across + along * place) / radius;
+                let within = self.within(radius, self.tilt.dot(toward));
+                toward * (weight * step * speed * across / (radius * radius) * within)
+            };
+            rule.iter().map(of_node).sum::<DVec2>()
         };
-        rule.iter().map(at).sum()
-    }
-
-    /// The same by equal angles.
-    fn over_angle(&self, [away, along]: [DVec2; 2], across: f64, ends: [f64; 2]) -> DVec2 {
-        let [low, high] = ends.map(|end| end.atan2(across));
-        let halves = ((high - low).abs() / (PI / 4.0)).ceil().clamp(1.0, 4.0);
-        let step = (high - low) / halves;
-        let mut sum = DVec2::ZERO;
-        let mut first = low;
-        while (first - high).abs() > 0.5 * step.abs() {
-            for [node, weight] in RULE_4 {
-                let (sine, cosine) = (first + step * node).sin_cos();
-                let toward = away * cosine + along * sine;
-                sum += toward * (weight * step * self.within(across / cosine, self.tilt.dot(toward)));
-            }
-            first += step;
-        }
-        sum
+        (0..count as usize).map(at).sum()
     }
 
     /// a J2 + h w J3.

@@ -55,3 +55,42 @@ fn the_centroid_is_that_of_many_small_parts() {
         assert!(centroid.distance(expected) < 1e-3, "{centroid} {expected} from {place}");
     }
 }
+
+/// Numbers from 0 to 1, always the same (Steele, Lea and Flood 2014).
+fn unit(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    ((mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Strips of any width, from near and far, flat and steep: cut in two, the centroids of the halves make up that of the whole.
+#[test]
+fn the_centroid_of_a_whole_is_the_mean_of_those_of_its_halves() {
+    let mut state = 1;
+    for turn in 0..4000 {
+        let mut random = |low: f64, high: f64| low + (high - low) * unit(&mut state);
+        let reach = 10f64.powf(random(-1.0, 1.5));
+        let middle = DVec3::new(random(-reach, reach), random(-reach, reach), 1.0);
+        let angle = random(0.0, 6.3);
+        let (along, across) = (DVec3::new(angle.cos(), angle.sin(), 0.0), 10f64.powf(random(-3.0, 0.0)));
+        let aside = DVec3::new(-along.y, along.x, 0.0) * across;
+        let at = |x: f64, y: f64| middle + x * along + y * aside;
+        let height = 10f64.powf(random(-3.0, 0.0));
+        let lean = DVec3::new(random(-1.0, 1.0), random(-1.0, 1.0), random(0.1, 1.0));
+        let from = DifferentialArea::new(DVec3::new(0.0, 0.0, 1.0 - height), lean).expect("a point");
+        let strip = |low: f64, high: f64| {
+            PlanarPolygon::new([[at(low, 1.0), at(high, 1.0), at(high, -1.0), at(low, -1.0)]])
+                .expect("a strip")
+        };
+        let whole = strip(-1.0, 1.0);
+        let room = Enclosure::new(vec![whole.clone()]);
+        let seen = |part: &PlanarPolygon| {
+            let (factor, centroid) = room.form_factor_and_centroid(&from, 0, part, &[]);
+            (factor.value, factor.value * centroid)
+        };
+        let (factor, moment) = seen(&whole);
+        let (left, right) = (seen(&strip(-1.0, 0.1)), seen(&strip(0.1, 1.0)));
+        let off = (moment - left.1 - right.1).length();
+        assert!(off <= 1e-4 * factor + 1e-12, "{turn}: {} off from {height} below {middle}", off / factor);
+    }
+}

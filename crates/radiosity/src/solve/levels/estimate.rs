@@ -4,31 +4,38 @@ use super::cluster_links::ClusterLinks;
 use super::errors::{EXPONENT, OwnErrors, own_errors};
 use super::link::Link;
 use super::members::{PlateMembers, Spread};
-use super::reflections::Reflections;
+use super::reflections::{Powers, Reflections, powers};
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 
 /// The root mean square over a rectangle of a² + b² less its mean, a and b the linear functions.
 const PARABOLA: f64 = 0.66;
 
+/// What is wrong in each band.
+pub(super) fn errors<'e>(
+    tiling: &'e Tiling<'e>,
+    links: &[Link],
+    clusters: &'e ClusterLinks,
+    lights: &'e [BandLight],
+) -> Vec<Errors<'e>> {
+    let powers = powers(clusters);
+    let of = |light| Errors::of(tiling, links, (clusters, powers.clone()), light);
+    lights.iter().map(of).collect()
+}
+
 /// The mean error of the irradiance of every patch; patches × `bands`.
 pub(super) fn estimate(
     tiling: &Tiling<'_>,
     members: &PlateMembers<'_>,
-    links: &[Link],
-    clusters: &ClusterLinks,
-    lights: &[BandLight],
+    errors: &[Errors<'_>],
     bands: usize,
 ) -> Vec<f64> {
     let spread = members.spread(tiling);
     let mut found = vec![0.0; members.of_patches.len() * bands];
-    for light in lights {
-        let unit = tiling.units()[light.band];
-        let errors = Errors::of(tiling, links, clusters, light);
+    for errors in errors {
+        let (band, unit) = (errors.light.band, tiling.units()[errors.light.band]);
         let all = spread.means(|tile, area_on| errors.of_tile(tile, area_on));
-        all.into_iter()
-            .enumerate()
-            .for_each(|(patch, error)| found[patch * bands + light.band] = unit * error);
+        all.into_iter().enumerate().for_each(|(patch, error)| found[patch * bands + band] = unit * error);
     }
     found
 }
@@ -40,23 +47,16 @@ pub(super) struct ErrorShares {
 }
 
 /// What all plates and patches may be off by.
-pub(super) fn shares(
-    tiling: &Tiling<'_>,
-    spread: &Spread<'_>,
-    links: &[Link],
-    clusters: &ClusterLinks,
-    lights: &[BandLight],
-) -> ErrorShares {
+pub(super) fn shares(tiling: &Tiling<'_>, spread: &Spread<'_>, errors: &[Errors<'_>]) -> ErrorShares {
     let mut of_plates = vec![0.0f64; tiling.scene.patches.len()];
     let mut of_patches = vec![0.0f64; spread.len()];
     let worse = |worst: &mut [f64], errors: Vec<f64>, units: Vec<f64>| {
         for ((worst, error), unit) in worst.iter_mut().zip(errors).zip(units) {
-            *worst = worst.max(if unit > 0.0 { error / unit } else { 0.0 });
+            *worst = worst.max(share((error, unit)));
         }
     };
-    for light in lights {
-        let errors = Errors::of(tiling, links, clusters, light);
-        let bright = |tile: usize| light.unit[tile] / tiling.patch_area(tiling.tiles[tile].patch);
+    for errors in errors {
+        let bright = |tile: usize| errors.unit(tile);
         worse(&mut of_plates, tiling.means(|root| errors.of_root(root)), tiling.means(bright));
         let of_patch = spread.means(|tile, area_on| errors.of_tile(tile, area_on));
         worse(&mut of_patches, of_patch, spread.means(|tile, _| bright(tile)));
@@ -64,37 +64,33 @@ pub(super) fn shares(
     ErrorShares { of_plates, of_patches }
 }
 
+fn share((error, unit): (f64, f64)) -> f64 {
+    if unit > 0.0 { error / unit } else { 0.0 }
+}
+
 /// For each of some plates, what share of its error in its worst band comes of what refining the links of each plate betters.
-pub(super) fn causes(
-    tiling: &Tiling<'_>,
-    links: &[Link],
-    clusters: &ClusterLinks,
-    lights: &[BandLight],
-    plates: &[usize],
-) -> Vec<Vec<f64>> {
-    let mut worst = vec![(0.0, Vec::new()); plates.len()];
-    for light in lights {
-        let errors = Errors::of(tiling, links, clusters, light);
-        let means = tiling.means(|root| errors.of_root(root));
-        let bright = tiling.means(|root| light.unit[root] / tiling.patch_area(tiling.tiles[root].patch));
-        for (&plate, worst) in plates.iter().zip(&mut worst) {
-            if means[plate] > worst.0 * bright[plate] {
-                *worst = (means[plate] / bright[plate], errors.causes(plate));
-            }
-        }
-    }
-    worst.into_iter().map(|(_, causes)| causes).collect()
+pub(super) fn causes(tiling: &Tiling<'_>, errors: &[Errors<'_>], plates: &[usize]) -> Vec<Vec<f64>> {
+    let shares = |errors: &Errors<'_>| {
+        let [wrong, bright] =
+            [tiling.means(|root| errors.of_root(root)), tiling.means(|root| errors.unit(root))];
+        wrong.into_iter().zip(bright).map(share).collect::<Vec<f64>>()
+    };
+    let shares: Vec<Vec<f64>> = errors.iter().map(shares).collect();
+    let of = |&plate: &usize| {
+        let worst = errors.iter().zip(&shares).max_by(|a, b| a.1[plate].total_cmp(&b.1[plate]));
+        worst.map_or_else(Vec::new, |(errors, _)| errors.causes(plate))
+    };
+    plates.iter().map(of).collect()
 }
 
 /// What the irradiance may be off by in a band, by reflection as well.
 ///
 /// An error δ of the irradiance of a tile is light of its own, of which others receive ρ F: ε = δ + F ρ ε, each term raised to the exponent. It
 /// is spread over the tile as its light is: who sees a dark part alone receives nothing of it.
-struct Errors<'e> {
+pub(super) struct Errors<'e> {
     tiling: &'e Tiling<'e>,
     light: &'e BandLight,
     reflections: Reflections<'e>,
-    root_of: Vec<usize>,
     own: OwnErrors,
     /// Of whole tiles, raised to the exponent.
     all: Vec<f64>,
@@ -104,14 +100,18 @@ impl<'e> Errors<'e> {
     fn of(
         tiling: &'e Tiling<'e>,
         links: &[Link],
-        clusters: &'e ClusterLinks,
+        (clusters, powers): (&'e ClusterLinks, Powers),
         light: &'e BandLight,
     ) -> Errors<'e> {
-        let root_of = tiling.roots();
-        let own = own_errors(tiling, links, clusters, light, &root_of);
-        let reflections = Reflections::new(tiling, links, clusters, light);
+        let reflections = Reflections::new(tiling, links, (clusters, powers), light);
+        let own = own_errors(tiling, links, clusters, light, &reflections.root_of);
         let all = reflections.all(&own.of_roots);
-        Errors { tiling, light, reflections, root_of, own, all }
+        Errors { tiling, light, reflections, own, all }
+    }
+
+    /// What counts as 1 on a tile: how bright its patch is.
+    fn unit(&self, tile: usize) -> f64 {
+        self.light.unit[tile] / self.tiling.patch_area(self.tiling.tiles[tile].patch)
     }
 
     /// Of a whole tile.
@@ -122,7 +122,7 @@ impl<'e> Errors<'e> {
     /// Of what is on a tile, by how much of its area that is.
     fn of_tile(&self, tile: usize, area_on: f64) -> f64 {
         let Errors { tiling, light, own, .. } = self;
-        let root = self.root_of[tile];
+        let root = self.reflections.root_of[tile];
         if !tiling.is_joined(tiling.tiles[tile].patch) {
             return self.of_root(root);
         }

@@ -11,21 +11,30 @@ use super::errors::EXPONENT;
 use super::link::Link;
 use super::tiling::Tiling;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Reflections that are followed.
 const MOST: usize = 60;
 /// No more of them when none changes anything by more than this share.
 const SETTLED: f64 = 1e-4;
 
+/// See [`ClusterLink::powers`](super::cluster_links::ClusterLink::powers): the same in all bands.
+pub(super) type Powers = Arc<[[Vec<f64>; 2]]>;
+
+/// What of the errors of tiles links of clusters carry.
+pub(super) fn powers(clusters: &ClusterLinks) -> Powers {
+    clusters.all.par_iter().map(|link| link.powers(EXPONENT)).collect::<Vec<_>>().into()
+}
+
 /// What of an error at one whole tile comes to another, as the light of the band is.
 #[derive(Debug)]
 pub(super) struct Reflections<'r> {
     clusters: &'r ClusterLinks,
-    root_of: Vec<usize>,
+    /// The whole tile that each tile is a part of.
+    pub(super) root_of: Vec<usize>,
     /// Pairs, and what each carries to the one and to the other.
     pairs: Vec<([usize; 2], [f64; 2])>,
-    /// See [`ClusterLink::powers`](super::cluster_links::ClusterLink::powers).
-    powers: Vec<[Vec<f64>; 2]>,
+    powers: Powers,
     /// For each tile what it reflects, and what power is on the area of its whole.
     rates: Vec<f64>,
     per: Vec<f64>,
@@ -35,7 +44,7 @@ impl<'r> Reflections<'r> {
     pub(super) fn new(
         tiling: &Tiling<'_>,
         links: &[Link],
-        clusters: &'r ClusterLinks,
+        (clusters, powers): (&'r ClusterLinks, Powers),
         light: &BandLight,
     ) -> Reflections<'r> {
         let root_of = tiling.roots();
@@ -49,36 +58,45 @@ impl<'r> Reflections<'r> {
                 ([one, other], [carried(one, other, here), carried(other, one, there)])
             })
             .collect();
-        let powers = clusters.all.par_iter().map(|link| link.powers(EXPONENT)).collect();
         Reflections { clusters, root_of, pairs, powers, rates, per }
     }
 
     /// What is there at once with what comes of it by reflection.
     pub(super) fn all(&self, direct: &[f64]) -> Vec<f64> {
-        settled(direct, |all, next| {
-            for ([one, other], [here, there]) in &self.pairs {
-                next[*one] += here * all[*other];
-                next[*other] += there * all[*one];
-            }
-            self.far(all, next, &self.rates, &self.per);
-        })
+        self.settled(direct, |ways| ways, [&self.rates, &self.per])
     }
 
     /// How much what is there at once, at each whole tile, matters to some of them: the sum of [`Reflections::all`] by such weights is that of what is
     /// there at once by these.
     pub(super) fn importance(&self, weights: &[f64]) -> Vec<f64> {
-        settled(weights, |all, next| {
-            for ([one, other], [here, there]) in &self.pairs {
-                next[*other] += here * all[*one];
-                next[*one] += there * all[*other];
-            }
-            self.far(all, next, &self.per, &self.rates);
-        })
+        self.settled(weights, |[here, there]| [there, here], [&self.per, &self.rates])
     }
 
-    /// Adds what the links of clusters carry, with factors of the tiles that it comes from and of those that it goes to.
-    fn far(&self, all: &[f64], next: &mut [f64], from: &[f64], to: &[f64]) {
-        for (link, powers) in self.clusters.all.iter().zip(&self.powers) {
+    /// What some values come to when what follows of them is added again and again: by pairs, and by links of clusters with factors of the
+    /// tiles that it comes from and of those that it goes to.
+    fn settled(&self, first: &[f64], turned: fn([f64; 2]) -> [f64; 2], factors: [&[f64]; 2]) -> Vec<f64> {
+        let mut all = first.to_vec();
+        for _ in 0..MOST {
+            let mut next = first.to_vec();
+            for &([one, other], ways) in &self.pairs {
+                let [here, there] = turned(ways);
+                next[one] += here * all[other];
+                next[other] += there * all[one];
+            }
+            self.far(&all, &mut next, factors);
+            let is_settled =
+                all.iter().zip(&next).all(|(before, after)| (after - before).abs() <= SETTLED * after);
+            all = next;
+            if is_settled {
+                break;
+            }
+        }
+        all
+    }
+
+    /// Adds what the links of clusters carry.
+    fn far(&self, all: &[f64], next: &mut [f64], [from, to]: [&[f64]; 2]) {
+        for (link, powers) in self.clusters.all.iter().zip(self.powers.iter()) {
             for end in [0, 1] {
                 let tiles =
                     |end: usize| self.clusters.clusters.tiles(link.ends[end]).iter().zip(&powers[end]);
@@ -109,18 +127,56 @@ fn exchanges(root_of: &[usize], links: &[Link], light: &BandLight) -> Vec<([usiz
     found
 }
 
-/// What some values come to when what follows of them is added again and again.
-fn settled(first: &[f64], follow: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
-    let mut all = first.to_vec();
-    for _ in 0..MOST {
-        let mut next = first.to_vec();
-        follow(&all, &mut next);
-        let is_settled =
-            all.iter().zip(&next).all(|(before, after)| (after - before).abs() <= SETTLED * after);
-        all = next;
-        if is_settled {
-            break;
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use crate::solve::levels::cluster_links::ClusterLink;
+    use crate::solve::levels::clusters::Clusters;
+    use formfactor::PlanarPolygon;
+    use glam::DVec3;
+
+    /// Four squares, two and two before each other.
+    fn squares() -> Scene {
+        let square = |corner: DVec3, way: f64, reflectance: f64| {
+            let [x, y, _] = DVec3::AXES;
+            let corners = [corner, corner + x, corner + x + way * y, corner + way * y];
+            Patch::new("square", PlanarPolygon::new([corners]).unwrap(), vec![reflectance], vec![1.0])
+        };
+        let [x, y, z] = DVec3::AXES;
+        let patches = [
+            square(DVec3::ZERO, 1.0, 0.2),
+            square(3.0 * x, 1.0, 0.5),
+            square(y + 8.0 * z, -1.0, 0.7),
+            square(3.0 * x + y + 9.0 * z, -1.0, 0.9),
+        ];
+        Scene { patches: patches.into(), bands: 1, ..Scene::default() }
     }
-    all
+
+    /// ⟨w, (1 − K)⁻¹ δ⟩ = ⟨(1 − Kᵀ)⁻¹ w, δ⟩, of pairs and of links of clusters.
+    #[test]
+    fn what_errors_come_to_is_the_same_forwards_and_backwards() {
+        let scene = squares();
+        let tiling = Tiling::new(&scene).unwrap();
+        let mut clusters = Clusters::of(&tiling);
+        let pairs = clusters.pairs(&mut |_| Ok(None)).unwrap();
+        let links: Vec<ClusterLink> =
+            pairs.far.iter().filter_map(|pair| ClusterLink::measure(&tiling, &clusters, *pair)).collect();
+        assert!(!links.is_empty());
+        let clusters = ClusterLinks { clusters, all: links };
+        let reflections = Reflections {
+            root_of: tiling.roots(),
+            pairs: vec![([0, 2], [0.3, 0.1]), ([1, 3], [0.05, 0.4]), ([0, 3], [0.2, 0.0])],
+            powers: powers(&clusters),
+            clusters: &clusters,
+            rates: vec![0.2, 0.5, 0.7, 0.9],
+            per: vec![1.0, 2.0, 0.5, 1.5],
+        };
+        let (direct, weights) = ([1.0, 0.0, 0.3, 0.2], [0.1, 0.7, 0.0, 1.0]);
+        let sum = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let [forwards, backwards] =
+            [sum(&reflections.all(&direct), &weights), sum(&direct, &reflections.importance(&weights))];
+        assert!(forwards > sum(&direct, &weights), "something is reflected");
+        assert!((forwards - backwards).abs() < 1e-3 * forwards, "{forwards} {backwards}");
+    }
 }

@@ -3,7 +3,7 @@ use super::allowance::{Allowance, SUM};
 use super::budget::BandLight;
 use super::clusters::Pairs;
 use super::direct::Direct;
-use super::estimate::{ErrorShares, causes, estimate, shares};
+use super::estimate::{ErrorShares, Errors, causes, errors, estimate, shares};
 use super::flow::Linear;
 use super::importance::eases;
 use super::in_view::in_view;
@@ -112,9 +112,10 @@ impl Levels<'_> {
         let patches = self.members.of_patches.len();
         let most = MANY.max(MORE * self.tiling.tiles.len().max(TILES * patches));
         for _ in 0..FINER {
-            let ErrorShares { of_plates, of_patches } = self.seen_shares(&lights);
+            let errors = self.errors(&lights);
+            let ErrorShares { of_plates, of_patches } = self.seen_shares(&errors);
             let is_full = self.tiling.tiles.len() > most || !self.has_time();
-            let helps = allowance.after(&of_plates, |worst| self.causes(&lights, worst));
+            let helps = allowance.after(&of_plates, |worst| causes(&self.tiling, &errors, worst));
             let spread = self.members.spread(&self.tiling);
             let is_strained = spread.strain(&self.tiling, &of_patches, self.options.error, &mut self.strain);
             if is_full || !(helps || is_strained) {
@@ -139,10 +140,14 @@ impl Levels<'_> {
         self.in_view.as_ref().map_or_else(|| vec![1.0; self.tiling.scene.patches.len()], of_view)
     }
 
+    fn errors<'e>(&'e self, lights: &'e [BandLight]) -> Vec<Errors<'e>> {
+        errors(&self.tiling, &self.links.all, &self.links.clusters, lights)
+    }
+
     /// The errors of all plates and patches, 0 of those that are out of view.
-    fn seen_shares(&self, lights: &[BandLight]) -> ErrorShares {
+    fn seen_shares(&self, errors: &[Errors<'_>]) -> ErrorShares {
         let spread = self.members.spread(&self.tiling);
-        let mut shares = shares(&self.tiling, &spread, &self.links.all, &self.links.clusters, lights);
+        let mut shares = shares(&self.tiling, &spread, errors);
         let Some(in_view) = &self.in_view else { return shares };
         let unseen = |plate: &usize| !in_view[*plate];
         (0..in_view.len()).filter(unseen).for_each(|plate| shares.of_plates[plate] = 0.0);
@@ -151,14 +156,9 @@ impl Levels<'_> {
         shares
     }
 
-    /// See [`causes`].
-    fn causes(&self, lights: &[BandLight], plates: &[usize]) -> Vec<Vec<f64>> {
-        causes(&self.tiling, &self.links.all, &self.links.clusters, lights, plates)
-    }
-
     /// Whether estimates are within the error that is asked for.
-    fn is_within(&self, lights: &[BandLight]) -> bool {
-        let ErrorShares { of_plates, of_patches } = self.seen_shares(lights);
+    fn is_within(&self, errors: &[Errors<'_>]) -> bool {
+        let ErrorShares { of_plates, of_patches } = self.seen_shares(errors);
         let error = self.options.error;
         let spread = self.members.spread(&self.tiling);
         of_plates.into_iter().all(|share| share <= error) && spread.beyond(&of_patches, error).is_empty()
@@ -223,11 +223,13 @@ impl Levels<'_> {
             let _ = self.report(state);
         }
         let mut fault = self.fault.take();
-        let is_within = self.is_within(&lights);
+        let errors = self.errors(&lights);
+        let is_within = self.is_within(&errors);
+        let estimate = estimate(&self.tiling, self.members, &errors, self.sent.len());
+        drop(errors);
         let (stand, watch) = self.stand();
-        let Stand { options, tiling, members, links, sent, light, .. } = stand;
+        let Stand { options, tiling, links, light, .. } = stand;
         let equilibrium = links.equilibrium(tiling, true);
-        let estimate = estimate(tiling, members, &links.all, &links.clusters, &lights, sent.len());
         let shown = match is_right.then(|| stand.shown(&equilibrium, &lights, watch, state)).transpose() {
             Err(defect @ Error::Defect { .. }) => {
                 fault = Some(defect);

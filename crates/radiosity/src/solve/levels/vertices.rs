@@ -124,7 +124,7 @@ impl<'s> Sights<'s> {
     ) -> Result<Option<Vec<f64>>, Error> {
         let on_tile = |receiver: &Receiver<'_>| {
             let tile = tile_of(receiver.element);
-            Ok((tile, receiver.inside(AT_RIM)?.owned_by(self.tiling.tiles[tile].surface)))
+            Ok((tile, receiver.inside_element(AT_RIM)?.owned_by(self.tiling.tiles[tile].surface)))
         };
         let receivers = receivers(self.tiling.scene, mesh);
         let known: Vec<Option<&[f64]>> = receivers
