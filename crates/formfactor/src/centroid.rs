@@ -11,15 +11,17 @@
 //!
 //! which Gauss's rule finds to seven digits and more.
 use crate::buffers::Buffers;
+use crate::exact::pyramid::Pyramid;
 use crate::form_factor::FormFactor;
 use crate::numeric::gauss::{RULE_2, RULE_3, RULE_4, RULE_6};
-use crate::occluders::each;
+use crate::occluders::{Reach, Taker};
 use crate::pipeline::past;
 use crate::quick;
 use crate::shapes::{differential_area::DifferentialArea, polygon::PlanarPolygon};
-use crate::visible_part::visible_part;
+use crate::visible_part::seen_past;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 /// Gauss's rules, and the longest stretches over which they find an integral to 1e-10 that is analytic but from pi / 2 aside on: where that is d
 /// times half the stretch they err by (d + (d^2 + 1)^(1/2))^(-2n) (Trefethen 2008, theorem 4.5). The moments of a strip's edges cancel but for its
@@ -30,21 +32,16 @@ const LONGEST: f64 = 0.9;
 
 /// The form factor, and the mean of the target's visible points, each weighed by what it contributes; of a target that is not seen
 /// some point.
-pub(crate) fn with_centroid(
+pub(crate) fn with_centroid<'a>(
     from: &DifferentialArea,
     to: &PlanarPolygon,
-    occluders: &[&PlanarPolygon],
+    occluders: impl Fn(&Reach, Taker<'_, 'a>),
     buffers: &mut Buffers,
 ) -> (FormFactor, DVec3) {
     let plane = PolarPlane::seen_from(from, to);
-    let others = || occluders.iter().copied().enumerate();
-    let (factor, moment) = match quick::parts(from, to, |_, taker| each(others(), taker), &mut buffers.quick)
-    {
+    let (factor, moment) = match quick::parts(from, to, &occluders, &mut buffers.quick) {
         Some(factor) => (factor, buffers.quick.recorded().iter().map(|edge| plane.moment(*edge)).sum()),
-        None => (
-            past(from, to, |_, taker| each(others(), taker), None, buffers),
-            plane.moment_of_part(from, to, occluders),
-        ),
+        None => (past(from, to, &occluders, None, buffers), plane.moment_of_part(from, to, occluders)),
     };
     let centroid = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
     (factor, plane.place(from, centroid))
@@ -136,18 +133,25 @@ impl PolarPlane {
     }
 
     /// The moment over the visible part as polygon Booleans find it.
-    fn moment_of_part(
+    fn moment_of_part<'a>(
         &self,
         from: &DifferentialArea,
         to: &PlanarPolygon,
-        occluders: &[&PlanarPolygon],
+        occluders: impl Fn(&Reach, Taker<'_, 'a>),
     ) -> DVec2 {
-        let all: Vec<PlanarPolygon> = occluders.iter().copied().cloned().collect();
+        let within = |pyramid: &Pyramid| {
+            let mut near = Vec::new();
+            occluders(&Reach::Exact { pyramid, deviation: to.deviation() }, &mut |_, occluder| {
+                near.push(occluder);
+                ControlFlow::Continue(())
+            });
+            near
+        };
         let of_ring = |ring: Vec<DVec3>| {
             let relative: Vec<DVec3> = ring.into_iter().map(|p| p - from.position()).collect();
             let next = relative.iter().cycle().skip(1);
             relative.iter().zip(next).map(|(a, b)| self.moment([*a, *b])).sum::<DVec2>()
         };
-        visible_part(from, to, &all).rings().map(of_ring).sum()
+        seen_past(from, to, within).rings().map(of_ring).sum()
     }
 }

@@ -205,9 +205,21 @@ impl Enclosure {
         if self.is_edge_on(from, id) || whole.plane().side_of(from.position()) != Ordering::Greater {
             return (FormFactor::default(), part.points()[0]);
         }
-        let others = self.others(from, id, among.iter().copied(), |_| false);
-        let occluders: Vec<&PlanarPolygon> = others.map(|(_, polygon)| polygon).collect();
-        self.pool.lend(|buffers| with_centroid(from, &self.on_plane(id, part), &occluders, buffers))
+        let occluders = self.within_reach_of(from, id, among);
+        self.pool.lend(|buffers| with_centroid(from, &self.on_plane(id, part), occluders, buffers))
+    }
+
+    /// Some polygons, those of them that are within reach and can hide polygon `id`.
+    fn within_reach_of<'p>(
+        &'p self,
+        from: &DifferentialArea,
+        id: usize,
+        some: &[usize],
+    ) -> impl Fn(&Reach, Taker<'_, 'p>) {
+        move |reach: &Reach, taker: Taker<'_, 'p>| {
+            let near = some.iter().copied().filter(|i| !reach.misses(&self.polygons[*i]));
+            each(self.others(from, id, near, |extent| reach.misses_box(extent, self.deviation)), taker);
+        }
     }
 
     /// The form factor to a part of polygon `id`, past the occluders that the tree finds, and what is taken of how it was found.

@@ -37,6 +37,7 @@ impl Cover {
     ) {
         let own = tiles.iter().flat_map(|(_, corners)| corners.iter());
         let mut knots = Knots::of(own.chain(guests).copied());
+        let on_lines = knots.on_lines(contacts);
         let mut triangles = Vec::new();
         for &(tile, corners) in tiles {
             let ring = knots.ring(corners);
@@ -46,7 +47,7 @@ impl Cover {
             }
         }
         let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let contacts = sides.filter(|side| knots.is_on(*side, contacts)).collect();
+        let contacts = sides.filter(|side| is_on_line(*side, &on_lines)).collect();
         let points = Points { flat: knots.flat, contacts, ..Points::default() };
         let parted = split(&triangles, &points);
         let base = self.mesh.vertices.len();
@@ -137,17 +138,26 @@ impl Knots {
         (0..count).map(|k| [middle, ring[k], ring[(k + 1) % count]]).collect()
     }
 
-    /// Whether a side is on one of the lines.
-    fn is_on(&self, side: [usize; 2], lines: &[[DVec2; 2]]) -> bool {
-        let [a, b] = side.map(|knot| self.flat[knot]);
+    /// For each knot the lines that it is on.
+    fn on_lines(&self, lines: &[[DVec2; 2]]) -> Vec<Vec<usize>> {
+        let mut of_knots = vec![Vec::new(); self.flat.len()];
         let far = 10.0 * self.near;
-        let is_on = |[start, end]: &[DVec2; 2]| {
+        for (index, [start, end]) in lines.iter().enumerate() {
             let (way, length) = ((*end - *start).normalize_or_zero(), start.distance(*end));
-            [a, b].iter().all(|p| {
-                let reach = way.dot(*p - *start);
-                way.perp_dot(*p - *start).abs() <= far && reach >= -far && reach <= length + far
-            })
-        };
-        lines.iter().any(is_on)
+            let is_on = |knot: &usize| {
+                let from_start = self.flat[*knot] - *start;
+                let reach = way.dot(from_start);
+                way.perp_dot(from_start).abs() <= far && reach >= -far && reach <= length + far
+            };
+            let within = self.between(start.x.min(end.x) - far, start.x.max(end.x) + far);
+            within.filter(is_on).for_each(|knot| of_knots[knot].push(index));
+        }
+        of_knots
     }
+}
+
+/// Whether both ends of a side are on one line; the middle of a tile is on none.
+fn is_on_line([start, end]: [usize; 2], on_lines: &[Vec<usize>]) -> bool {
+    let [start, end] = [start, end].map(|knot| on_lines.get(knot).map_or(&[][..], Vec::as_slice));
+    start.iter().any(|line| end.contains(line))
 }

@@ -116,6 +116,11 @@ impl Links {
         Ok(found?.into_iter().flatten().collect())
     }
 
+    /// How many there are, of tiles and of clusters.
+    pub(super) fn count(&self) -> usize {
+        self.all.len() + self.clusters.all.len()
+    }
+
     /// The tiles that are linked.
     pub(super) fn ends(&self) -> Vec<[usize; 2]> {
         self.all.iter().map(|link| link.ends).collect()

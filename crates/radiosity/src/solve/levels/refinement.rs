@@ -38,7 +38,7 @@ impl Levels<'_> {
         found
     }
 
-    /// Refines the links whose errors exceed the budgets; false when there is nothing to refine, nothing when the run is to end.
+    /// Refines the links whose errors exceed the budgets; gives how many pairs and tiles there were to refine, nothing when the run is to end.
     ///
     /// What takes the place of a link is refined as well, in the light as it is now, as long as it is beyond what its patches allow.
     pub(super) fn refine(
@@ -46,11 +46,11 @@ impl Levels<'_> {
         lights: &mut [BandLight],
         shares: &[f64],
         state: &mut State,
-    ) -> Result<Option<bool>, Error> {
+    ) -> Result<Option<usize>, Error> {
         let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, shares);
-        let mut is_cut = false;
+        let mut refined = 0;
         for leaf in uneven(&self.tiling, lights, &limits) {
-            is_cut |= self.cut_tile(leaf, self.direct.axis(leaf))?.is_some();
+            refined += usize::from(self.cut_tile(leaf, self.direct.axis(leaf))?.is_some());
         }
         lights.iter_mut().for_each(|light| light.grow(&self.tiling));
         let kept = self.links.all.clone();
@@ -62,7 +62,7 @@ impl Levels<'_> {
             return Ok(None);
         };
         candidates.extend(near);
-        is_cut |= !candidates.is_empty();
+        refined += candidates.len();
         while !candidates.is_empty() {
             let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
             let (fine, coarse) = self.part(links, lights, &limits)?;
@@ -71,7 +71,7 @@ impl Levels<'_> {
         }
         self.links.replace(kept);
         self.links.clusters.all = clusters;
-        Ok(Some(is_cut))
+        Ok(Some(refined))
     }
 
     /// Keeps the links of clusters that are within the limits of their patches, and takes links of parts of theirs in place of the others; nothing when

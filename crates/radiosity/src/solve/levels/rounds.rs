@@ -34,6 +34,8 @@ const MORE: usize = 4;
 const TILES: usize = 2;
 /// Patches of plates are looked at again when there are so many times the tiles.
 const AT_ONCE: usize = 2;
+/// A pass over all links is the last of a level when it refines no more than one in so many: the next level looks at the same ones.
+const FEWEST: usize = 100;
 /// Products in a round of refinement, and at the end.
 const FEW: usize = 8;
 const ALL: usize = 400;
@@ -189,8 +191,8 @@ impl Levels<'_> {
         self.options.max_seconds.is_none_or(|limit| seconds < (1.0 - LEFT) * limit)
     }
 
-    /// Refines until the errors of every patch's links add up to no more than its share of its light, or there are more than so many tiles;
-    /// gives the light, or nothing when the run is to end.
+    /// Refines until the errors of every patch's links add up to no more than its share of its light but for a few, or there are more than so many
+    /// tiles; gives the light, or nothing when the run is to end.
     fn level(
         &mut self,
         shares: &[f64],
@@ -204,11 +206,12 @@ impl Levels<'_> {
             let mut lights = self.settle(FEW, false);
             match self.refine(&mut lights, shares, state)? {
                 None => return Ok(None),
-                Some(true) if self.tiling.tiles.len() <= most => {}
+                Some(0) => return Ok(Some(lights)),
+                Some(refined) if refined > self.links.count() / FEWEST && self.tiling.tiles.len() <= most => {
+                }
                 // What was cut last has light of its own before anyone asks how wrong it is.
-                Some(true) if !self.shine(state)? => return Ok(None),
-                Some(true) => return Ok(Some(self.settle(FEW, false))),
-                Some(false) => return Ok(Some(lights)),
+                Some(_) if !self.shine(state)? => return Ok(None),
+                Some(_) => return Ok(Some(self.settle(FEW, false))),
             }
         }
     }
