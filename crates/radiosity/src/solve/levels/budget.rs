@@ -1,6 +1,5 @@
 //! Which links to refine: the errors of the links of every patch add up to no more than its share.
-use super::cluster_links::{ClusterLink, ClusterLinks};
-use super::clusters::Clusters;
+use super::cluster_links::ClusterLinks;
 use super::direct::DirectFlaws;
 use super::equilibrium::deviations;
 use super::flow::{Linear, square};
@@ -51,7 +50,7 @@ pub(super) struct BandLight {
     /// How far what each tile receives by itself is from linear, as irradiance.
     pub(super) bend: Vec<f64>,
     /// How many times its errors count in each tile: see [`Spread::strain`](super::members::Spread::strain).
-    strain: Vec<f64>,
+    pub(super) strain: Vec<f64>,
     /// What all patches send, on average.
     pub(super) mean: f64,
 }
@@ -124,7 +123,7 @@ impl BandLight {
     }
 
     /// How much the curvature of light within a tile counts.
-    fn within(&self, tiling: &Tiling<'_>, receiver: usize) -> f64 {
+    pub(super) fn within(&self, tiling: &Tiling<'_>, receiver: usize) -> f64 {
         let tile = &tiling.tiles[receiver];
         let for_others =
             self.importance[receiver] * tile.reflectance[self.band] / tile.area * self.unit[receiver];
@@ -257,7 +256,7 @@ fn unresolved(
     }
     let mut far = vec![0.0; direct.len()];
     for (link, end) in clusters.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
-        if let Some((tile, power)) = link.curvature(&clusters.clusters, end, sent) {
+        if let Some((tile, power)) = link.curvature(end, sent) {
             far[tile] += power / tiling.tiles[tile].area;
         }
     }
@@ -285,83 +284,48 @@ pub(super) fn uneven(tiling: &Tiling<'_>, bands: &[BandLight], limits: &[f64]) -
 }
 
 /// The largest errors that the links of every patch may have, so that they add up to no more than its share of its light: infinite where all do.
+/// `far` are the errors of links of clusters: patches, with errors and how many there are of such a size.
 pub(super) fn limits(
     tiling: &Tiling<'_>,
     links: &[Link],
-    clusters: &ClusterLinks,
+    far: Vec<(usize, f64, usize)>,
     bands: &[BandLight],
     shares: &[f64],
 ) -> Vec<f64> {
-    let mut of_patch: Vec<Vec<f64>> = vec![Vec::new(); tiling.scene.patches.len()];
-    for link in &clusters.all {
-        worst_of_cluster(tiling, &clusters.clusters, link, bands)
-            .filter(|(_, error)| *error > 0.0)
-            .for_each(|(patch, error)| of_patch[patch].push(error));
+    let mut of_patch: Vec<Vec<(f64, usize)>> = vec![Vec::new(); tiling.scene.patches.len()];
+    for (patch, error, count) in far {
+        of_patch[patch].push((error, count));
     }
     for link in links {
         for end in [0, 1] {
-            of_patch[tiling.tiles[link.ends[end]].patch].push(worst(tiling, link, end, bands).0);
+            of_patch[tiling.tiles[link.ends[end]].patch].push((worst(tiling, link, end, bands).0, 1));
         }
     }
     for leaf in tiling.leaves() {
         let error = worst_direct(tiling, leaf, bands);
         if error > 0.0 {
-            of_patch[tiling.tiles[leaf].patch].push(error);
+            of_patch[tiling.tiles[leaf].patch].push((error, 1));
         }
     }
     of_patch.into_par_iter().zip(shares).map(|(errors, share)| limit(errors, *share)).collect()
 }
 
-fn limit(mut errors: Vec<f64>, share: f64) -> f64 {
-    if errors.iter().sum::<f64>() <= ENOUGH * share {
+/// The limit of one patch, by its errors and how many there are of such a size.
+fn limit(mut errors: Vec<(f64, usize)>, share: f64) -> f64 {
+    let all = |(error, count): &(f64, usize)| *error * *count as f64;
+    if errors.iter().map(all).sum::<f64>() <= ENOUGH * share {
         return f64::INFINITY;
     }
-    errors.sort_by(f64::total_cmp);
+    errors.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut sum = 0.0;
-    let kept = errors.iter().take_while(|error| {
-        sum += **error;
-        sum <= share
+    let kept = errors.iter().take_while(|errors| {
+        let is_within = sum + errors.0 <= share;
+        sum += all(errors);
+        is_within
     });
+    let count: usize = errors.iter().map(|(_, count)| count).sum();
     // Where even the least is too much, they are to be as small as so many may be.
-    kept.last().copied().unwrap_or(0.0).max(share / errors.len() as f64)
-}
-
-/// Whether an error of a link of clusters is beyond the limit of its patch.
-pub(super) fn is_beyond(
-    tiling: &Tiling<'_>,
-    clusters: &Clusters,
-    link: &ClusterLink,
-    bands: &[BandLight],
-    limits: &[f64],
-) -> bool {
-    worst_of_cluster(tiling, clusters, link, bands).any(|(patch, error)| error > limits[patch])
-}
-
-/// The patch of each tile of a link of clusters, and the error of what it receives in the worst band.
-fn worst_of_cluster(
-    tiling: &Tiling<'_>,
-    clusters: &Clusters,
-    link: &ClusterLink,
-    bands: &[BandLight],
-) -> impl Iterator<Item = (usize, f64)> {
-    let mut all: Vec<(usize, f64)> = Vec::new();
-    for end in [0, 1] {
-        let start = all.len();
-        all.extend(clusters.tiles(link.ends[end]).iter().map(|tile| (tiling.tiles[*tile].patch, 0.0)));
-        for light in bands {
-            let mut place = start;
-            let curvature = link.curvature(clusters, end, &light.sent).map_or(0.0, |(_, power)| power);
-            link.errors(clusters, end, (&light.sent, &light.deviation), |tile, error| {
-                let error = error + light.within(tiling, tile) * curvature;
-                let worst = &mut all[place].1;
-                if light.unit[tile] > 0.0 {
-                    *worst = worst.max(error * light.strain[tile] / light.unit[tile]);
-                }
-                place += 1;
-            });
-        }
-    }
-    all.into_iter()
+    kept.last().map_or(0.0, |(error, _)| *error).max(share / count as f64)
 }
 
 /// Which end of a link is to be cut, if an error of it is beyond the limit of its patch: that of the error which is furthest beyond.

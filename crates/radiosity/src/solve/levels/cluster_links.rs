@@ -29,18 +29,16 @@ const PARTLY: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(super) struct ClusterLink {
     pub(super) ends: [usize; 2],
-    /// For each tile of each end, what the other end sees of it.
-    seen: [Vec<f64>; 2],
+    /// The tiles of each end that the other end sees something of, and what: hardly any in a town.
+    seen: [Vec<(usize, f64)>; 2],
     /// The same of the linear functions of an end that is one tile.
     slopes: [[f64; 2]; 2],
-    /// The same without what stands between the clusters, where something does.
-    open: Option<[Vec<f64>; 2]>,
     /// What is seen of two tiles times this is what they exchange.
     scale: f64,
-    open_scale: f64,
-    /// How wrong that may be, as a share of it, and of what could be exchanged were nothing in between.
+    /// How wrong that may be, as a share of it.
     error: f64,
-    open_error: f64,
+    /// Where something stands between the clusters, what may be wrong of all that they exchange besides, for a radiosity of 1.
+    hidden: f64,
     /// For each end that is one tile, how far what it sees may be from linear, as a share.
     bends: [f64; 2],
 }
@@ -66,83 +64,84 @@ impl ClusterLink {
             1 => CURVED * clusters.fill(other, end),
             _ => 0.0,
         };
-        let link = ClusterLink {
+        let open = of_first.open.zip(of_second.open).map(|(one, other)| one * other);
+        let open_error = BETWEEN + PARTLY * partly.max((visible * (1.0 - visible)).max(0.0).sqrt());
+        let seen =
+            [some(clusters.tiles(ends[0]), &of_first.seen), some(clusters.tiles(ends[1]), &of_second.seen)];
+        let is_open = open.map_or_else(|| seen.iter().all(|seen| !seen.is_empty()), |open| open > 0.0);
+        is_open.then(|| ClusterLink {
             ends,
             bends: [bend(ends[0], ends[1]), bend(ends[1], ends[0])],
             scale: if visible > 0.0 { open_scale / visible } else { 0.0 },
-            open_scale,
             error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt + ROUGH,
-            open_error: if is_past_others {
-                BETWEEN + PARTLY * partly.max((visible * (1.0 - visible)).max(0.0).sqrt())
-            } else {
-                0.0
-            },
+            hidden: open.map_or(0.0, |open| open_error * open_scale * open),
             slopes: [of_first.slopes, of_second.slopes],
-            seen: [of_first.seen, of_second.seen],
-            open: of_first.open.zip(of_second.open).map(|(one, other)| [one, other]),
-        };
-        let some = |seen: &[Vec<f64>; 2]| seen.iter().all(|seen| seen.iter().any(|seen| *seen > 0.0));
-        link.open.as_ref().map_or_else(|| some(&link.seen), some).then_some(link)
+            seen,
+        })
     }
 
     /// What each tile of one end receives, as powers, when the tiles send so much.
-    fn carry(&self, clusters: &Clusters, end: usize, sent: &[Linear], mut to: impl FnMut(usize, Linear)) {
-        let brings = self.scale * self.sent(clusters, 1 - end, sent);
+    fn carry(&self, end: usize, sent: &[Linear], mut to: impl FnMut(usize, Linear)) {
+        let brings = self.scale * self.sent(1 - end, sent);
         if brings != 0.0 {
             let [first, second] = self.slopes[end];
-            let tiles = clusters.tiles(self.ends[end]).iter();
-            tiles
-                .zip(&self.seen[end])
-                .for_each(|(tile, seen)| to(*tile, [*seen, first, second].map(|s| s * brings)));
+            for (tile, seen) in &self.seen[end] {
+                to(*tile, [*seen, first, second].map(|s| s * brings));
+            }
         }
     }
 
     /// What an end sends, as the other sees it.
-    fn sent(&self, clusters: &Clusters, end: usize, sent: &[Linear]) -> f64 {
-        let tiles = clusters.tiles(self.ends[end]);
-        let [_, first, second] = sent[tiles[0]];
-        weighed(tiles, &self.seen[end], sent) + self.slopes[end][0] * first + self.slopes[end][1] * second
+    fn sent(&self, end: usize, sent: &[Linear]) -> f64 {
+        let seen = &self.seen[end];
+        let slope = |(tile, _): &(usize, f64)| {
+            let [_, first, second] = sent[*tile];
+            self.slopes[end][0] * first + self.slopes[end][1] * second
+        };
+        let mean: f64 = seen.iter().map(|(tile, seen)| seen * sent[*tile][0]).sum();
+        mean + seen.first().map_or(0.0, slope)
+    }
+
+    /// What is seen of an end that is one tile.
+    fn only(&self, end: usize) -> Option<(usize, f64)> {
+        self.seen[end].first().copied().filter(|_| self.bends[end] > 0.0)
     }
 
     /// An end that is one tile, and how far what it receives may be from linear, as a power.
-    pub(super) fn curvature(&self, clusters: &Clusters, end: usize, sent: &[Linear]) -> Option<(usize, f64)> {
-        let tile = clusters.tiles(self.ends[end])[0];
-        let curvature =
-            || self.bends[end] * self.scale * self.seen[end][0] * self.sent(clusters, 1 - end, sent).abs();
-        (self.bends[end] > 0.0).then(|| (tile, curvature()))
+    pub(super) fn curvature(&self, end: usize, sent: &[Linear]) -> Option<(usize, f64)> {
+        let power = |seen: f64| self.bends[end] * self.scale * seen * self.sent(1 - end, sent).abs();
+        self.only(end).map(|(tile, seen)| (tile, power(seen)))
     }
 
-    /// What may be wrong with what each tile of an end receives; `deviation` is how far what tiles send is from linear.
+    /// What may be wrong with what each tile of an end receives that sees something of the other; `deviation` is how far what tiles send is from
+    /// linear.
     pub(super) fn errors(
         &self,
-        clusters: &Clusters,
         end: usize,
         (sent, deviation): (&[Linear], &[f64]),
-        mut to: impl FnMut(usize, f64),
-    ) {
-        let others = clusters.tiles(self.ends[1 - end]);
-        let uneven = self.bends[1 - end] * self.seen[1 - end][0] * deviation[others[0]];
-        let brings = self.scale * (self.error * self.sent(clusters, 1 - end, sent).abs() + uneven);
-        let open = self.open.as_ref().map(|open| {
-            let brings = self.open_error * self.open_scale * weighed(others, &open[1 - end], sent).abs();
-            (brings, &open[end])
-        });
-        for (k, tile) in clusters.tiles(self.ends[end]).iter().enumerate() {
-            let hidden = open.map_or(0.0, |(brings, open)| brings * open[k]);
-            to(*tile, brings * self.seen[end][k] + hidden);
-        }
+    ) -> impl Iterator<Item = (usize, f64)> {
+        let uneven =
+            self.only(1 - end).map_or(0.0, |(tile, seen)| self.bends[1 - end] * seen * deviation[tile]);
+        let brings = self.scale * (self.error * self.sent(1 - end, sent).abs() + uneven);
+        self.seen[end].iter().map(move |(tile, seen)| (*tile, brings * seen))
     }
 
-    /// For each tile of each end a number: the products of those of two tiles are what these exchange, raised to a power.
-    pub(super) fn powers(&self, exponent: f64) -> [Vec<f64>; 2] {
+    /// What may be wrong of what could pass were nothing in between: a power, for a radiosity of 1.
+    pub(super) fn hidden(&self) -> f64 {
+        self.hidden
+    }
+
+    /// For each tile that is seen a number: the products of those of two tiles are what these exchange, raised to a power.
+    pub(super) fn powers(&self, exponent: f64) -> [Vec<(usize, f64)>; 2] {
         let half = self.scale.sqrt();
-        self.seen.each_ref().map(|seen| seen.iter().map(|seen| (half * seen).powf(exponent)).collect())
+        let power = |(tile, seen): &(usize, f64)| (*tile, (half * seen).powf(exponent));
+        self.seen.each_ref().map(|seen| seen.iter().map(power).collect())
     }
 
-    /// The tiles of an end, with what the other end sees of each: the product of what is seen of two tiles times the scale is what these
-    /// exchange.
-    pub(super) fn seen(&self, clusters: &Clusters, end: usize) -> impl Iterator<Item = (usize, f64)> {
-        clusters.tiles(self.ends[end]).iter().copied().zip(self.seen[end].iter().copied())
+    /// The tiles of an end of which the other end sees something, and what: the product of what is seen of two tiles times the scale is what
+    /// these exchange.
+    pub(super) fn seen(&self, end: usize) -> &[(usize, f64)] {
+        &self.seen[end]
     }
 
     pub(super) fn scale(&self) -> f64 {
@@ -150,20 +149,23 @@ impl ClusterLink {
     }
 
     /// The tiles that exchange light.
-    pub(super) fn lit(&self, clusters: &Clusters) -> impl Iterator<Item = usize> {
-        let all = self.ends.into_iter().zip(&self.seen);
-        let of_end = |(end, seen)| clusters.tiles(end).iter().zip(seen);
-        let lit = all.flat_map(of_end).filter(|(_, seen)| **seen > 0.0).map(|(tile, _)| *tile);
+    pub(super) fn lit(&self) -> impl Iterator<Item = usize> {
+        let lit = self.seen.iter().flatten().map(|(tile, _)| *tile);
         lit.take(if self.scale > 0.0 { usize::MAX } else { 0 })
     }
 }
 
 impl ClusterLinks {
+    /// Both ends of all links between which something stands.
+    pub(super) fn hidden(&self) -> impl Iterator<Item = (&ClusterLink, usize)> {
+        self.all.iter().filter(|link| link.hidden > 0.0).flat_map(|link| [(link, 0), (link, 1)])
+    }
+
     /// Adds what all whole tiles receive when they send so much: irradiance.
     pub(super) fn gather(&self, tiling: &Tiling<'_>, sent: &[Linear], received: &mut [Linear]) {
         for link in &self.all {
             for end in [0, 1] {
-                link.carry(&self.clusters, end, sent, |tile, power| {
+                link.carry(end, sent, |tile, power| {
                     let per = 1.0 / tiling.tiles[tile].area;
                     let scales = [per, per / SQUARE, per / SQUARE];
                     received[tile]
@@ -177,9 +179,9 @@ impl ClusterLinks {
     }
 }
 
-/// What tiles send, each by its weight.
-fn weighed(tiles: &[usize], weights: &[f64], sent: &[Linear]) -> f64 {
-    tiles.iter().zip(weights).map(|(tile, weight)| weight * sent[*tile][0]).sum()
+/// The tiles of which something is seen, with that.
+fn some(tiles: &[usize], seen: &[f64]) -> Vec<(usize, f64)> {
+    tiles.iter().copied().zip(seen.iter().copied()).filter(|(_, seen)| *seen > 0.0).collect()
 }
 
 #[cfg(test)]
@@ -221,11 +223,12 @@ mod tests {
         });
         let link = ClusterLink::measure(&tiling, &clusters, pair);
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
-        let (mut power, mut back, mut error) = (0.0, 0.0, 0.0);
+        let [mut power, mut back, mut error] = [0.0f64; 3];
         if let Some(link) = link {
-            link.carry(&clusters, 0, &even, |_, received| power += received[0]);
-            link.carry(&clusters, 1, &even, |_, received| back += received[0]);
-            link.errors(&clusters, 0, (&even, &vec![0.0; even.len()]), |_, wrong| error += wrong);
+            link.carry(0, &even, |_, received| power += received[0]);
+            link.carry(1, &even, |_, received| back += received[0]);
+            let seen = link.errors(0, (&even, &vec![0.0; even.len()])).map(|(_, wrong)| wrong).sum::<f64>();
+            error = seen + link.hidden();
         }
         assert!((power - back).abs() <= 1e-14 * power, "both ways alike");
         let exact = |one: usize, other: usize| {

@@ -23,8 +23,8 @@ pub(super) struct ClusterView {
     pub(super) seen: Vec<f64>,
     /// Of a single tile: the integrals over it of the kernel times its linear functions.
     pub(super) slopes: [f64; 2],
-    /// The same without what stands between the clusters, where something does.
-    pub(super) open: Option<Vec<f64>>,
+    /// What all are seen of without what stands between the clusters, where something does.
+    pub(super) open: Option<f64>,
     points: Vec<Looked>,
     /// How much of what is seen by one point is not seen by another, as a share.
     apart: f64,
@@ -159,10 +159,9 @@ impl Viewpoint {
 
 impl ClusterView {
     fn none(count: usize, is_past_others: bool) -> ClusterView {
-        let none = vec![0.0; count];
         ClusterView {
-            open: is_past_others.then(|| none.clone()),
-            seen: none,
+            open: is_past_others.then_some(0.0),
+            seen: vec![0.0; count],
             slopes: [0.0; 2],
             points: Vec::new(),
             apart: 0.0,
@@ -200,7 +199,7 @@ impl ClusterView {
     fn settle(&mut self) {
         let count = self.points.iter().filter(|point| point.all.max(point.open) > 0.0).count().max(1);
         let share = 1.0 / f64::from(u32::try_from(count).unwrap_or(1));
-        let all = self.seen.iter_mut().chain(&mut self.slopes).chain(self.open.iter_mut().flatten());
+        let all = self.seen.iter_mut().chain(&mut self.slopes).chain(&mut self.open);
         all.for_each(|factor| *factor *= share);
     }
 
@@ -223,14 +222,14 @@ impl ClusterView {
     }
 }
 
-/// Adds what each tile could be seen of were nothing before the cluster but itself: as a disk, but for what hides of one another those of the
+/// Adds what all tiles could be seen of were nothing before the cluster but itself: as a disk, but for what hides of one another those of the
 /// tiles that look largest. Gives what is seen of these, and what could be.
 fn look_past_own(
     tiling: &Tiling<'_>,
     tiles: &[usize],
     view: &Viewpoint,
     seen: &[f64],
-    open: &mut [f64],
+    open: &mut f64,
 ) -> [f64; 2] {
     let disks: Vec<f64> = tiles.iter().map(|tile| view.disk(&tiling.tiles[*tile])).collect();
     let mut largest: Vec<usize> = (0..tiles.len()).filter(|k| disks[*k] > 0.0).collect();
@@ -252,7 +251,7 @@ fn look_past_own(
     }
     let all: f64 = largest.iter().map(|k| disks[*k]).sum();
     let share = if all > 0.0 { found / all } else { 1.0 };
-    open.iter_mut().zip(disks).for_each(|(sum, disk)| *sum += share * disk);
+    *open += share * disks.iter().sum::<f64>();
     [looked_at, found]
 }
 

@@ -10,6 +10,7 @@
 //!                                  part    part
 //! ```
 use super::tiling::{Tile, Tiling};
+use super::ways::{Ways, ways};
 use crate::error::Error;
 use crate::extent::Extent;
 use glam::DVec3;
@@ -45,6 +46,8 @@ pub(super) struct Cluster {
     spread: f64,
     /// The least height of all corners along the axis.
     low: f64,
+    /// The areas of its tiles by the ways that they face.
+    pub(super) faces: Ways,
 }
 
 /// All whole tiles in a tree, halved where they lie furthest apart, and the parts of those that are cut for what is near them.
@@ -240,9 +243,14 @@ impl Cluster {
         normals.dedup();
         let axis = all().map(|tile| tile.normal).sum::<DVec3>().normalize_or_zero();
         let spread = all().map(|tile| (1.0 - axis.dot(tile.normal)).max(0.0)).fold(0.0, f64::max);
+        let faces = all().fold([0.0; 6], |mut sums, tile| {
+            sums.iter_mut().zip(ways(tile.normal)).for_each(|(sum, part)| *sum += tile.area * part);
+            sums
+        });
         Cluster {
             members,
             halves: None,
+            faces,
             normals,
             extent,
             centre,

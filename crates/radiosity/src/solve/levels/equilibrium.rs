@@ -259,7 +259,7 @@ fn rooms(
         groups.join(one, other);
     }
     for link in &clusters.all {
-        let mut lit = link.lit(&clusters.clusters);
+        let mut lit = link.lit();
         if let Some(first) = lit.next() {
             lit.for_each(|tile| groups.join(first, tile));
         }

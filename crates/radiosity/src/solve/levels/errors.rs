@@ -1,8 +1,10 @@
 //! What every tile may be wrong by, before any of it is reflected.
 use super::budget::BandLight;
 use super::cluster_links::ClusterLinks;
+use super::hidden::HiddenLight;
 use super::link::Link;
 use super::tiling::Tiling;
+use super::ways::{Ways, dot, ways};
 
 /// Errors add up as this power of them does: between those of one sign, of which it is the first, and independent ones, of which it is the
 /// second. So are those of the rooms of seven kinds of which the benchmarks tell.
@@ -38,10 +40,31 @@ pub(super) fn own_errors(
         own.of_roots[root] += of_root;
         own.of_links[root] += if error > 0.0 { of_root * of_link / error } else { 0.0 };
     });
+    for (tile, error) in hidden(tiling, clusters, light) {
+        let root = root_of[tile];
+        let of_root = error * (area(tile) / area(root)).powf(EXPONENT);
+        own.of_tiles[tile] += error;
+        own.of_roots[root] += of_root;
+        own.of_links[root] += of_root;
+    }
     for tile in 0..own.of_tiles.len() {
         own.of_tiles[tile] += tiling.tiles[tile].parent.map_or(0.0, |parent| own.of_tiles[parent]);
     }
     own
+}
+
+/// The errors of the irradiance of tiles by what is hidden between clusters, raised to the exponent.
+fn hidden(tiling: &Tiling<'_>, links: &ClusterLinks, light: &BandLight) -> Vec<(usize, f64)> {
+    let clusters = &links.clusters;
+    let sums = HiddenLight::new(tiling, clusters, &light.sent).sums(links, EXPONENT);
+    let of_cluster = |(cluster, (sums, _)): (usize, &(Ways, usize))| {
+        let of_tile = |tile: &usize| {
+            let facing = ways(tiling.tiles[*tile].normal).map(|part| part.powf(EXPONENT));
+            (*tile, dot(&facing, sums))
+        };
+        clusters.tiles(cluster).iter().map(of_tile).collect::<Vec<_>>()
+    };
+    sums.iter().enumerate().filter(|(_, (_, count))| *count > 0).flat_map(of_cluster).collect()
 }
 
 /// The errors of all that every tile receives, as powers: each with its tile, and apart from it what of a total is wrong.
@@ -54,8 +77,7 @@ fn each(
 ) {
     for link in &clusters.all {
         for end in [0, 1] {
-            let sent = (&light.sent[..], &light.deviation[..]);
-            link.errors(&clusters.clusters, end, sent, |tile, error| to(tile, error, 0.0));
+            link.errors(end, (&light.sent, &light.deviation)).for_each(|(tile, error)| to(tile, error, 0.0));
         }
     }
     for link in links {

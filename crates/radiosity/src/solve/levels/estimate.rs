@@ -15,7 +15,7 @@ const PARABOLA: f64 = 0.66;
 pub(super) fn errors<'e>(
     tiling: &'e Tiling<'e>,
     links: &[Link],
-    clusters: &'e ClusterLinks,
+    clusters: &ClusterLinks,
     lights: &'e [BandLight],
 ) -> Vec<Errors<'e>> {
     let powers = powers(clusters);
@@ -90,7 +90,7 @@ pub(super) fn causes(tiling: &Tiling<'_>, errors: &[Errors<'_>], plates: &[usize
 pub(super) struct Errors<'e> {
     tiling: &'e Tiling<'e>,
     light: &'e BandLight,
-    reflections: Reflections<'e>,
+    reflections: Reflections,
     own: OwnErrors,
     /// Of whole tiles, raised to the exponent.
     all: Vec<f64>,
@@ -100,10 +100,10 @@ impl<'e> Errors<'e> {
     fn of(
         tiling: &'e Tiling<'e>,
         links: &[Link],
-        (clusters, powers): (&'e ClusterLinks, Powers),
+        (clusters, powers): (&ClusterLinks, Powers),
         light: &'e BandLight,
     ) -> Errors<'e> {
-        let reflections = Reflections::new(tiling, links, (clusters, powers), light);
+        let reflections = Reflections::new(tiling, links, powers, light);
         let own = own_errors(tiling, links, clusters, light, &reflections.root_of);
         let all = reflections.all(&own.of_roots);
         Errors { tiling, light, reflections, own, all }

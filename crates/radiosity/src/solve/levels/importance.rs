@@ -113,16 +113,18 @@ impl Exchanges<'_> {
     }
 
     /// What the patches at the other end send, and what share of it each of this one receives, of its light: multiplied they are shares.
-    fn sent(&self, link: &ClusterLink, end: usize) -> impl Iterator<Item = (usize, f64)> {
-        let seen = link.seen(&self.clusters.clusters, 1 - end);
+    fn sent<'l>(&'l self, link: &'l ClusterLink, end: usize) -> impl Iterator<Item = (usize, f64)> {
         let scale = link.scale();
-        seen.map(move |(tile, seen)| {
-            (self.tiling.tiles[tile].patch, scale * seen * self.light.reflected[tile])
-        })
+        let sent = move |(tile, seen): &(usize, f64)| {
+            (self.tiling.tiles[*tile].patch, scale * seen * self.light.reflected[*tile])
+        };
+        link.seen(1 - end).iter().map(sent)
     }
 
-    fn received(&self, link: &ClusterLink, end: usize) -> impl Iterator<Item = (usize, f64)> {
-        link.seen(&self.clusters.clusters, end)
-            .map(|(tile, seen)| (self.tiling.tiles[tile].patch, share(seen, self.light.unit[tile])))
+    fn received<'l>(&'l self, link: &'l ClusterLink, end: usize) -> impl Iterator<Item = (usize, f64)> {
+        let received = |(tile, seen): &(usize, f64)| {
+            (self.tiling.tiles[*tile].patch, share(*seen, self.light.unit[*tile]))
+        };
+        link.seen(end).iter().map(received)
     }
 }

@@ -26,6 +26,7 @@
 //! equilibrium   what all leaves exchange, made to close
 //! roots         what ΣF of every leaf is to be
 //! flow          light up the tree, across the links, and down
+//! hidden        what may be wrong between clusters where something stands in between
 //! cluster_links light between tiles that are far from each other
 //! cluster_views what clusters see of each other
 //! clusters      the tree of whole tiles, and of their parts where these are linked with clusters
@@ -37,6 +38,7 @@
 //! screen        what hides all of one from the other
 //! shaft         what can stand between two tiles
 //! tiling        the tree
+//! ways          six ways that tiles face
 //! boxes         a tree of the boxes around polygons
 //! tile          a convex polygon, its linear functions and its points
 //! members       the patches that plates are made of, on the tiles of these
@@ -50,6 +52,7 @@ mod allowance;
 mod borders;
 mod boxes;
 mod budget;
+mod cluster_budget;
 mod cluster_links;
 mod cluster_views;
 mod clusters;
@@ -60,6 +63,7 @@ mod errors;
 mod estimate;
 mod flow;
 mod gradients;
+mod hidden;
 mod importance;
 mod in_view;
 mod link;
@@ -86,3 +90,4 @@ mod tiling;
 mod totals;
 pub(super) mod transfer;
 mod vertices;
+mod ways;

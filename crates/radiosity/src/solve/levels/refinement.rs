@@ -1,5 +1,6 @@
 //! Refining links whose errors exceed the budgets of their patches.
-use super::budget::{BandLight, cut, is_beyond, limits, uneven};
+use super::budget::{BandLight, cut, limits, uneven};
+use super::cluster_budget::{ClusterLimits, cluster_errors};
 use super::cluster_links::ClusterLink;
 use super::clusters::{Cluster, Clusters, Cut, Pairs};
 use super::link::{Candidate, Link};
@@ -47,7 +48,8 @@ impl Levels<'_> {
         shares: &[f64],
         state: &mut State,
     ) -> Result<Option<usize>, Error> {
-        let limits = limits(&self.tiling, &self.links.all, &self.links.clusters, lights, shares);
+        let far = cluster_errors(&self.tiling, &self.links.clusters, lights);
+        let limits = limits(&self.tiling, &self.links.all, far, lights, shares);
         let mut refined = 0;
         for leaf in uneven(&self.tiling, lights, &limits) {
             refined += usize::from(self.cut_tile(leaf, self.direct.axis(leaf))?.is_some());
@@ -86,9 +88,8 @@ impl Levels<'_> {
         let (mut kept, mut near) = (Vec::with_capacity(open.len()), Vec::new());
         while !open.is_empty() {
             lights.iter_mut().for_each(|light| light.grow(&self.tiling));
-            let clusters = &self.links.clusters.clusters;
-            let beyond: Vec<bool> =
-                open.par_iter().map(|link| is_beyond(&self.tiling, clusters, link, lights, limits)).collect();
+            let allowed = ClusterLimits::new(&self.tiling, &self.links.clusters.clusters, lights, limits);
+            let beyond: Vec<bool> = open.par_iter().map(|link| allowed.is_beyond(link)).collect();
             let mut pairs = self.with_clusters(|clusters, cut| {
                 let mut pairs = Pairs::default();
                 for (link, is_beyond) in open.into_iter().zip(beyond) {

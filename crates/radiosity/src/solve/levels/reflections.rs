@@ -19,7 +19,7 @@ const MOST: usize = 60;
 const SETTLED: f64 = 1e-4;
 
 /// See [`ClusterLink::powers`](super::cluster_links::ClusterLink::powers): the same in all bands.
-pub(super) type Powers = Arc<[[Vec<f64>; 2]]>;
+pub(super) type Powers = Arc<[[Vec<(usize, f64)>; 2]]>;
 
 /// What of the errors of tiles links of clusters carry.
 pub(super) fn powers(clusters: &ClusterLinks) -> Powers {
@@ -28,8 +28,7 @@ pub(super) fn powers(clusters: &ClusterLinks) -> Powers {
 
 /// What of an error at one whole tile comes to another, as the light of the band is.
 #[derive(Debug)]
-pub(super) struct Reflections<'r> {
-    clusters: &'r ClusterLinks,
+pub(super) struct Reflections {
     /// The whole tile that each tile is a part of.
     pub(super) root_of: Vec<usize>,
     /// Pairs, and what each carries to the one and to the other.
@@ -40,13 +39,8 @@ pub(super) struct Reflections<'r> {
     per: Vec<f64>,
 }
 
-impl<'r> Reflections<'r> {
-    pub(super) fn new(
-        tiling: &Tiling<'_>,
-        links: &[Link],
-        (clusters, powers): (&'r ClusterLinks, Powers),
-        light: &BandLight,
-    ) -> Reflections<'r> {
+impl Reflections {
+    pub(super) fn new(tiling: &Tiling<'_>, links: &[Link], powers: Powers, light: &BandLight) -> Reflections {
         let root_of = tiling.roots();
         let rates: Vec<f64> =
             tiling.tiles.iter().map(|tile| tile.reflectance[light.band].powf(EXPONENT)).collect();
@@ -58,7 +52,7 @@ impl<'r> Reflections<'r> {
                 ([one, other], [carried(one, other, here), carried(other, one, there)])
             })
             .collect();
-        Reflections { clusters, root_of, pairs, powers, rates, per }
+        Reflections { root_of, pairs, powers, rates, per }
     }
 
     /// What is there at once with what comes of it by reflection.
@@ -96,13 +90,11 @@ impl<'r> Reflections<'r> {
 
     /// Adds what the links of clusters carry.
     fn far(&self, all: &[f64], next: &mut [f64], [from, to]: [&[f64]; 2]) {
-        for (link, powers) in self.clusters.all.iter().zip(self.powers.iter()) {
-            for end in [0, 1] {
-                let tiles =
-                    |end: usize| self.clusters.clusters.tiles(link.ends[end]).iter().zip(&powers[end]);
-                let brings: f64 =
-                    tiles(1 - end).map(|(&tile, power)| power * from[tile] * all[self.root_of[tile]]).sum();
-                tiles(end).for_each(|(&tile, power)| next[self.root_of[tile]] += brings * power * to[tile]);
+        for [one, other] in self.powers.iter() {
+            for (here, there) in [(one, other), (other, one)] {
+                let sent = |&(tile, power): &(usize, f64)| power * from[tile] * all[self.root_of[tile]];
+                let brings: f64 = there.iter().map(sent).sum();
+                here.iter().for_each(|&(tile, power)| next[self.root_of[tile]] += brings * power * to[tile]);
             }
         }
     }
@@ -168,7 +160,6 @@ mod tests {
             root_of: tiling.roots(),
             pairs: vec![([0, 2], [0.3, 0.1]), ([1, 3], [0.05, 0.4]), ([0, 3], [0.2, 0.0])],
             powers: powers(&clusters),
-            clusters: &clusters,
             rates: vec![0.2, 0.5, 0.7, 0.9],
             per: vec![1.0, 2.0, 0.5, 1.5],
         };

@@ -36,9 +36,7 @@ pub(super) fn tally(tiling: &Tiling<'_>, links: &Links) -> Transfers {
 fn by_clusters(tiling: &Tiling<'_>, links: &ClusterLinks) -> usize {
     let root_of = tiling.roots();
     let share = |tile: usize| tiling.tiles[tile].area / tiling.tiles[root_of[tile]].area;
-    let count = |link: &ClusterLink, end: usize| -> f64 {
-        let seen = link.seen(&links.clusters, end).filter(|(_, seen)| *seen > 0.0);
-        seen.map(|(tile, _)| share(tile)).sum()
-    };
+    let count =
+        |link: &ClusterLink, end: usize| -> f64 { link.seen(end).iter().map(|(tile, _)| share(*tile)).sum() };
     links.all.iter().map(|link| count(link, 0) * count(link, 1)).sum::<f64>().round() as usize
 }
