@@ -106,9 +106,9 @@ impl PolarPlane {
         let step = (high - low) / count;
         let rule =
             RULES.iter().find(|(longest, _)| step.abs() <= *longest).map_or(&RULE_6[..], |(_, rule)| rule);
-        let at = |stretch: usize| {
+        let at = |stretch: f64| {
             let of_node = move |[node, weight]: &[f64; 2]| {
-                let sinh = (low + step * (stretch as f64 + node)).sinh();
+                let sinh = (low + step * (stretch + node)).sinh();
                 let (place, speed) = (clear * sinh, clear * sinh.hypot(1.0));
                 let radius = across.hypot(place);
                 let toward = (away * across + along * place) / radius;
@@ -117,7 +117,7 @@ impl PolarPlane {
             };
             rule.iter().map(of_node).sum::<DVec2>()
         };
-        (0..count as usize).map(at).sum()
+        (0_u32..).map(f64::from).take_while(|stretch| *stretch < count).map(at).sum()
     }
 
     /// a J2 + h w J3.

@@ -1,8 +1,10 @@
 //! What clusters see of each other, from points of one to all tiles of the other.
-use super::clusters::Clusters;
+use super::clusters::{Cluster, Clusters};
+use super::shadow::Shadow;
 use super::tiling::{Tile, Tiling};
-use formfactor::{Blockers, DifferentialArea};
+use formfactor::{Blockers, DifferentialArea, PlanarPolygon};
 use glam::DVec3;
+use std::collections::VecDeque;
 use std::f64::consts::PI;
 
 /// Tiles that are seen at less than this cosine are seen as if they were at that.
@@ -11,6 +13,10 @@ const GRAZING: f64 = 0.05;
 pub(super) const ROUGH: f64 = 1e-3;
 /// So many tiles of a cluster tell how much its tiles hide of each other.
 const LOOKED_AT: usize = 8;
+/// So many of the polygons that hide a tile have shadows of their own.
+const TRIED: usize = 3;
+/// So many shadows are tried on the next tiles.
+const REMEMBERED: usize = 8;
 /// Points look from this share of the radius above all of their cluster.
 const ABOVE: f64 = 1e-6;
 /// What reaches above a plane by less than this share of the distance does not.
@@ -47,6 +53,29 @@ struct Viewpoint {
     within: f64,
 }
 
+/// What hid tiles before.
+#[derive(Debug, Default)]
+struct Hiding {
+    /// All of the latest.
+    latest: Blockers,
+    /// Those of polygons that hid the last few.
+    shadows: VecDeque<Shadow>,
+}
+
+impl Hiding {
+    fn add(&mut self, tiling: &Tiling<'_>, from: &DifferentialArea, found: Blockers) {
+        let polygons = tiling.enclosure.polygons();
+        let hiding: Vec<&PlanarPolygon> = found.ids().iter().map(|id| &polygons[*id]).collect();
+        for first in 0..hiding.len().min(TRIED) {
+            if let Some(shadow) = Shadow::of(&hiding[first..], from) {
+                self.shadows.truncate(REMEMBERED - 1);
+                self.shadows.push_front(shadow);
+            }
+        }
+        self.latest = found;
+    }
+}
+
 /// What each of two clusters is seen of from the other; nothing where one does not face the other.
 ///
 /// The first point of each is at its largest tile, the second at the largest of which the first of the other has seen nothing.
@@ -63,7 +92,7 @@ pub(super) fn views(
         let points = [0, 1].map(|k| viewpoint(tiling, clusters, ways[k], turn, &views[k].seen));
         for k in [0, 1] {
             if let Some(point) = points[k] {
-                views[1 - k].look(tiling, clusters.tiles(ends[1 - k]), &point);
+                views[1 - k].look(tiling, clusters, ends[1 - k], &point);
             } else if turn == 0 {
                 return None;
             }
@@ -131,19 +160,43 @@ impl Viewpoint {
         if is_before { spread * tile.area * cosine / (PI * square + tile.area) } else { 0.0 }
     }
 
+    /// The form factors to all tiles of a cluster, in their order: parts of it that one polygon hides are not looked at tile by tile.
+    fn factors(&self, tiling: &Tiling<'_>, clusters: &Clusters, cluster: usize) -> Vec<f64> {
+        let mut found = Vec::with_capacity(clusters.tiles(cluster).len());
+        let (mut hiding, mut open) = (Hiding::default(), vec![cluster]);
+        while let Some(index) = open.pop() {
+            let part = &clusters.all[index];
+            let tiles = clusters.tiles(index);
+            if !self.may_see(part) || hiding.shadows.iter().any(|shadow| shadow.holds(&part.extent)) {
+                found.resize(found.len() + tiles.len(), 0.0);
+            } else if let (Some([one, other]), true) = (part.halves, tiles.len() > 1) {
+                open.extend([other, one]);
+            } else {
+                found.extend(tiles.iter().map(|tile| self.factor(tiling, &tiling.tiles[*tile], &mut hiding)));
+            }
+        }
+        found
+    }
+
+    /// Whether a part of a cluster may be above the horizon, and face the point.
+    fn may_see(&self, part: &Cluster) -> bool {
+        let way = part.centre - self.from.position();
+        self.from.normal().dot(way) > -part.radius && part.may_face(way)
+    }
+
     /// The form factor to a tile. What hid all of the one before may hide all of this.
-    fn factor(&self, tiling: &Tiling<'_>, tile: &Tile, blockers: &mut Blockers) -> f64 {
+    fn factor(&self, tiling: &Tiling<'_>, tile: &Tile, hiding: &mut Hiding) -> f64 {
         let (from, surface, polygon, within) = (&self.from, tile.surface, &tile.polygon, self.within);
-        let is_known = !blockers.ids().is_empty();
+        let is_known = !hiding.latest.ids().is_empty();
         let behind = |blockers: &Blockers| {
             tiling.enclosure.form_factor_behind(from, surface, polygon, blockers, within).0.value
         };
-        if is_known && behind(blockers) == 0.0 {
+        if is_known && behind(&hiding.latest) == 0.0 {
             return 0.0;
         }
         let (factor, found) = tiling.enclosure.form_factor_and_blockers(from, surface, polygon, within);
         if factor.value == 0.0 {
-            *blockers = found;
+            hiding.add(tiling, from, found);
         }
         factor.value
     }
@@ -169,21 +222,21 @@ impl ClusterView {
     }
 
     /// Adds what a point sees.
-    fn look(&mut self, tiling: &Tiling<'_>, tiles: &[usize], view: &Viewpoint) {
-        let mut found = Vec::with_capacity(tiles.len());
+    fn look(&mut self, tiling: &Tiling<'_>, clusters: &Clusters, cluster: usize, view: &Viewpoint) {
+        let tiles = clusters.tiles(cluster);
+        let mut found = view.factors(tiling, clusters, cluster);
         let [mut common, mut all] = [0.0; 2];
-        let mut blockers = Blockers::default();
-        for (k, tile) in tiles.iter().map(|tile| &tiling.tiles[*tile]).enumerate() {
-            let weight = view.weight(tile);
-            let seen = weight * view.factor(tiling, tile, &mut blockers);
-            if tiles.len() == 1 && seen > 0.0 {
+        for (k, factor) in found.iter_mut().enumerate().filter(|(_, factor)| **factor > 0.0) {
+            let tile = &tiling.tiles[tiles[k]];
+            *factor *= view.weight(tile);
+            let seen = *factor;
+            if tiles.len() == 1 {
                 let slopes = slopes(tiling, tile, view);
                 self.slopes.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += seen * slope);
             }
             common += seen.min(self.seen[k]);
             self.seen[k] += seen;
             all += seen;
-            found.push(seen);
         }
         let before: f64 = self.points.iter().map(|point| point.all).sum();
         let least = before.min(all);

@@ -22,6 +22,8 @@ const NEAR: f64 = 0.15;
 const REACH: f64 = 0.6;
 /// … or so much where it is a tile of many patches, each of which is told its light.
 const REACH_OF_MANY: f64 = 0.3;
+/// Of clusters with more normals it is not asked whether all turn away.
+const NORMALS: usize = 8;
 /// Clusters of so few tiles are halved before a larger tile is cut for them.
 const FEW: usize = 8;
 /// Normals that differ by less than this from the axis of their cone are along it.
@@ -266,6 +268,11 @@ impl Cluster {
     fn looks_at(&self, place: DVec3) -> bool {
         let way = (place - self.centre).normalize_or_zero();
         self.normals.iter().any(|normal| normal.dot(way) > 0.0)
+    }
+
+    /// Whether some tile of it may face where a way to its centre comes from.
+    pub(super) fn may_face(&self, way: DVec3) -> bool {
+        self.normals.len() > NORMALS || self.normals.iter().any(|normal| normal.dot(way) < self.radius)
     }
 
     /// Whether some tile of it may have a part of another cluster before it.

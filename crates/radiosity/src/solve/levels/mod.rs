@@ -36,6 +36,7 @@
 //! look          what points see of tiles
 //! transfer      the numbers of that
 //! screen        what hides all of one from the other
+//! shadow        what one polygon hides from a point
 //! shaft         what can stand between two tiles
 //! tiling        the tree
 //! ways          six ways that tiles face
@@ -82,6 +83,7 @@ mod roots;
 pub(super) mod rounds;
 mod run;
 mod screen;
+mod shadow;
 mod shaft;
 mod stand;
 mod tally;

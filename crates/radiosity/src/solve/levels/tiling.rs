@@ -20,6 +20,8 @@ use std::{f64::consts::PI, sync::Arc};
 const WIDE: f64 = 100.0;
 /// Edges of other patches are contacts within this share of that.
 const NEAR: f64 = 1e-9;
+/// What is beside an outline by less than this share of its size may be on its rim.
+const RIM: f64 = 1e-6;
 /// Tiles that reach less than this share of that are not cut.
 const LEAST: f64 = 1e-4;
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
@@ -59,6 +61,8 @@ struct Base {
     /// What lengths on it are small beside.
     scale: f64,
     contacts: Vec<[DVec2; 2]>,
+    /// The boxes around them, in the frame.
+    contact_boxes: Boxes,
 }
 
 /// The tiles of a scene; children come after their parents.
@@ -100,11 +104,10 @@ impl<'s> Tiling<'s> {
             let scale = size.min(WIDE * (high - low).length());
             // A thousandth of this is near.
             let lines = neighbourhood.contacts(patch, 1e3 * NEAR * scale);
-            Base {
-                frame,
-                scale,
-                contacts: lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect(),
-            }
+            let contacts: Vec<[DVec2; 2]> =
+                lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
+            let boxes: Vec<Extent> = contacts.iter().map(|line| flat_box(line.iter().copied())).collect();
+            Base { frame, scale, contacts, contact_boxes: Boxes::around(&boxes) }
         };
         let around: Vec<Extent> = polygons.iter().map(Extent::around).collect();
         let mut tiling = Tiling {
@@ -280,7 +283,11 @@ impl<'s> Tiling<'s> {
 
     /// The contact of which most is inside an outline.
     fn contact_in(&self, patch: usize, outline: &Outline) -> Option<[DVec2; 2]> {
-        let inside = self.bases[patch].contacts.iter().map(|line| (outline.within(*line), line));
+        let Base { contacts, contact_boxes, .. } = &self.bases[patch];
+        let around = flat_box(outline.corners.iter().map(|(flat, _)| *flat));
+        let near = contact_boxes.find(|extent| !extent.is_near(&around, RIM * around.diagonal()));
+        let inside =
+            near.iter().map(|line| &contacts[*line as usize]).map(|line| (outline.within(*line), line));
         let longest = inside.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
         (longest.0 > 1e-4 * outline.axes[0].length()).then_some(*longest.1)
     }
@@ -345,6 +352,11 @@ impl<'s> Tiling<'s> {
     pub(super) fn leaves(&self) -> impl Iterator<Item = usize> {
         (0..self.tiles.len()).filter(|&tile| self.tiles[tile].halves.is_none())
     }
+}
+
+/// The box around places in a frame.
+fn flat_box(places: impl Iterator<Item = DVec2>) -> Extent {
+    Extent::of_points(places.map(|flat| flat.extend(0.0)))
 }
 
 /// A power of two near the largest radiosity that is emitted, or what lights bring.
