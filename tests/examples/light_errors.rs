@@ -14,7 +14,7 @@ use radiosity::{Method, Options, Patch, Quality, Scene, Solution, solve};
 use std::error::Error;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::time::{SystemTime, UNIX_EPOCH};
+use tests::cpu_time::cpu_seconds;
 use tests::light::{Estimate, KINDS, Surface, mean_irradiance, room};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -60,17 +60,6 @@ fn method(name: &str) -> Result<Method, String> {
         "mesh" => Ok(Method::Mesh),
         "hierarchical" => Ok(Method::Hierarchical),
         other => Err(format!("{other}: no method")),
-    }
-}
-
-/// The seconds that all threads of this process have computed; on other systems than Linux those since 1970.
-fn cpu_seconds() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let ticks = |field: &str| field.parse::<f64>().ok();
-    let fields = || stat.rsplit(')').next().unwrap_or_default().split_whitespace();
-    match (fields().nth(11).and_then(ticks), fields().nth(12).and_then(ticks)) {
-        (Some(user), Some(system)) => (user + system) / 100.0,
-        _ => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64()),
     }
 }
 

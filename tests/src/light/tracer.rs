@@ -1,6 +1,6 @@
 //! Path tracing: lamps and directions are both sampled, weighed by the balance heuristic [Veach and Guibas 1995], so that no sample is
 //! much larger than the mean, next to a lamp either.
-use super::{Bands, Surface, surface::Plane};
+use super::{Bands, Surface, boxes::Boxes, surface::Plane};
 use crate::random::Random;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -41,6 +41,7 @@ pub fn mean_irradiance(surfaces: &[Surface], of: usize, paths: u32, seed: u64) -
 struct Tracer<'s> {
     surfaces: &'s [Surface],
     planes: Vec<Plane>,
+    boxes: Boxes,
     /// The lamps, each with the sum of the powers up to it, all together 1.
     lamps: Vec<(usize, f64)>,
     /// Per surface, how probable it is as a lamp, over its area.
@@ -63,15 +64,15 @@ impl<'s> Tracer<'s> {
         let density = (0..surfaces.len()).map(|i| power(i) / all / planes[i].area).collect();
         let size =
             surfaces.iter().flat_map(|s| s.loops.iter().flatten()).map(|p| p.length()).fold(0.0, f64::max);
-        Self { surfaces, planes, lamps, density, least: 1e-9 * size }
+        Self { boxes: Boxes::around(surfaces), surfaces, planes, lamps, density, least: 1e-9 * size }
     }
 
     /// The first surface on a ray of unit direction, and how far it is.
     fn hit(&self, from: DVec3, direction: DVec3, own: usize) -> Option<(usize, f64)> {
-        let others = (0..self.planes.len()).filter(|other| *other != own);
+        let others = self.boxes.along(from, direction).filter(|other| *other != own);
         let met =
             others.filter_map(|other| Some((other, self.planes[other].meets(from, direction, self.least)?)));
-        met.min_by(|a, b| a.1.total_cmp(&b.1))
+        met.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
     /// A sample of the irradiance of a point.

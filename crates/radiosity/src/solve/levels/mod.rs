@@ -21,7 +21,8 @@
 //! errors        what every tile is wrong by before that
 //! tally         how many links of each kind there are
 //! direct        what lights without surfaces bring to the leaves
-//! budget        the errors of links, and which are too large
+//! cluster_budget the errors of links of clusters, and which of these are too large
+//! budget        the same of tiles
 //! gradients     the light of all leaves at once, by conjugate gradients
 //! equilibrium   what all leaves exchange, made to close
 //! roots         what ΣF of every leaf is to be

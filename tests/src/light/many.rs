@@ -1,0 +1,71 @@
+//! Scenes of many surfaces: a town, and a room of tiles.
+use super::Surface;
+use crate::random::Random;
+use glam::{DMat3, DVec3};
+
+const STREET: f64 = 3.0;
+
+fn surface(name: String, corners: [DVec3; 4], reflectance: f64, radiance: f64) -> Surface {
+    Surface { name, loops: vec![corners.to_vec()], reflectance: [reflectance; 3], radiance: [radiance; 3] }
+}
+
+/// Turned houses of any size on one ground, so many along its sides, under a lamp above its middle.
+pub fn town(side: usize, seed: u64) -> Vec<Surface> {
+    let mut random = Random::new(seed);
+    let end = STREET * side as f64;
+    let level = |low: f64, high: f64, z: f64| {
+        [[low, low], [high, low], [high, high], [low, high]].map(|[x, y]| DVec3::new(x, y, z))
+    };
+    let mut all = vec![surface("ground".into(), level(0.0, end, 0.0), 0.4, 0.0)];
+    let mut above = level(0.3 * end, 0.5 * end, 0.8 * end);
+    above.reverse();
+    all.push(surface("lamp".into(), above, 0.0, 10.0));
+    for house in 0..side * side {
+        let middle = STREET * DVec3::new((house % side) as f64 + 0.5, (house / side) as f64 + 0.5, 0.0);
+        let turn = DMat3::from_rotation_z(random.range(-0.5, 0.5));
+        let [a, b] = [0, 1].map(|_| random.range(0.4, 0.9));
+        let base = [[-a, -b], [a, -b], [a, b], [-a, b]].map(|[x, y]| middle + turn * DVec3::new(x, y, 0.0));
+        let rise = DVec3::new(0.0, 0.0, random.range(0.5, 4.0));
+        let reflectance = random.range(0.2, 0.7);
+        for side in 0..4 {
+            let [p, q] = [base[side], base[(side + 1) % 4]];
+            all.push(surface(format!("wall-{house}-{side}"), [p, q, q + rise, p + rise], reflectance, 0.0));
+        }
+        all.push(surface(format!("roof-{house}"), base.map(|p| p + rise), reflectance, 0.0));
+    }
+    all
+}
+
+/// A room whose six sides are tiles, one of them a lamp, with boxes that cover whole tiles of the floor, or parts of them.
+pub fn tiled_room() -> Vec<Surface> {
+    let walls = [
+        [DVec3::X, DVec3::Y],
+        [DVec3::Y, DVec3::X],
+        [DVec3::Z, DVec3::X],
+        [DVec3::X, DVec3::Z],
+        [DVec3::Y, DVec3::Z],
+        [DVec3::Z, DVec3::Y],
+    ];
+    let mut all = Vec::new();
+    for (wall, [u, v]) in walls.into_iter().enumerate() {
+        let corner = 3.0 * (DVec3::ONE - u.cross(v) - u - v);
+        for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (f64::from(i), f64::from(j)))) {
+            let tile = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            let corners = tile.map(|[x, y]| corner + (i + x) * u + (j + y) * v);
+            let radiance = if wall == 1 && [i, j] == [2.0, 3.0] { 20.0 } else { 0.0 };
+            all.push(surface(format!("tile-{wall}-{i}-{j}"), corners, 0.5, radiance));
+        }
+    }
+    for (index, [low, size]) in [[1.0, 1.0], [4.0, 1.0], [2.3, 0.6], [4.4, 1.4]].into_iter().enumerate() {
+        let low = DVec3::new(low, [1.0, 4.0, 3.1, 0.5][index], 0.0);
+        let base =
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| low + size * DVec3::new(x, y, 0.0));
+        let rise = DVec3::new(0.0, 0.0, 1.0 + size);
+        for side in 0..4 {
+            let [p, q] = [base[side], base[(side + 1) % 4]];
+            all.push(surface(format!("side-{index}-{side}"), [p, q, q + rise, p + rise], 0.5, 0.0));
+        }
+        all.push(surface(format!("top-{index}"), base.map(|p| p + rise), 0.5, 0.0));
+    }
+    all
+}
