@@ -10,7 +10,7 @@
 //!                                  part    part
 //! ```
 use super::tiling::{Tile, Tiling};
-use super::ways::{Ways, ways};
+use super::ways::{Ways, dot, ways};
 use crate::error::Error;
 use crate::extent::Extent;
 use glam::DVec3;
@@ -219,6 +219,16 @@ impl Clusters {
         (reach * reach).min(1.0)
     }
 
+    /// Where the plane of a flat one of two passes through the other, a bound on what they exchange, for a radiosity of 1: points on the two sides
+    /// of that plane see all and nothing of it.
+    pub(super) fn crossing(&self, [one, other]: [usize; 2]) -> Option<f64> {
+        let bound = |one: usize, other: usize| {
+            let rise = self.all[one].rise_through(&self.all[other])?;
+            Some(self.all[one].area() * self.fill(one, other) * rise)
+        };
+        [bound(one, other), bound(other, one)].into_iter().flatten().reduce(f64::min)
+    }
+
     /// Whether some tile of one may be before some tile of the other, and the other way round, as far as normals and boxes tell.
     fn faces(&self, [one, other]: [usize; 2]) -> bool {
         let [one, other] = [&self.all[one], &self.all[other]];
@@ -273,6 +283,20 @@ impl Cluster {
     /// Whether some tile of it may face where a way to its centre comes from.
     pub(super) fn may_face(&self, way: DVec3) -> bool {
         self.normals.len() > NORMALS || self.normals.iter().any(|normal| normal.dot(way) < self.radius)
+    }
+
+    /// Of a flat cluster the area.
+    fn area(&self) -> f64 {
+        dot(&ways(self.axis), &self.faces)
+    }
+
+    /// Of a flat cluster whose plane passes through another one, the largest cosine between its normal and ways to that.
+    fn rise_through(&self, other: &Cluster) -> Option<f64> {
+        let corners = other.extent.corners();
+        let height = |place: &DVec3| self.axis.dot(*place) - self.low;
+        let is_through = corners.iter().any(|place| height(place) < -LOW * place.distance(self.centre));
+        let rise = |place: &DVec3| (height(place) / place.distance(self.centre)).clamp(0.0, 1.0);
+        (self.spread == 0.0 && is_through).then(|| corners.iter().map(rise).fold(0.0, f64::max))
     }
 
     /// Whether some tile of it may have a part of another cluster before it.
