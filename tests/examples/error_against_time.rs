@@ -7,14 +7,15 @@
 //! A scene is a built-in one, a kind of room, or `town-SIDE` of so many houses along each side. At most 60 faces are compared, at equal distances
 //! in the scene's order, each by so many paths. Errors are in shares of a face's own mean or, where that is more, 1 % of the mean of those faces;
 //! three standard errors of the path tracer are taken off.
-use radiosity::formfactor::PlanarPolygon;
-use radiosity::io::collada::Collada;
-use radiosity::scenes::write_scene;
-use radiosity::{Method, Options, Patch, Quality, Scene, Solution, solve};
+mod beside_paths;
+mod traced;
+
+use beside_paths::{errors, root_mean_square, scene};
+use cpu_time::ProcessTime;
+use radiosity::{Method, Options, Quality, Solution, scenes, solve};
 use std::error::Error;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
-use tests::cpu_time::cpu_seconds;
 use tests::light::{Estimate, KINDS, Surface, mean_irradiance, room, town};
 
 const FACES: usize = 60;
@@ -38,9 +39,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let traced = |of: &usize| mean_irradiance(&surfaces, *of, paths, *of as u64);
         let references: Vec<[Estimate; 3]> = faces.iter().map(traced).collect();
         for (run, options) in runs() {
-            let start = cpu_seconds();
+            let start = ProcessTime::now();
             let solution = solve(&scene(&surfaces)?, &options, |_| ControlFlow::Continue(()))?;
-            let (seconds, row) = (cpu_seconds() - start, row(&faces, surfaces.len(), &solution, &references));
+            let (seconds, row) =
+                (start.elapsed().as_secs_f64(), row(&faces, surfaces.len(), &solution, &references));
             writeln!(out, "| {name} | {} | {run} | {row} | {seconds:.1} |", surfaces.len())?;
         }
     }
@@ -67,44 +69,17 @@ fn surfaces(name: &str) -> Result<Vec<Surface>, Box<dyn Error>> {
     if let Some(side) = name.strip_prefix("town-") {
         return Ok(town(side.parse()?, 0));
     }
-    let text = write_scene(name).ok_or_else(|| format!("{name}: no scene"))?;
-    let surface = |patch: Patch| Surface {
-        name: patch.name.clone(),
-        loops: patch.polygon.loops().map(<[_]>::to_vec).collect(),
-        reflectance: [0, 1, 2].map(|band| patch.reflectance[band]),
-        radiance: [0, 1, 2].map(|band| patch.emission[band]),
-    };
-    Ok(Collada::from_text(name, text).scene()?.patches.into_iter().map(surface).collect())
+    let scene = scenes::scene(name).ok_or_else(|| format!("{name}: no scene"))?;
+    Ok(traced::surfaces(&scene))
 }
 
-fn scene(surfaces: &[Surface]) -> Result<Scene, radiosity::formfactor::Error> {
-    let patch = |surface: &Surface| {
-        let polygon = PlanarPolygon::new(&surface.loops)?;
-        Ok(Patch::new(&surface.name, polygon, surface.reflectance.to_vec(), surface.radiance.to_vec()))
-    };
-    let patches = surfaces.iter().map(patch).collect::<Result<_, _>>()?;
-    Ok(Scene { patches, bands: 3, ..Scene::default() })
-}
-
-/// The worst and the root mean square of the errors of some faces in all bands, and how many of their estimates are below what is certain of these.
+/// The worst and the root mean square of the errors of some faces in all bands, and how many of their estimates are too low.
 fn row(faces: &[usize], patches: usize, solution: &Solution, references: &[[Estimate; 3]]) -> String {
-    let means = solution.patch_means(&solution.irradiance, patches);
-    let (mut errors, mut too_low) = (Vec::new(), 0);
-    for band in 0..3 {
-        let mean = references.iter().map(|face| face[band].mean).sum::<f64>() / faces.len() as f64;
-        for (face, reference) in faces.iter().zip(references) {
-            let Estimate { mean: traced, error } = reference[band];
-            let off = ((means[*face][band] - traced).abs() - 3.0 * error).max(0.0);
-            let is_low = solution.estimate.is_some() && off > solution.patch_estimate(*face)[band];
-            too_low += usize::from(is_low);
-            errors.push(off / traced.max(0.01 * mean));
-        }
-    }
-    let square = errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64;
-    let worst = errors.iter().copied().fold(0.0, f64::max);
+    let errors = errors(solution, patches, faces, references);
+    let worst = errors.iter().map(|(error, ..)| *error).fold(0.0, f64::max);
     let low = match solution.estimate {
-        Some(_) => format!("{too_low} of {}", errors.len()),
+        Some(_) => format!("{} of {}", errors.iter().filter(|(.., is_low)| *is_low).count(), errors.len()),
         None => "–".to_owned(),
     };
-    format!("{:.2} % | {:.2} % | {low}", 100.0 * worst, 100.0 * square.sqrt())
+    format!("{:.2} % | {:.2} % | {low}", 100.0 * worst, 100.0 * root_mean_square(&errors))
 }

@@ -9,12 +9,14 @@
 //!
 //! Errors are in shares of a face's own mean or, where that is more, 1 % of the scene's mean; three standard errors of the path tracer
 //! are taken off. Paths are those of a face.
-use radiosity::formfactor::PlanarPolygon;
-use radiosity::{Method, Options, Patch, Quality, Scene, Solution, solve};
+mod beside_paths;
+
+use beside_paths::{errors, root_mean_square, scene};
+use cpu_time::ProcessTime;
+use radiosity::{Method, Options, Quality, Solution, solve};
 use std::error::Error;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
-use tests::cpu_time::cpu_seconds;
 use tests::light::{Estimate, KINDS, Surface, mean_irradiance, room};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,9 +46,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let references: Vec<[Estimate; 3]> = (0..surfaces.len()).map(traced).collect();
             for &method in &methods {
                 let options = Options { method, ..quality.options() };
-                let start = cpu_seconds();
+                let start = ProcessTime::now();
                 let solution = solve(&scene(&surfaces)?, &options, |_| ControlFlow::Continue(()))?;
-                let seconds = cpu_seconds() - start;
+                let seconds = start.elapsed().as_secs_f64();
                 let row = row(&surfaces, &solution, &references);
                 writeln!(out, "| {name} {seed} | {method:?} | {row} | {seconds:.1} |")?;
             }
@@ -65,51 +67,29 @@ fn method(name: &str) -> Result<Method, String> {
 
 /// The figures of a solution.
 fn row(surfaces: &[Surface], solution: &Solution, references: &[[Estimate; 3]]) -> String {
-    let errors = errors(surfaces, solution, references);
-    let (worst, face) = errors.iter().copied().fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
-    let square: f64 = errors.iter().map(|(error, _)| error * error).sum();
+    let faces: Vec<usize> = (0..surfaces.len()).collect();
+    let errors = errors(solution, surfaces.len(), &faces, references);
+    let worst = errors.iter().copied().fold((0.0, 0, false), |a, b| if b.0 > a.0 { b } else { a });
+    let below = errors.iter().filter(|(.., is_low)| *is_low).count();
     format!(
         "{} | {:.2} % | {} | {:.2} % | {} | {}",
         surfaces.len(),
-        100.0 * worst,
-        surfaces[face].name,
-        100.0 * (square / errors.len() as f64).sqrt(),
-        errors.iter().filter(|(error, _)| *error > 0.01).count(),
-        estimates(solution, references),
+        100.0 * worst.0,
+        surfaces[worst.1].name,
+        100.0 * root_mean_square(&errors),
+        errors.iter().filter(|(error, ..)| *error > 0.01).count(),
+        estimates(solution, references, below),
     )
 }
 
-/// The median and the lowest of estimates over true errors, and how many of the estimates are too low.
-fn estimates(solution: &Solution, references: &[[Estimate; 3]]) -> String {
+/// The median and the lowest of estimates over true errors, and how many of them are too low.
+fn estimates(solution: &Solution, references: &[[Estimate; 3]], below: usize) -> String {
     let Some(estimate) = &solution.estimate else { return " | | ".to_owned() };
     let means = solution.patch_means(&solution.irradiance, references.len()).concat();
     let traced = references.concat();
     let off = |at: usize| (means[at] - traced[at].mean).abs();
-    let below = (0..means.len()).filter(|&at| estimate[at] < off(at) - 3.0 * traced[at].error).count();
     let mut ratios: Vec<f64> =
         (0..means.len()).map(|at| estimate[at] / off(at).max(traced[at].error)).collect();
     ratios.sort_by(f64::total_cmp);
     format!("{:.1} × | {:.1} × | {below} of {}", ratios[ratios.len() / 2], ratios[0], ratios.len())
-}
-
-fn scene(surfaces: &[Surface]) -> Result<Scene, radiosity::formfactor::Error> {
-    let patch = |surface: &Surface| {
-        let polygon = PlanarPolygon::new(&surface.loops)?;
-        Ok(Patch::new(&surface.name, polygon, surface.reflectance.to_vec(), surface.radiance.to_vec()))
-    };
-    let patches = surfaces.iter().map(patch).collect::<Result<_, _>>()?;
-    Ok(Scene { patches, bands: 3, ..Scene::default() })
-}
-
-/// The error of each face in each band, with the face.
-fn errors(surfaces: &[Surface], solution: &Solution, references: &[[Estimate; 3]]) -> Vec<(f64, usize)> {
-    let means = solution.patch_means(&solution.irradiance, surfaces.len());
-    let whole =
-        |band: usize| references.iter().map(|face| face[band].mean).sum::<f64>() / references.len() as f64;
-    let error = |face: usize, band: usize| {
-        let Estimate { mean, error } = references[face][band];
-        let off = ((means[face][band] - mean).abs() - 3.0 * error).max(0.0);
-        (off / mean.max(0.01 * whole(band)), face)
-    };
-    (0..surfaces.len()).flat_map(|face| [0, 1, 2].map(|band| error(face, band))).collect()
 }

@@ -3,17 +3,19 @@
 //! ```sh
 //! cargo run --release -p tests --example light_truth -- separating-wall 4000000
 //! ```
-use radiosity::{Patch, scenes};
+mod traced;
+
+use radiosity::scenes;
 use std::error::Error;
 use std::io::{self, Write};
-use tests::light::{Bands, Estimate, Surface, mean_irradiance};
+use tests::light::{Estimate, mean_irradiance};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [name, paths] = arguments.as_slice() else { return Err("give a scene and a number of paths".into()) };
     let scene = scenes::scene(name).ok_or_else(|| format!("{name}: no built-in scene"))?;
     let paths = paths.parse()?;
-    let surfaces: Vec<Surface> = scene.patches.iter().map(surface).collect();
+    let surfaces = traced::surfaces(&scene);
     let mut out = io::stdout().lock();
     for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.radiance == [0.0; 3]) {
         let found = mean_irradiance(&surfaces, index, paths, index as u64);
@@ -21,14 +23,4 @@ fn main() -> Result<(), Box<dyn Error>> {
         writeln!(out, "(\"{}\", {means:.6?}, {errors:.6?}),", surface.name)?;
     }
     Ok(())
-}
-
-fn surface(patch: &Patch) -> Surface {
-    let bands = |values: &[f64]| -> Bands { [0, 1, 2].map(|band| values[band.min(values.len() - 1)]) };
-    Surface {
-        name: patch.name.clone(),
-        loops: patch.polygon.loops().map(<[_]>::to_vec).collect(),
-        reflectance: bands(&patch.reflectance),
-        radiance: bands(&patch.emission),
-    }
 }

@@ -11,7 +11,6 @@ pub mod against;
 pub mod closed;
 pub mod company;
 pub mod corpus;
-pub mod cpu_time;
 pub mod enclosures;
 pub mod exact;
 pub mod generators;

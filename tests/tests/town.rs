@@ -1,37 +1,26 @@
 //! Light by clusters beside path tracing: in a town, whose ground is far larger than what stands on it, and in a room of tiles.
-use radiosity::formfactor::PlanarPolygon;
-use radiosity::{Method, Options, Patch, Quality, Scene, solve};
+#[path = "../examples/beside_paths/mod.rs"]
+mod beside_paths;
+
+use beside_paths::{errors, root_mean_square, scene};
+use radiosity::{Method, Options, Quality, solve};
 use std::ops::ControlFlow;
-use tests::light::{Estimate, Surface, mean_irradiance, tiled_room, town};
+use tests::light::{Surface, mean_irradiance, tiled_room, town};
 
 const PATHS: u32 = 10_000;
 
-fn scene(surfaces: &[Surface]) -> Scene {
-    let patch = |surface: &Surface| {
-        let polygon = PlanarPolygon::new(&surface.loops).expect("a polygon");
-        Patch::new(&surface.name, polygon, surface.reflectance.to_vec(), surface.radiance.to_vec())
-    };
-    Scene { patches: surfaces.iter().map(patch).collect(), bands: 3, ..Scene::default() }
-}
-
 /// Solves by levels at draft and sets some faces beside path tracing.
 fn assert_within_estimates(surfaces: &[Surface], most: f64) {
-    let (mut errors, mut too_low) = (Vec::new(), 0);
     let options = Options { method: Method::Hierarchical, ..Quality::Draft.options() };
-    let solution = solve(&scene(surfaces), &options, |_| ControlFlow::Continue(())).expect("a solution");
-    let means = solution.patch_means(&solution.irradiance, surfaces.len());
+    let scene = scene(surfaces).expect("polygons");
+    let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).expect("a solution");
     let transfers = solution.transfers.expect("by levels");
     assert!(solution.converged && transfers.clusters > 100, "{transfers:?}");
-    let scene_mean = means.iter().map(|mean| mean[0]).sum::<f64>() / means.len() as f64;
-    for of in (0..surfaces.len()).step_by(7) {
-        let [Estimate { mean, error }, ..] = mean_irradiance(surfaces, of, PATHS, of as u64);
-        let beyond = ((means[of][0] - mean).abs() - 3.0 * error).max(0.0);
-        too_low += usize::from(beyond > solution.patch_estimate(of)[0]);
-        errors.push(beyond / mean.max(0.01 * scene_mean));
-    }
-    let square: f64 = errors.iter().map(|error| error * error).sum();
-    let root_mean_square = (square / errors.len() as f64).sqrt();
-    assert!(root_mean_square < most, "{root_mean_square}");
+    let faces: Vec<usize> = (0..surfaces.len()).step_by(7).collect();
+    let traced: Vec<_> = faces.iter().map(|of| mean_irradiance(surfaces, *of, PATHS, *of as u64)).collect();
+    let errors = errors(&solution, surfaces.len(), &faces, &traced);
+    let too_low = errors.iter().filter(|(.., is_low)| *is_low).count();
+    assert!(root_mean_square(&errors) < most, "{}", root_mean_square(&errors));
     assert!(20 * too_low <= errors.len(), "{too_low} of {}", errors.len());
 }
 

@@ -8,12 +8,12 @@
 #[path = "../tests/gather/mod.rs"]
 mod gather;
 
+use cpu_time::ProcessTime;
 use gather::pixels::pixel_errors;
 use radiosity::{Quality, scenes, solve};
 use std::error::Error;
 use std::io::Write;
 use std::ops::ControlFlow;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 const SCENES: [&str; 6] =
     ["beams", "small-occluders", "perforated", "chessboard", "cornell-box", "obstruction"];
@@ -35,9 +35,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     for name in if named.is_empty() { &SCENES[..] } else { &named } {
         let scene = scenes::scene(name).ok_or_else(|| format!("{name}: no scene"))?;
-        let start = cpu_seconds();
+        let start = ProcessTime::now();
         let solution = solve(&scene, &quality.options(), |_| ControlFlow::Continue(()))?;
-        let seconds = cpu_seconds() - start;
+        let seconds = start.elapsed().as_secs_f64();
         let found = pixel_errors(&scene, &solution, &scene.cameras[0], width)?;
         let percent = |share: f64| 100.0 * share;
         writeln!(
@@ -52,15 +52,4 @@ fn main() -> Result<(), Box<dyn Error>> {
         )?;
     }
     Ok(())
-}
-
-/// What this process has used, by Linux's count of hundredths; the time of day where there is none.
-fn cpu_seconds() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let ticks = |field: &str| field.parse::<f64>().ok();
-    let fields = || stat.rsplit(')').next().unwrap_or_default().split_whitespace();
-    match (fields().nth(11).and_then(ticks), fields().nth(12).and_then(ticks)) {
-        (Some(user), Some(system)) => (user + system) / 100.0,
-        _ => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64()),
-    }
 }

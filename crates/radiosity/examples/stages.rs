@@ -9,6 +9,7 @@
 //! measured.
 mod large_scenes;
 
+use cpu_time::ProcessTime;
 use large_scenes::{FAMILIES, Family};
 use radiosity::formfactor::PlanarPolygon;
 use radiosity::io::{Source, collada::Collada, gltf, obj, ply};
@@ -18,7 +19,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
 use std::ops::ControlFlow;
-use std::time::{Instant, SystemTime, UNIX_EPOCH};
+use std::time::Instant;
 
 /// Quick stages are repeated until they have taken so many seconds.
 const LEAST: f64 = 0.02;
@@ -136,7 +137,7 @@ fn view(scene: &Scene, times: &mut Times) {
 
 /// Solves until some shots are made, or the time is up.
 fn solution(scene: &Scene, options: &Options, times: &mut Times) -> Result<Solution, Failure> {
-    let start = cpu_seconds();
+    let start = ProcessTime::now();
     let granted = Instant::now();
     let mut seen = Vec::new();
     let solution = solve(scene, options, |progress| {
@@ -144,7 +145,7 @@ fn solution(scene: &Scene, options: &Options, times: &mut Times) -> Result<Solut
             Moment::Shot(shots, _) => Some(shots),
             _ => None,
         };
-        seen.push((shots, cpu_seconds() - start));
+        seen.push((shots, start.elapsed().as_secs_f64()));
         let is_late = granted.elapsed().as_secs_f64() > GRANTED + seen[0].1;
         if shots >= Some(SHOTS) || is_late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
@@ -177,27 +178,15 @@ fn outputs(scene: &Scene, solution: &Solution, times: &mut Times) -> Result<(), 
 
 /// Repeats a stage until its time can be measured.
 fn note<T>(times: &mut Times, stage: &'static str, run: impl Fn() -> T) -> T {
-    let start = cpu_seconds();
+    let start = ProcessTime::now();
     let mut repeats = 1;
     let mut result = black_box(run());
-    while cpu_seconds() - start < LEAST {
+    while start.elapsed().as_secs_f64() < LEAST {
         result = black_box(run());
         repeats += 1;
     }
-    let seconds = (cpu_seconds() - start) / f64::from(repeats);
+    let seconds = (start.elapsed().as_secs_f64()) / f64::from(repeats);
     eprintln!("{stage}: {}", shown(seconds));
     times.push((stage, seconds));
     result
-}
-
-/// What all threads of this process have used, by Linux's count of nanoseconds; the time of day where there is none.
-fn cpu_seconds() -> f64 {
-    let of = |thread: std::fs::DirEntry| {
-        let line = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
-        line.split_whitespace().next()?.parse::<f64>().ok()
-    };
-    match std::fs::read_dir("/proc/self/task") {
-        Ok(threads) => threads.flatten().filter_map(of).sum::<f64>() * 1e-9,
-        Err(_) => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64()),
-    }
 }

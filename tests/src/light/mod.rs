@@ -3,13 +3,13 @@
 //! [`room`] makes rooms of seven kinds from seeds, [`town`] and [`tiled_room`] scenes of many surfaces, [`mean_irradiance`] traces what a surface of one receives. Sizes are in metres,
 //! z is up. A surface sends and receives on its front, where its first loop runs counter-clockwise, and blocks from both sides.
 mod boxes;
-mod many;
+mod large_scenes;
 mod rooms;
 mod shapes;
 mod surface;
 mod tracer;
 
-pub use many::{tiled_room, town};
+pub use large_scenes::{tiled_room, town};
 pub use rooms::{KINDS, room};
 pub use surface::Surface;
 pub use tracer::{Estimate, mean_irradiance};

@@ -65,6 +65,9 @@ pub(super) struct Flaw {
     pub(super) of_total: f64,
 }
 
+/// An error as a share of the light of a patch, in the worst band, and how many there are of such a size.
+pub(super) type PatchErrors = (f64, usize);
+
 /// For each tile how much its parts, where others look at them in more detail, matter to one patch: the largest sum of what they send it, in its unit,
 /// for a radiosity of 1.
 fn importances(tiling: &Tiling<'_>, links: &[Link], unit: &[f64]) -> Vec<f64> {
@@ -284,17 +287,17 @@ pub(super) fn uneven(tiling: &Tiling<'_>, bands: &[BandLight], limits: &[f64]) -
 }
 
 /// The largest errors that the links of every patch may have, so that they add up to no more than its share of its light: infinite where all do.
-/// `far` are the errors of links of clusters: patches, with errors and how many there are of such a size.
+/// `far` are the errors of links of clusters, with the patches that have them.
 pub(super) fn limits(
     tiling: &Tiling<'_>,
     links: &[Link],
-    far: Vec<(usize, f64, usize)>,
+    far: Vec<(usize, PatchErrors)>,
     bands: &[BandLight],
     shares: &[f64],
 ) -> Vec<f64> {
-    let mut of_patch: Vec<Vec<(f64, usize)>> = vec![Vec::new(); tiling.scene.patches.len()];
-    for (patch, error, count) in far {
-        of_patch[patch].push((error, count));
+    let mut of_patch: Vec<Vec<PatchErrors>> = vec![Vec::new(); tiling.scene.patches.len()];
+    for (patch, errors) in far {
+        of_patch[patch].push(errors);
     }
     for link in links {
         for end in [0, 1] {
@@ -310,9 +313,9 @@ pub(super) fn limits(
     of_patch.into_par_iter().zip(shares).map(|(errors, share)| limit(errors, *share)).collect()
 }
 
-/// The limit of one patch, by its errors and how many there are of such a size.
-fn limit(mut errors: Vec<(f64, usize)>, share: f64) -> f64 {
-    let all = |(error, count): &(f64, usize)| *error * *count as f64;
+/// The limit of one patch.
+fn limit(mut errors: Vec<PatchErrors>, share: f64) -> f64 {
+    let all = |(error, count): &PatchErrors| *error * *count as f64;
     if errors.iter().map(all).sum::<f64>() <= ENOUGH * share {
         return f64::INFINITY;
     }

@@ -1,37 +1,43 @@
 //! Which links of clusters to refine: as those of tiles, by what they may be wrong by at every patch.
-use super::budget::BandLight;
+use super::budget::{BandLight, PatchErrors};
 use super::cluster_links::{ClusterLink, ClusterLinks};
 use super::clusters::Clusters;
 use super::hidden::{HiddenLight, by_ways};
 use super::tiling::Tiling;
 use super::ways::{Ways, dot, ways};
 
-/// A patch, an error of what it receives as a share of its light, in the worst band, and how many there are of such a size.
-pub(super) type PatchErrors = (usize, f64, usize);
-
-/// The errors of the links of clusters; of what is hidden the means over the links of each cluster.
+/// The errors of the links of clusters, with the patches that have them.
 pub(super) fn cluster_errors(
     tiling: &Tiling<'_>,
     links: &ClusterLinks,
     bands: &[BandLight],
-) -> Vec<PatchErrors> {
-    let of_link = |link: &ClusterLink| {
-        let errors = seen_errors(tiling, link, bands).into_iter();
-        errors.filter(|(_, error)| *error > 0.0).map(|(patch, error)| (patch, error, 1))
-    };
-    let mut found: Vec<PatchErrors> = links.all.iter().flat_map(of_link).collect();
+) -> Vec<(usize, PatchErrors)> {
+    let seen = links.all.iter().flat_map(|link| seen_errors(tiling, link, bands));
+    let seen = seen.filter(|(_, error)| *error > 0.0).map(|(patch, error)| (patch, (error, 1)));
+    seen.chain(hidden_errors(tiling, links, bands)).collect()
+}
+
+/// Those of what is hidden: the means over the links of each cluster.
+fn hidden_errors(
+    tiling: &Tiling<'_>,
+    links: &ClusterLinks,
+    bands: &[BandLight],
+) -> Vec<(usize, PatchErrors)> {
+    let mut found = Vec::new();
     let sums = |light: &BandLight| HiddenLight::new(tiling, &links.clusters, &light.sent).sums(links, 1.0);
     let sums: Vec<Vec<(Ways, usize)>> = bands.iter().map(sums).collect();
     for cluster in 0..links.clusters.all.len() {
-        let count = sums.first().map_or(0, |sums| sums[cluster].1);
-        for &tile in links.clusters.tiles(cluster).iter().take(if count > 0 { usize::MAX } else { 0 }) {
+        let Some(count) = sums.first().map(|sums| sums[cluster].1).filter(|count| *count > 0) else {
+            continue;
+        };
+        for &tile in links.clusters.tiles(cluster) {
             let facing = ways(tiling.tiles[tile].normal);
             let share = |(light, sums): (&BandLight, &Vec<(Ways, usize)>)| {
                 rate(tiling, light, tile) * dot(&facing, &sums[cluster].0)
             };
             let worst = bands.iter().zip(&sums).map(share).fold(0.0, f64::max);
             if worst > 0.0 {
-                found.push((tiling.tiles[tile].patch, worst / count as f64, count));
+                found.push((tiling.tiles[tile].patch, (worst / count as f64, count)));
             }
         }
     }

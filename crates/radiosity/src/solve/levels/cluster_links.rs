@@ -70,13 +70,13 @@ impl ClusterLink {
         let seen =
             [some(clusters.tiles(ends[0]), &of_first.seen), some(clusters.tiles(ends[1]), &of_second.seen)];
         let is_open = open.map_or_else(|| seen.iter().all(|seen| !seen.is_empty()), |open| open > 0.0);
-        is_open.then(|| ClusterLink {
+        let crossing = clusters.crossing(ends);
+        (is_open || crossing > 0.0).then(|| ClusterLink {
             ends,
             bends: [bend(ends[0], ends[1]), bend(ends[1], ends[0])],
             scale: if visible > 0.0 { open_scale / visible } else { 0.0 },
             error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt + ROUGH,
-            hidden: open.map_or(0.0, |open| open_error * open_scale * open)
-                + clusters.crossing(ends).unwrap_or(0.0),
+            hidden: open.map_or(0.0, |open| open_error * open_scale * open) + crossing,
             slopes: [of_first.slopes, of_second.slopes],
             seen,
         })

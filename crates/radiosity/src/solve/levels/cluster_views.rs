@@ -1,5 +1,6 @@
 //! What clusters see of each other, from points of one to all tiles of the other.
-use super::clusters::{Cluster, Clusters};
+use super::cluster::Cluster;
+use super::clusters::Clusters;
 use super::shadow::Shadow;
 use super::tiling::{Tile, Tiling};
 use formfactor::{Blockers, DifferentialArea, PlanarPolygon};

@@ -9,48 +9,16 @@
 //!                                     /    \      where what is near them is smaller
 //!                                  part    part
 //! ```
-use super::tiling::{Tile, Tiling};
-use super::ways::{Ways, dot, ways};
+use super::cluster::Cluster;
+use super::tiling::Tiling;
 use crate::error::Error;
 use crate::extent::Extent;
-use glam::DVec3;
-use std::{cmp::Ordering, ops::Range};
+use std::ops::Range;
 
-/// Two clusters are far from each other when the product of their radii is less than this share of the square of their distance, …
+/// Two clusters are far from each other when the product of their radii is less than this share of the square of their distance.
 const NEAR: f64 = 0.15;
-/// … and neither reaches so much of the way to the other.
-const REACH: f64 = 0.6;
-/// … or so much where it is a tile of many patches, each of which is told its light.
-const REACH_OF_MANY: f64 = 0.3;
-/// Of clusters with more normals it is not asked whether all turn away.
-const NORMALS: usize = 8;
 /// Clusters of so few tiles are halved before a larger tile is cut for them.
 const FEW: usize = 8;
-/// Normals that differ by less than this from the axis of their cone are along it.
-const FLAT: f64 = 1e-12;
-/// What rises above a flat cluster by less than this share of its distance does not.
-const LOW: f64 = 1e-9;
-
-/// Whole tiles near each other, or one that may be a part.
-#[derive(Clone, Debug)]
-pub(super) struct Cluster {
-    members: Range<usize>,
-    pub(super) halves: Option<[usize; 2]>,
-    pub(super) extent: Extent,
-    pub(super) centre: DVec3,
-    pub(super) radius: f64,
-    /// What is far is farther away than this.
-    reach: f64,
-    /// The normals of its tiles, each once.
-    normals: Vec<DVec3>,
-    /// All normals are within an angle of this, in radians.
-    axis: DVec3,
-    spread: f64,
-    /// The least height of all corners along the axis.
-    low: f64,
-    /// The areas of its tiles by the ways that they face.
-    pub(super) faces: Ways,
-}
 
 /// All whole tiles in a tree, halved where they lie furthest apart, and the parts of those that are cut for what is near them.
 #[derive(Debug, Default)]
@@ -179,10 +147,11 @@ impl Clusters {
     fn halves(&mut self, cluster: usize, cut: Cut<'_>) -> Result<Option<[usize; 2]>, Error> {
         if self.all[cluster].halves.is_none() {
             let Some(halves) = cut(self.tiles(cluster)[0])? else { return Ok(None) };
-            let added = halves.map(|(tile, half)| {
+            let added = halves.map(|(tile, mut half)| {
                 let at = self.order.len();
                 self.order.push(tile);
-                self.all.push(Cluster { members: at..at + 1, ..half });
+                half.members = at..at + 1;
+                self.all.push(half);
                 self.all.len() - 1
             });
             self.all[cluster].halves = Some(added);
@@ -219,14 +188,15 @@ impl Clusters {
         (reach * reach).min(1.0)
     }
 
-    /// Where the plane of a flat one of two passes through the other, a bound on what they exchange, for a radiosity of 1: points on the two sides
-    /// of that plane see all and nothing of it.
-    pub(super) fn crossing(&self, [one, other]: [usize; 2]) -> Option<f64> {
+    /// Where the plane of a flat one of two passes through the other, about the most that they can exchange, for a radiosity of 1; else 0. Points on the two
+    /// sides of that plane see all and nothing of it.
+    pub(super) fn crossing(&self, [one, other]: [usize; 2]) -> f64 {
         let bound = |one: usize, other: usize| {
             let rise = self.all[one].rise_through(&self.all[other])?;
             Some(self.all[one].area() * self.fill(one, other) * rise)
         };
-        [bound(one, other), bound(other, one)].into_iter().flatten().reduce(f64::min)
+        let bounds = [bound(one, other), bound(other, one)];
+        bounds.into_iter().flatten().reduce(f64::min).unwrap_or(0.0)
     }
 
     /// Whether some tile of one may be before some tile of the other, and the other way round, as far as normals and boxes tell.
@@ -236,91 +206,13 @@ impl Clusters {
     }
 }
 
-impl Cluster {
-    /// One tile.
-    pub(super) fn of_tile(tiling: &Tiling<'_>, tile: usize) -> Cluster {
-        let extent = Extent::of_points(tiling.tiles[tile].outline.places());
-        Cluster::of(tiling, &[tile], 0..1, extent)
-    }
-
-    fn of(tiling: &Tiling<'_>, tiles: &[usize], members: Range<usize>, extent: Extent) -> Cluster {
-        let all = || tiles.iter().map(|tile| &tiling.tiles[*tile]);
-        let centre = (extent.low + extent.high) / 2.0;
-        let places = || all().flat_map(|tile| tile.outline.places());
-        let radius = places().map(|place| place.distance(centre)).fold(0.0, f64::max);
-        let is_of_many = |tile: &Tile| tiling.grain[tile.patch].is_some_and(|grain| tile.area > grain);
-        let reach = if all().any(is_of_many) { REACH_OF_MANY } else { REACH };
-        let mut normals: Vec<DVec3> = all().map(|tile| tile.normal).collect();
-        normals.sort_unstable_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(Ordering::Equal));
-        normals.dedup();
-        let axis = all().map(|tile| tile.normal).sum::<DVec3>().normalize_or_zero();
-        let spread = all().map(|tile| (1.0 - axis.dot(tile.normal)).max(0.0)).fold(0.0, f64::max);
-        let faces = all().fold([0.0; 6], |mut sums, tile| {
-            sums.iter_mut().zip(ways(tile.normal)).for_each(|(sum, part)| *sum += tile.area * part);
-            sums
-        });
-        Cluster {
-            members,
-            halves: None,
-            faces,
-            normals,
-            extent,
-            centre,
-            radius,
-            reach: radius / reach,
-            axis,
-            low: places().map(|place| axis.dot(place)).fold(f64::INFINITY, f64::min),
-            spread: if spread <= FLAT { 0.0 } else { (1.0 - spread).clamp(-1.0, 1.0).acos() },
-        }
-    }
-
-    /// Whether a place may be before some tile of it, wherever that is in it.
-    fn looks_at(&self, place: DVec3) -> bool {
-        let way = (place - self.centre).normalize_or_zero();
-        self.normals.iter().any(|normal| normal.dot(way) > 0.0)
-    }
-
-    /// Whether some tile of it may face where a way to its centre comes from.
-    pub(super) fn may_face(&self, way: DVec3) -> bool {
-        self.normals.len() > NORMALS || self.normals.iter().any(|normal| normal.dot(way) < self.radius)
-    }
-
-    /// Of a flat cluster the area.
-    fn area(&self) -> f64 {
-        dot(&ways(self.axis), &self.faces)
-    }
-
-    /// Of a flat cluster whose plane passes through another one, the largest cosine between its normal and ways to that.
-    fn rise_through(&self, other: &Cluster) -> Option<f64> {
-        let corners = other.extent.corners();
-        let height = |place: &DVec3| self.axis.dot(*place) - self.low;
-        let is_through = corners.iter().any(|place| height(place) < -LOW * place.distance(self.centre));
-        let rise = |place: &DVec3| (height(place) / place.distance(self.centre)).clamp(0.0, 1.0);
-        (self.spread == 0.0 && is_through).then(|| corners.iter().map(rise).fold(0.0, f64::max))
-    }
-
-    /// Whether some tile of it may have a part of another cluster before it.
-    fn may_see(&self, other: &Cluster) -> bool {
-        let way = other.centre - self.centre;
-        if self.spread == 0.0 {
-            // All its tiles lie at least as high as the lowest corner.
-            let low = self.low + LOW * way.length();
-            return other.extent.corners().iter().any(|place| self.axis.dot(*place) > low);
-        }
-        let reach = (self.radius + other.radius) / way.length();
-        if reach >= 1.0 {
-            return true;
-        }
-        let between = self.axis.dot(way / way.length()).clamp(-1.0, 1.0).acos();
-        between - self.spread - reach.asin() < std::f64::consts::FRAC_PI_2
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::{Scene, patch::Patch};
+    use crate::solve::levels::tiling::Tile;
     use formfactor::PlanarPolygon;
+    use glam::DVec3;
     use std::collections::BTreeMap;
 
     /// Boxes seen from outside, each 0.4 wide, on a grid of 4 × 3 × 2.

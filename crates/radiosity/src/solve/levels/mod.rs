@@ -27,10 +27,11 @@
 //! equilibrium   what all leaves exchange, made to close
 //! roots         what ΣF of every leaf is to be
 //! flow          light up the tree, across the links, and down
-//! hidden        what may be wrong between clusters where something stands in between
+//! hidden        what may be wrong between clusters of what points do not see
 //! cluster_links light between tiles that are far from each other
 //! cluster_views what clusters see of each other
 //! clusters      the tree of whole tiles, and of their parts where these are linked with clusters
+//! cluster       one of these
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
 //! nearby        the mean over tiles that touch
@@ -54,6 +55,7 @@ mod allowance;
 mod borders;
 mod boxes;
 mod budget;
+mod cluster;
 mod cluster_budget;
 mod cluster_links;
 mod cluster_views;

@@ -1,18 +1,20 @@
 //! Refining links whose errors exceed the budgets of their patches.
 use super::budget::{BandLight, cut, limits, uneven};
+use super::cluster::Cluster;
 use super::cluster_budget::{ClusterLimits, cluster_errors};
 use super::cluster_links::ClusterLink;
-use super::clusters::{Cluster, Clusters, Cut, Pairs};
+use super::clusters::{Clusters, Cut, Pairs};
 use super::link::{Candidate, Link};
 use super::run::Levels;
 use crate::error::Error;
 use crate::solve::state::State;
 use rayon::prelude::*;
 
-/// Links of clusters that may stay, and pairs of tiles that are to be linked by themselves.
+/// Links of clusters that may stay, pairs of tiles that are to be linked by themselves, and how many links they take the place of.
 struct ClusterParts {
     links: Vec<ClusterLink>,
     near: Vec<Candidate>,
+    parted: usize,
 }
 
 impl Levels<'_> {
@@ -39,7 +41,7 @@ impl Levels<'_> {
         found
     }
 
-    /// Refines the links whose errors exceed the budgets; gives how many pairs and tiles there were to refine, nothing when the run is to end.
+    /// Refines the links whose errors exceed the budgets; gives how many links and tiles there were to refine, nothing when the run is to end.
     ///
     /// What takes the place of a link is refined as well, in the light as it is now, as long as it is beyond what its patches allow.
     pub(super) fn refine(
@@ -58,13 +60,13 @@ impl Levels<'_> {
         let kept = self.links.all.clone();
         let (mut kept, mut candidates) = self.part(kept, lights, &limits)?;
         let clusters = self.links.clusters.all.clone();
-        let Some(ClusterParts { links: clusters, near }) =
+        let Some(ClusterParts { links: clusters, near, parted }) =
             self.part_clusters(clusters, lights, &limits, state)?
         else {
             return Ok(None);
         };
+        refined += candidates.len() + parted;
         candidates.extend(near);
-        refined += candidates.len();
         while !candidates.is_empty() {
             let Some(links) = self.measure(&candidates, state)? else { return Ok(None) };
             let (fine, coarse) = self.part(links, lights, &limits)?;
@@ -85,7 +87,7 @@ impl Levels<'_> {
         limits: &[f64],
         state: &State,
     ) -> Result<Option<ClusterParts>, Error> {
-        let (mut kept, mut near) = (Vec::with_capacity(open.len()), Vec::new());
+        let (mut kept, mut near, mut parted) = (Vec::with_capacity(open.len()), Vec::new(), 0);
         while !open.is_empty() {
             lights.iter_mut().for_each(|light| light.grow(&self.tiling));
             let allowed = ClusterLimits::new(&self.tiling, &self.links.clusters.clusters, lights, limits);
@@ -94,6 +96,7 @@ impl Levels<'_> {
                 let mut pairs = Pairs::default();
                 for (link, is_beyond) in open.into_iter().zip(beyond) {
                     if is_beyond {
+                        parted += 1;
                         clusters.replace(link.ends, &mut pairs, cut)?;
                     } else {
                         kept.push(link);
@@ -106,7 +109,7 @@ impl Levels<'_> {
             open = links;
         }
         let near = near.into_iter().map(|ends| self.links.candidate(&self.tiling, ends)).collect();
-        Ok(Some(ClusterParts { links: kept, near }))
+        Ok(Some(ClusterParts { links: kept, near, parted }))
     }
 
     /// The links that are within the limits of their patches, and what takes the place of the others.

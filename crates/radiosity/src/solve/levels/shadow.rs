@@ -21,8 +21,8 @@ pub(super) struct Shadow {
 }
 
 impl Shadow {
-    /// The shadow of those among some polygons that share edges with the first, and of that; nothing where it is not convex, or one is seen from
-    /// within its plane.
+    /// The shadow of the first of some polygons that has no hole and few corners, and of those of the others that share edges with it; nothing where it
+    /// is not convex, or one is seen from within its plane.
     ///
     /// Edges that two of them share are on no rim. Seen from the point all run around the same way: where what is left bounds a convex cone, every way
     /// in it meets one of them.
@@ -34,12 +34,16 @@ impl Shadow {
         let mut behind = Vec::new();
         for polygon in polygons {
             let mut loops = polygon.loops();
-            let (outline, None) = (loops.next()?, loops.next()) else { return None };
+            let Some(outline) =
+                loops.next().filter(|outline| outline.len() <= MANY && loops.next().is_none())
+            else {
+                continue;
+            };
             let distance = polygon.normal().dot(outline[0] - from);
             let is_front = distance > 0.0;
             let edges = outline.iter().zip(outline.iter().cycle().skip(1));
             let edges: Vec<[DVec3; 2]> =
-                edges.map(|(a, b)| if is_front { [*a, *b] } else { [*b, *a] }).take(MANY + 1).collect();
+                edges.map(|(a, b)| if is_front { [*a, *b] } else { [*b, *a] }).collect();
             let is_known = |[a, b]: &[DVec3; 2]| rim.contains(&[*b, *a]);
             if !rim.is_empty() && !edges.iter().any(is_known) {
                 continue;
@@ -142,9 +146,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_convex_or_seen_edge_on_has_none() {
+    fn what_is_not_convex_has_many_corners_or_is_seen_edge_on_has_none() {
         let notched = [[-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [-0.5, -0.5, 1.0], [-1.0, 1.0, 1.0]];
         assert!(Shadow::of(&[&polygon(&notched)], &viewer([0.0; 3])).is_none());
+        let round = |count: u32| {
+            let corner = |k: u32| {
+                let (sine, cosine) = (f64::from(k) / f64::from(count) * std::f64::consts::TAU).sin_cos();
+                [cosine, sine, 1.0]
+            };
+            polygon(&(0..count).map(corner).collect::<Vec<_>>())
+        };
+        assert!(Shadow::of(&[&round(16)], &viewer([0.0; 3])).is_some());
+        assert!(Shadow::of(&[&round(17)], &viewer([0.0; 3])).is_none());
         let square = polygon(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
         assert!(Shadow::of(&[&square], &viewer([3.0, 0.5, 0.0])).is_none());
     }

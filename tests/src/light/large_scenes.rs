@@ -1,4 +1,4 @@
-//! Scenes of many surfaces: a town, and a room of tiles.
+//! Scenes of hundreds of surfaces: a town, and a room of tiles.
 use super::Surface;
 use crate::random::Random;
 use glam::{DMat3, DVec3};
@@ -38,16 +38,10 @@ pub fn town(side: usize, seed: u64) -> Vec<Surface> {
 
 /// A room whose six sides are tiles, one of them a lamp, with boxes that cover whole tiles of the floor, or parts of them.
 pub fn tiled_room() -> Vec<Surface> {
-    let walls = [
-        [DVec3::X, DVec3::Y],
-        [DVec3::Y, DVec3::X],
-        [DVec3::Z, DVec3::X],
-        [DVec3::X, DVec3::Z],
-        [DVec3::Y, DVec3::Z],
-        [DVec3::Z, DVec3::Y],
-    ];
+    let edges = |axis: usize| [DVec3::AXES[axis], DVec3::AXES[(axis + 1) % 3]];
+    let walls = [0, 2, 1].map(edges).into_iter().flat_map(|[u, v]| [[u, v], [v, u]]);
     let mut all = Vec::new();
-    for (wall, [u, v]) in walls.into_iter().enumerate() {
+    for (wall, [u, v]) in walls.enumerate() {
         let corner = 3.0 * (DVec3::ONE - u.cross(v) - u - v);
         for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (f64::from(i), f64::from(j)))) {
             let tile = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
