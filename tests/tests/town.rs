@@ -3,17 +3,21 @@
 mod beside_paths;
 
 use beside_paths::{errors, root_mean_square, scene};
-use radiosity::{Method, Options, Quality, solve};
+use glam::DVec3;
+use radiosity::{Method, Options, Quality, Solution, solve};
 use std::ops::ControlFlow;
-use tests::light::{Surface, mean_irradiance, tiled_room, town};
+use tests::light::{KINDS, Surface, mean_irradiance, room, tiled_room, town};
 
 const PATHS: u32 = 10_000;
 
+fn draft(surfaces: &[Surface]) -> Solution {
+    let options = Options { method: Method::Hierarchical, ..Quality::Draft.options() };
+    solve(&scene(surfaces).expect("polygons"), &options, |_| ControlFlow::Continue(())).expect("a solution")
+}
+
 /// Solves by levels at draft and sets some faces beside path tracing.
 fn assert_within_estimates(surfaces: &[Surface], most: f64) {
-    let options = Options { method: Method::Hierarchical, ..Quality::Draft.options() };
-    let scene = scene(surfaces).expect("polygons");
-    let solution = solve(&scene, &options, |_| ControlFlow::Continue(())).expect("a solution");
+    let solution = draft(surfaces);
     let transfers = solution.transfers.expect("by levels");
     assert!(solution.converged && transfers.clusters > 100, "{transfers:?}");
     let faces: Vec<usize> = (0..surfaces.len()).step_by(7).collect();
@@ -33,4 +37,30 @@ fn a_town_has_the_light_that_paths_find_within_its_estimates() {
 #[test]
 fn a_tiled_room_has_the_light_that_paths_find_beside_boxes_that_cover_tiles() {
     assert_within_estimates(&tiled_room(), 0.015);
+}
+
+/// However much there is outside, light does not leave a closed room: not over the floor, on which legs stand, nor by what is far from each other in it.
+#[test]
+fn a_closed_room_beside_a_town_is_as_bright_as_alone() {
+    for name in ["box", "furniture", "bright"] {
+        let kind = KINDS.iter().position(|kind| *kind == name).expect("a kind");
+        let inside = room(kind, 0);
+        let alone = draft(&inside);
+        let aside = DVec3::new(-40.0, 0.0, 0.0);
+        let moved = inside.iter().cloned().map(|surface| Surface {
+            loops: surface.loops.iter().map(|points| points.iter().map(|p| *p + aside).collect()).collect(),
+            ..surface
+        });
+        let all: Vec<Surface> = moved.chain(town(5, 0)).collect();
+        let beside = draft(&all);
+        assert!(beside.transfers.is_some_and(|transfers| transfers.clusters > 100), "{name}");
+        let count = inside.len();
+        let here = alone.patch_means(&alone.irradiance, count);
+        let there = beside.patch_means(&beside.irradiance, all.len());
+        let ratios: Vec<f64> = here.iter().zip(&there).map(|(here, there)| there[0] / here[0]).collect();
+        let mean = ratios.iter().sum::<f64>() / count as f64;
+        assert!((mean - 1.0).abs() < 0.01, "{name}: {mean}");
+        let far = ratios.iter().filter(|ratio| (**ratio - 1.0).abs() > 0.1).count();
+        assert!(20 * far <= count, "{name}: {ratios:?}");
+    }
 }

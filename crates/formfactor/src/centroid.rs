@@ -9,7 +9,7 @@
 //! J2 = (atan z - z / (1 + z^2)) / 2,   J3 = (ln(1 + z^2) - z^2 / (1 + z^2)) / 2,
 //! ```
 //!
-//! which Gauss's rule finds to seven digits and more.
+//! which Gauss's rule finds to ten digits along every edge.
 use crate::buffers::Buffers;
 use crate::exact::pyramid::Pyramid;
 use crate::form_factor::FormFactor;

@@ -1,6 +1,6 @@
 //! A cluster: tiles near each other, as what is far away sees them.
 use super::tiling::{Tile, Tiling};
-use super::ways::{Ways, dot, ways};
+use super::ways::{Ways, ways};
 use crate::extent::Extent;
 use glam::DVec3;
 use std::{cmp::Ordering, ops::Range};
@@ -87,18 +87,21 @@ impl Cluster {
         self.normals.len() > NORMALS || self.normals.iter().any(|normal| normal.dot(way) < self.radius)
     }
 
-    /// Of a flat cluster the area.
-    pub(super) fn area(&self) -> f64 {
-        dot(&ways(self.axis), &self.faces)
-    }
-
-    /// Of a flat cluster whose plane passes through another one, the largest cosine between its normal and ways to that.
-    pub(super) fn rise_through(&self, other: &Cluster) -> Option<f64> {
-        let corners = other.extent.corners();
-        let height = |place: &DVec3| self.axis.dot(*place) - self.low;
-        let is_through = corners.iter().any(|place| height(place) < -LOW * place.distance(self.centre));
-        let rise = |place: &DVec3| (height(place) / place.distance(self.centre)).clamp(0.0, 1.0);
-        (self.spread == 0.0 && is_through).then(|| corners.iter().map(rise).fold(0.0, f64::max))
+    /// The areas of tiles times the largest cosine between their normals and ways to another cluster: of all its tiles, and of those whose planes
+    /// pass through that.
+    pub(super) fn rise(&self, tiling: &Tiling<'_>, tiles: &[usize], to: &Cluster) -> [f64; 2] {
+        let corners = to.extent.corners();
+        let mut sums = [0.0; 2];
+        for tile in tiles.iter().map(|tile| &tiling.tiles[*tile]) {
+            let on = tile.outline.corners[0].1;
+            let cosine = |place: &DVec3| tile.normal.dot(*place - on) / place.distance(self.centre);
+            let cosines = corners.each_ref().map(cosine);
+            let rise = tile.area * cosines.into_iter().fold(0.0, f64::max).min(1.0);
+            let is_through = cosines.iter().any(|cosine| *cosine < -LOW);
+            sums[0] += rise;
+            sums[1] += if is_through { rise } else { 0.0 };
+        }
+        sums
     }
 
     /// Whether some tile of it may have a part of another cluster before it.

@@ -70,7 +70,7 @@ impl ClusterLink {
         let seen =
             [some(clusters.tiles(ends[0]), &of_first.seen), some(clusters.tiles(ends[1]), &of_second.seen)];
         let is_open = open.map_or_else(|| seen.iter().all(|seen| !seen.is_empty()), |open| open > 0.0);
-        let crossing = clusters.crossing(ends);
+        let crossing = clusters.crossing(tiling, ends);
         (is_open || crossing > 0.0).then(|| ClusterLink {
             ends,
             bends: [bend(ends[0], ends[1]), bend(ends[1], ends[0])],
@@ -266,6 +266,20 @@ mod tests {
             (found / exact - 1.0).abs()
         });
         assert!(off.iter().any(|off| *off > 0.3), "{off:?}");
+    }
+
+    /// Two walls that turn away from each other, one of which sees a corner of a lamp: points of the lamp are behind it.
+    #[test]
+    fn what_points_of_a_lamp_do_not_see_of_two_tiles_has_an_error() {
+        let [x, y, z] = DVec3::AXES;
+        let walls = [square(DVec3::ZERO, [y, z]), square(x * 0.5, [z, x])];
+        for behind in [1.9, 1.7, 1.5, 1.0] {
+            let lamp = square(x * -behind + y * 2.0 - z * 9.0, [x * 2.0, y * 2.0]);
+            let patches = walls.iter().cloned().chain([lamp]).collect();
+            let [found, error, exact] =
+                exchanges(&Scene { patches, bands: 1, ..Scene::default() }, [&[2], &[0, 1]]);
+            assert!(exact > 0.0 && (found - exact).abs() <= error, "{behind}: {found} ± {error}, {exact}");
+        }
     }
 
     #[test]

@@ -20,6 +20,9 @@ const NEAR: f64 = 0.15;
 /// Clusters of so few tiles are halved before a larger tile is cut for them.
 const FEW: usize = 8;
 
+/// Of many tiles whose planes pass through a cluster, what of that they may exchange with it is wrong on average.
+const ON_AVERAGE: f64 = 0.1;
+
 /// All whole tiles in a tree, halved where they lie furthest apart, and the parts of those that are cut for what is near them.
 #[derive(Debug, Default)]
 pub(super) struct Clusters {
@@ -188,15 +191,17 @@ impl Clusters {
         (reach * reach).min(1.0)
     }
 
-    /// Where the plane of a flat one of two passes through the other, about the most that they can exchange, for a radiosity of 1; else 0. Points on the two
-    /// sides of that plane see all and nothing of it.
-    pub(super) fn crossing(&self, [one, other]: [usize; 2]) -> f64 {
-        let bound = |one: usize, other: usize| {
-            let rise = self.all[one].rise_through(&self.all[other])?;
-            Some(self.all[one].area() * self.fill(one, other) * rise)
+    /// About the most that may be wrong of what tiles of one exchange with the other whose planes pass through it, for a radiosity of 1: points on the
+    /// two sides of such a plane see all and nothing of the tile.
+    pub(super) fn crossing(&self, tiling: &Tiling<'_>, [one, other]: [usize; 2]) -> f64 {
+        let bounds = |one: usize, other: usize| {
+            let fill = self.fill(one, other);
+            self.all[one].rise(tiling, self.tiles(one), &self.all[other]).map(|rise| fill * rise)
         };
-        let bounds = [bound(one, other), bound(other, one)];
-        bounds.into_iter().flatten().reduce(f64::min).unwrap_or(0.0)
+        let [[all, through], [back, back_through]] = [bounds(one, other), bounds(other, one)];
+        let most = (through + back_through).min(all).min(back);
+        let are_two = [one, other].iter().all(|cluster| self.tiles(*cluster).len() == 1);
+        if are_two { most } else { ON_AVERAGE * most }
     }
 
     /// Whether some tile of one may be before some tile of the other, and the other way round, as far as normals and boxes tell.

@@ -145,14 +145,21 @@ impl<'e> Equilibrium<'e> {
         0.1 * tolerance * self.gap(reflectance) * brightness
     }
 
+    /// The leaves of each room, ascending.
+    pub(super) fn rooms(&self) -> Vec<Vec<usize>> {
+        let mut rooms = vec![Vec::new(); self.first_of.len()];
+        self.room_of.iter().enumerate().for_each(|(leaf, room)| rooms[*room].push(leaf));
+        rooms
+    }
+
     /// The patches of each room, ascending.
     pub(super) fn patches_of_rooms(&self) -> Vec<Vec<usize>> {
-        let mut rooms = vec![Vec::new(); self.first_of.len()];
-        for (leaf, room) in self.leaves.iter().zip(&self.room_of) {
-            rooms[*room].push(self.tiling.tiles[*leaf].patch);
-        }
-        rooms.iter_mut().for_each(Vec::dedup);
-        rooms
+        let patches = |room: Vec<usize>| {
+            let mut patches: Vec<usize> = room.into_iter().map(|leaf| self.patch(leaf)).collect();
+            patches.dedup();
+            patches
+        };
+        self.rooms().into_iter().map(patches).collect()
     }
 
     /// The light of the leaves among that of all tiles.

@@ -1,53 +1,21 @@
 //! All links of a run, found by all threads.
 use super::budget::BandLight;
+use super::closed_rooms::ClosedRooms;
 use super::cluster_links::{ClusterLink, ClusterLinks};
 use super::clusters::Clusters;
 use super::equilibrium::Equilibrium;
 use super::link::{Candidate, Link, UNSEEN};
-use super::look::rises;
 use super::measure::{between, faces, measure};
-use super::tiling::{Tile, Tiling};
+use super::tiling::Tiling;
 use super::totals::{Totals, Wanted};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::solve::{fingerprint, state::State, workers::attempt};
-use formfactor::DifferentialArea;
 use rayon::prelude::*;
 use std::sync::Arc;
 
 /// With more whole tiles than this, those that are far from each other are linked in clusters.
 const FEW: usize = 128;
-/// A point is in a closed room when ΣF is 1 within this, and covered when it is 0 within this.
-const CLOSED: f64 = 1e-9;
-
-/// Where clusters are linked, what covers a tile is known by ΣF alone, which is 1 elsewhere but for the errors of links.
-const COVERED: f64 = 0.5;
-
-/// Of many tiles so many tell whether all are in closed rooms.
-const SAMPLES: usize = 64;
-
-/// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not, which parts of a tile that
-/// is crossed may be; of those some see nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Enclosed {
-    Wholly,
-    Partly,
-    Covered,
-    Nowhere,
-}
-
-impl Enclosed {
-    fn by(sums: &[f64]) -> Enclosed {
-        // Between the sides of what stands on a tile, rounding may leave a crack.
-        let is_covered = sums.iter().all(|sum| *sum <= CLOSED);
-        match sums.iter().filter(|sum| (**sum - 1.0).abs() <= CLOSED).count() {
-            5 => Enclosed::Wholly,
-            0 if is_covered => Enclosed::Covered,
-            0 => Enclosed::Nowhere,
-            _ => Enclosed::Partly,
-        }
-    }
-}
 
 /// The links of a run.
 #[derive(Debug)]
@@ -58,8 +26,7 @@ pub(super) struct Links {
     pairs: usize,
     /// The scene's shapes.
     shapes: u64,
-    /// Which tiles are in closed rooms.
-    enclosed: Vec<Enclosed>,
+    pub(super) closed: ClosedRooms,
     totals: Totals,
 }
 
@@ -81,7 +48,7 @@ impl Links {
                 clusters: ClusterLinks { clusters, all: Vec::new() },
                 pairs: 0,
                 shapes,
-                enclosed: Vec::new(),
+                closed: ClosedRooms::default(),
                 totals: Totals::default(),
             })
         }
@@ -128,39 +95,34 @@ impl Links {
 
     /// Takes the links of whole tiles, and finds which of these are in closed rooms.
     pub(super) fn open(&mut self, tiling: &Tiling<'_>, mut links: Vec<Link>) {
-        if self.has_clusters() {
-            self.enclosed = vec![Enclosed::Nowhere; tiling.tiles.len()];
-            self.all = links;
-            if samples_are_enclosed(tiling) {
-                self.enclosed = self.uncovered(tiling);
-            }
-            return;
-        }
-        let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
-        for link in &links {
-            for end in [0, 1] {
-                let sums = seen[link.ends[end]].iter_mut();
-                sums.zip(link.transfer.seen[end]).for_each(|(sum, factor)| *sum += factor);
-            }
-        }
-        self.enclosed = seen.iter().map(|sums| Enclosed::by(sums)).collect();
         links.iter_mut().enumerate().for_each(|(pair, link)| link.pair = pair);
         self.pairs = links.len();
         self.all = links;
+        self.closed = if self.has_clusters() {
+            ClosedRooms::by_rooms(tiling, &self.equilibrium(tiling, false))
+        } else {
+            ClosedRooms::by_points(&self.sums(tiling))
+        };
     }
 
-    /// All tiles but those that see so little across their links that something covers them are in closed rooms.
-    fn uncovered(&self, tiling: &Tiling<'_>) -> Vec<Enclosed> {
-        let mut enclosed = vec![Enclosed::Wholly; tiling.tiles.len()];
-        let equilibrium = self.equilibrium(tiling, false);
-        let covered = (0..equilibrium.leaves().len()).filter(|leaf| equilibrium.sums(*leaf)[0] < COVERED);
-        covered.for_each(|leaf| enclosed[equilibrium.leaves()[leaf]] = Enclosed::Nowhere);
-        enclosed
+    /// ΣF of the points of all tiles, where all that see each other are linked by themselves.
+    fn sums(&self, tiling: &Tiling<'_>) -> Vec<[f64; 5]> {
+        let mut seen = vec![[0.0; 5]; tiling.tiles.len()];
+        for (link, end) in self.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
+            let sums = seen[link.ends[end]].iter_mut();
+            sums.zip(link.transfer.seen[end]).for_each(|(sum, factor)| *sum += factor);
+        }
+        seen
     }
 
-    /// How exact it is to be known what whole tiles exchange in all, in such light; nothing where they are too many.
-    pub(super) fn wanted(&self, tiling: &Tiling<'_>, lights: &[BandLight], error: f64) -> Vec<Wanted> {
-        if self.has_clusters() { Vec::new() } else { Totals::wanted(tiling, &self.all, lights, error) }
+    /// How exact it is to be known what whole tiles exchange in all, in such light: where they are many, only of those that matter.
+    pub(super) fn wanted(
+        &self,
+        tiling: &Tiling<'_>,
+        lights: &[BandLight],
+        error: f64,
+    ) -> Vec<Option<Wanted>> {
+        Totals::wanted(tiling, &self.all, lights, error, self.has_clusters())
     }
 
     /// Takes what whole tiles exchange in all.
@@ -180,35 +142,6 @@ impl Links {
     pub(super) fn restore(&mut self, tiling: &Tiling<'_>) {
         let scales = self.equilibrium(tiling, false).scales();
         self.totals.restore(&mut self.all, &scales);
-    }
-
-    /// ΣF of the tiles of which it is known: 1 in closed rooms, 0 under what stands on them.
-    pub(super) fn known(&self, tiling: &Tiling<'_>) -> Vec<Option<f64>> {
-        let of = |(tile, enclosed): (&Tile, &Enclosed)| match enclosed {
-            Enclosed::Wholly if !tile.is_crossed => Some(1.0),
-            Enclosed::Covered if !tile.is_crossed => Some(0.0),
-            _ => None,
-        };
-        let known = tiling.tiles.iter().zip(&self.enclosed).map(of);
-        known.chain(std::iter::repeat(None)).take(tiling.tiles.len()).collect()
-    }
-
-    /// Finds which of the tiles since the last time are in closed rooms: those of which a part is,
-    /// or may be covered, are looked at again when they are cut.
-    pub(super) fn enclose(&mut self, tiling: &Tiling<'_>) {
-        for tile in &tiling.tiles[self.enclosed.len()..] {
-            let parent = tile.parent.map(|parent| (self.enclosed[parent], tiling.tiles[parent].is_crossed));
-            self.enclosed.push(match parent {
-                None => Enclosed::Nowhere,
-                Some((enclosed, false)) if enclosed != Enclosed::Partly => enclosed,
-                // To look at everything from each costs too much where there are many tiles.
-                Some(_) if !self.clusters.clusters.all.is_empty() => Enclosed::Nowhere,
-                Some(_) => {
-                    let sums: Vec<f64> = tile.points.par_iter().map(|point| sum(tiling, point)).collect();
-                    Enclosed::by(&sums)
-                }
-            });
-        }
     }
 
     /// The links of some candidates, in their order; what was measured is kept in the state.
@@ -255,7 +188,7 @@ impl Links {
 
     /// The light of all leaves at once; rooms are made to close better at last.
     pub(super) fn equilibrium<'e>(&'e self, tiling: &'e Tiling<'_>, is_last: bool) -> Equilibrium<'e> {
-        Equilibrium::new(tiling, &self.all, &self.clusters, &self.known(tiling), is_last)
+        Equilibrium::new(tiling, &self.all, &self.clusters, &self.closed.known(tiling), is_last)
     }
 
     /// Refuses a closed room with a patch that reflects all light: what it emits, or what `direct` light falls on its tiles, could never leave.
@@ -268,9 +201,8 @@ impl Links {
         let patches = &tiling.scene.patches;
         let rooms = equilibrium.patches_of_rooms();
         for room in rooms {
-            let is_closed = |tile: usize| {
-                self.enclosed[tile] == Enclosed::Wholly || !room.contains(&tiling.tiles[tile].patch)
-            };
+            let is_closed =
+                |tile: usize| self.closed.encloses(tile) || !room.contains(&tiling.tiles[tile].patch);
             let closed = (0..tiling.tiles.len()).all(is_closed);
             let is_lit = |tile: usize, band: usize| {
                 room.contains(&tiling.tiles[tile].patch) && direct(tile, band) > 0.0
@@ -292,25 +224,4 @@ impl Links {
         }
         Ok(())
     }
-}
-
-/// Whether all of some tiles, taken at equal distances in the scene's order, see nothing but tiles; those of which the middle is covered do not
-/// tell.
-fn samples_are_enclosed(tiling: &Tiling<'_>) -> bool {
-    let step = tiling.tiles.len().div_ceil(SAMPLES);
-    let samples: Vec<&Tile> = tiling.tiles.iter().step_by(step).collect();
-    // One that sees something else tells enough.
-    let is_told = |tile: &&Tile| match sum(tiling, &tile.points[0]) {
-        sum if (sum - 1.0).abs() <= CLOSED => Some(true),
-        sum => (sum <= CLOSED).then_some(false),
-    };
-    samples.par_iter().map(is_told).try_reduce(|| false, |a, b| Some(a || b)) == Some(true)
-}
-
-/// ΣF of a point to all that rises above its plane: whether it sees what touches it face to face is up to rounding.
-fn sum(tiling: &Tiling<'_>, point: &DifferentialArea) -> f64 {
-    let polygons = tiling.enclosure.polygons();
-    let is_before = |surface: &usize| polygons[*surface].loops().flatten().any(|place| rises(*place, point));
-    let surfaces = (0..polygons.len()).filter(is_before);
-    surfaces.map(|surface| tiling.enclosure.form_factor(point, surface).value).sum()
 }

@@ -15,6 +15,7 @@
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
 //! links         all links of a run, by all threads, and what the state knows of them
+//! closed_rooms  which tiles see nothing but the room that they are in
 //! totals        what whole tiles exchange, which the links of their parts add up to
 //! estimate      what every patch may be off by, and which links that comes of
 //! reflections   how errors are reflected
@@ -55,6 +56,7 @@ mod allowance;
 mod borders;
 mod boxes;
 mod budget;
+mod closed_rooms;
 mod cluster;
 mod cluster_budget;
 mod cluster_links;
@@ -62,6 +64,7 @@ mod cluster_views;
 mod clusters;
 mod corners;
 mod direct;
+
 mod equilibrium;
 mod errors;
 mod estimate;

@@ -34,7 +34,7 @@ const MORE: usize = 4;
 const TILES: usize = 2;
 /// Patches of plates are looked at again when there are so many times the tiles.
 const AT_ONCE: usize = 2;
-/// A pass over all links is the last of a level when it refines no more than one in so many: the next level looks at the same ones.
+/// A pass over all links is the last of a level when it refines no more than one in so many: what those are wrong by is told, and counts in the end.
 const FEWEST: usize = 100;
 /// Products in a round of refinement, and at the end.
 const FEW: usize = 8;

@@ -70,8 +70,8 @@ impl Levels<'_> {
 
     /// Finds what lights bring to the leaves; false when the watcher wants to stop or something is found to be broken.
     pub(super) fn shine(&mut self, state: &State) -> Result<bool, Error> {
-        self.links.enclose(&self.tiling);
-        let known = self.links.known(&self.tiling);
+        self.links.closed.add(&self.tiling);
+        let known = self.links.closed.known(&self.tiling);
         let unknown = self.direct.unknown(&self.tiling);
         let (mut done, mut pace) = (0, Pace::new());
         while done < unknown.len() {

@@ -21,8 +21,6 @@ const MOST: u64 = 1 << 12;
 /// … and for one that is wrong by more than this share of what its patches may be wrong by in all.
 const MANY: u64 = 1 << 16;
 const MUCH: f64 = 0.2;
-/// Pairs of which totals are found: with more patches each pair matters less.
-const PAIRS: usize = 20_000;
 /// Links without an error take part with this share of what they carry.
 const EVEN: f64 = 1e-3;
 
@@ -47,25 +45,29 @@ pub(super) struct Wanted {
 }
 
 impl Totals {
-    /// How exact the total of each link of whole tiles is to be, for light that is to be right within such an error; none where there are too many.
+    /// How exact the total of each link of whole tiles is to be, for light that is to be right within such an error; where there are many, of those
+    /// that may carry more than that of all that reaches one of their patches.
     pub(super) fn wanted(
         tiling: &Tiling<'_>,
         links: &[Link],
         lights: &[BandLight],
         error: f64,
-    ) -> Vec<Wanted> {
-        let all = if links.len() > PAIRS { Vec::new() } else { shares(tiling, links, lights) };
-        let wanted = |[share, whole]: [f64; 2]| Wanted {
-            absolute: EXACT * error * share,
-            relative: EXACT * error,
-            needed: MUCH * error * whole,
+        are_many: bool,
+    ) -> Vec<Option<Wanted>> {
+        let wanted = |([share, whole], link): ([f64; 2], &Link)| {
+            let matters = !are_many || link.transfer.exchange[0] + link.error() > error * whole;
+            matters.then_some(Wanted {
+                absolute: EXACT * error * share,
+                relative: EXACT * error,
+                needed: MUCH * error * whole,
+            })
         };
-        all.into_iter().map(wanted).collect()
+        shares(tiling, links, lights).into_iter().zip(links).map(wanted).collect()
     }
 
     /// Finds those of the next links, past all that stands between their tiles.
-    pub(super) fn find(&mut self, tiling: &Tiling<'_>, links: &[Link], wanted: &[Wanted]) {
-        let total = |(link, wanted): (&Link, &Wanted)| total(tiling, link, wanted);
+    pub(super) fn find(&mut self, tiling: &Tiling<'_>, links: &[Link], wanted: &[Option<Wanted>]) {
+        let total = |(link, wanted): (&Link, &Option<Wanted>)| total(tiling, link, wanted.as_ref()?);
         self.0.par_extend(links.par_iter().zip(wanted).map(total));
     }
 

@@ -63,7 +63,7 @@ impl<'s> Sights<'s> {
         sent: &[Vec<Linear>],
         fine: &[f64],
     ) -> Sights<'s> {
-        let (known, clusters, links) = (links.known(tiling), &links.clusters, &links.all[..]);
+        let (known, clusters, links) = (links.closed.known(tiling), &links.clusters, &links.all[..]);
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
         let lit =
             |sent: &Vec<Linear>| tiling.tiles.iter().zip(sent).map(|(tile, sent)| lit(tile, *sent)).collect();
