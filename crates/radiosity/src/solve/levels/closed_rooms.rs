@@ -17,8 +17,9 @@ const CLOSED: f64 = 1e-9;
 const COVERED: f64 = 0.5;
 /// When so many tiles that lack most lack nothing, no others are asked, …
 const IN_TURN: usize = 8;
-/// … but so many of all.
+/// … but so many of all. After so many turns it is not known whether the room is closed.
 const SAMPLES: usize = 64;
+const TURNS: usize = 32;
 
 /// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not, which parts of a tile that
 /// is crossed may be; of those some see nothing.
@@ -168,7 +169,7 @@ impl TileRoom {
         let mut least = seen.to_vec();
         least.sort_by(|a, b| linked[*a].total_cmp(&linked[*b]));
         let mut enclosed = Vec::new();
-        for tiles in least.chunks(IN_TURN) {
+        for tiles in least.chunks(IN_TURN).take(TURNS) {
             let sums: Vec<f64> = tiles.par_iter().map(|tile| sum(*tile)).collect();
             let told = sums.iter().filter(|sum| **sum >= COVERED).count();
             let before = enclosed.len();
