@@ -1,11 +1,14 @@
 //! Pictures of textures: PNG and JPEG to linear colours.
 use crate::scene::texture::Image;
 use base64::Engine;
+use image::ImageDecoder;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// The most texels that are read.
 const MAX_TEXELS: u64 = 1 << 26;
+/// No byte of a file holds more bytes of a picture: in PNG 1032 (deflate, RFC 1951), in JPEG blocks of 64 texels of three bytes at a bit each.
+const MOST_OF_A_BYTE: u64 = 1536;
 
 /// A picture from a `data:` address, or from a file whose name is relative to a folder.
 pub(crate) fn fetch(address: &str, folder: Option<&Path>) -> Result<Image, String> {
@@ -63,14 +66,16 @@ fn local(address: &str) -> Option<PathBuf> {
 
 /// Decodes a picture; its colours are taken as sRGB, as pictures are stored, and an alpha channel is left out.
 pub(crate) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
-    let mut reader = image::ImageReader::new(Cursor::new(&bytes))
-        .with_guessed_format()
-        .map_err(|error| format!("{name}: {error}"))?;
+    let open = || image::ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+    let mut reader = open().map_err(|error| format!("{name}: {error}"))?;
     let mime = match reader.format() {
         Some(image::ImageFormat::Png) => "image/png",
         Some(image::ImageFormat::Jpeg) => "image/jpeg",
         _ => return Err(format!("{name}: neither PNG nor JPEG; convert it")),
     };
+    let head = open().map_err(image::ImageError::IoError).and_then(image::ImageReader::into_decoder);
+    may_hold(bytes.len() as u64, &head.map_err(|error| format!("{name}: {error}"))?)
+        .map_err(|refusal| format!("{name}: {refusal}"))?;
     let mut limits = image::Limits::default();
     limits.max_alloc = Some(16 * MAX_TEXELS);
     reader.limits(limits);
@@ -81,6 +86,20 @@ pub(crate) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
         return Err(format!("{name}: it has no texels"));
     }
     Ok(Image { name: name.into(), mime, width: picture.width() as usize, texels, bytes })
+}
+
+/// Refuses a picture that is larger than what is read, or than a file of so many bytes can hold, before there is memory for it.
+fn may_hold(bytes: u64, head: &impl ImageDecoder) -> Result<(), String> {
+    let (width, height) = head.dimensions();
+    let texels = u64::from(width) * u64::from(height);
+    let needed = texels.saturating_mul(u64::from(head.original_color_type().bits_per_pixel())) / 8;
+    if texels > MAX_TEXELS {
+        return Err(format!("{width} × {height} texels are too many; make it smaller"));
+    }
+    if needed > MOST_OF_A_BYTE * bytes {
+        return Err(format!("{width} × {height} texels are not in {bytes} bytes; save it again"));
+    }
+    Ok(())
 }
 
 /// The linear intensity of an sRGB value, both 0 to 1 (IEC 61966-2-1).
@@ -99,6 +118,30 @@ mod tests {
         }
         assert!(fetch("https://example.org/a.png", None).is_err());
         assert!(fetch("data:image/png;base64,%%%", None).is_err());
+    }
+
+    /// The head of a PNG file says how large it is, whatever follows: there is no memory for what a file cannot hold.
+    #[test]
+    fn a_picture_that_a_file_cannot_hold_is_refused_before_it_is_read() {
+        let white = image::RgbImage::from_pixel(1, 1, image::Rgb([255; 3]));
+        let mut file = Cursor::new(Vec::new());
+        white.write_to(&mut file, image::ImageFormat::Png).unwrap();
+        let whole = file.into_inner();
+        assert!(decode("white", whole.clone()).is_ok());
+        for (height, why) in [(0x0600_0001u32, "are too many"), (0x0060_0001, "are not in")] {
+            let mut bytes = whole.clone();
+            bytes[20..24].copy_from_slice(&height.to_be_bytes());
+            let check = crc(&bytes[12..29]);
+            bytes[29..33].copy_from_slice(&check.to_be_bytes());
+            let refusal = decode("tall", bytes).unwrap_err();
+            assert!(refusal.contains(why), "{refusal}");
+        }
+    }
+
+    /// The check of a chunk (PNG specification, annex D).
+    fn crc(bytes: &[u8]) -> u32 {
+        let step = |rest: u32, _| if rest & 1 == 1 { 0xedb8_8320 ^ (rest >> 1) } else { rest >> 1 };
+        !bytes.iter().fold(!0, |rest, byte| (0..8).fold(rest ^ u32::from(*byte), step))
     }
 
     #[cfg(unix)]
