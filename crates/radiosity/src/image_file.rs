@@ -66,20 +66,21 @@ fn local(address: &str) -> Option<PathBuf> {
 
 /// Decodes a picture; its colours are taken as sRGB, as pictures are stored, and an alpha channel is left out.
 pub(crate) fn decode(name: &str, bytes: Vec<u8>) -> Result<Image, String> {
-    let open = || image::ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
-    let mut reader = open().map_err(|error| format!("{name}: {error}"))?;
+    let refused = |error: image::ImageError| format!("{name}: {error}");
+    let mut reader = image::ImageReader::new(Cursor::new(&bytes))
+        .with_guessed_format()
+        .map_err(|error| format!("{name}: {error}"))?;
     let mime = match reader.format() {
         Some(image::ImageFormat::Png) => "image/png",
         Some(image::ImageFormat::Jpeg) => "image/jpeg",
         _ => return Err(format!("{name}: neither PNG nor JPEG; convert it")),
     };
-    let head = open().map_err(image::ImageError::IoError).and_then(image::ImageReader::into_decoder);
-    may_hold(bytes.len() as u64, &head.map_err(|error| format!("{name}: {error}"))?)
-        .map_err(|refusal| format!("{name}: {refusal}"))?;
     let mut limits = image::Limits::default();
     limits.max_alloc = Some(16 * MAX_TEXELS);
     reader.limits(limits);
-    let picture = reader.decode().map_err(|error| format!("{name}: {error}"))?.into_rgb16();
+    let decoder = reader.into_decoder().map_err(refused)?;
+    may_hold(bytes.len() as u64, &decoder).map_err(|refusal| format!("{name}: {refusal}"))?;
+    let picture = image::DynamicImage::from_decoder(decoder).map_err(refused)?.into_rgb16();
     let linear = |word: u16| linear(f64::from(word) / f64::from(u16::MAX));
     let texels: Vec<[f64; 3]> = picture.pixels().map(|pixel| pixel.0.map(linear)).collect();
     if texels.is_empty() {
@@ -120,28 +121,33 @@ mod tests {
         assert!(fetch("data:image/png;base64,%%%", None).is_err());
     }
 
-    /// The head of a PNG file says how large it is, whatever follows: there is no memory for what a file cannot hold.
+    /// A picture whose head says how large it is, and nothing follows.
+    fn head(width: u32, height: u32) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut writer = png::Encoder::new(&mut bytes, width, height).write_header().unwrap();
+        writer.write_chunk(png::chunk::IDAT, &[0; 16]).unwrap();
+        drop(writer);
+        bytes
+    }
+
     #[test]
     fn a_picture_that_a_file_cannot_hold_is_refused_before_it_is_read() {
-        let white = image::RgbImage::from_pixel(1, 1, image::Rgb([255; 3]));
-        let mut file = Cursor::new(Vec::new());
-        white.write_to(&mut file, image::ImageFormat::Png).unwrap();
-        let whole = file.into_inner();
-        assert!(decode("white", whole.clone()).is_ok());
-        for (height, why) in [(0x0600_0001u32, "are too many"), (0x0060_0001, "are not in")] {
-            let mut bytes = whole.clone();
-            bytes[20..24].copy_from_slice(&height.to_be_bytes());
-            let check = crc(&bytes[12..29]);
-            bytes[29..33].copy_from_slice(&check.to_be_bytes());
-            let refusal = decode("tall", bytes).unwrap_err();
+        let cases =
+            [(1, 0x0600_0001, "are too many"), (1, 0x0060_0001, "are not in"), (8192, 8192, "are not in")];
+        for (width, height, why) in cases {
+            let refusal = decode("tall", head(width, height)).unwrap_err();
             assert!(refusal.contains(why), "{refusal}");
         }
     }
 
-    /// The check of a chunk (PNG specification, annex D).
-    fn crc(bytes: &[u8]) -> u32 {
-        let step = |rest: u32, _| if rest & 1 == 1 { 0xedb8_8320 ^ (rest >> 1) } else { rest >> 1 };
-        !bytes.iter().fold(!0, |rest, byte| (0..8).fold(rest ^ u32::from(*byte), step))
+    /// What is packed as tightly as can be is read.
+    #[test]
+    fn a_picture_of_one_colour_is_read_however_large() {
+        for format in [image::ImageFormat::Png, image::ImageFormat::Jpeg] {
+            let mut file = Cursor::new(Vec::new());
+            image::RgbImage::from_pixel(4096, 4096, image::Rgb([0; 3])).write_to(&mut file, format).unwrap();
+            assert_eq!(decode("black", file.into_inner()).unwrap().texels.len(), 1 << 24);
+        }
     }
 
     #[cfg(unix)]

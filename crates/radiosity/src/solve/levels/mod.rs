@@ -64,7 +64,6 @@ mod cluster_views;
 mod clusters;
 mod corners;
 mod direct;
-
 mod equilibrium;
 mod errors;
 mod estimate;
