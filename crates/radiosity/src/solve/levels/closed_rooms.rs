@@ -156,8 +156,10 @@ impl TileRoom {
             return enclosed;
         }
         // Of a tile that is cut for what stands on it, parts are covered, which see as much across the links of the whole as others.
-        let is_of_crossed =
-            |tile: usize| tiling.tiles[tile].parent.is_some_and(|parent| tiling.tiles[parent].is_crossed);
+        let above = |tile: &usize| tiling.tiles[*tile].parent;
+        let is_of_crossed = |tile: usize| {
+            std::iter::successors(above(&tile), above).any(|whole| tiling.tiles[whole].is_crossed)
+        };
         let is_enclosed =
             |tile: &usize| tiling.tiles[*tile].is_crossed || !is_of_crossed(*tile) || is_one(sum(*tile));
         seen.into_par_iter().filter(is_enclosed).collect()

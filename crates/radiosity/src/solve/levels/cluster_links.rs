@@ -29,12 +29,7 @@ const PARTLY: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(super) struct ClusterLink {
     pub(super) ends: [usize; 2],
-    /// The tiles of each end that the other end sees something of, and what: hardly any in a town.
-    seen: [Vec<(usize, f64)>; 2],
-    /// The same of the linear functions of an end that is one tile.
-    slopes: [[f64; 2]; 2],
-    /// What is seen of two tiles times this is what they exchange.
-    scale: f64,
+    seen: Seen,
     /// How wrong that may be, as a share of it.
     error: f64,
     /// Where something stands between the clusters, or the plane of one passes through the other, what may be wrong of all that they exchange
@@ -44,11 +39,47 @@ pub(super) struct ClusterLink {
     bends: [f64; 2],
 }
 
+/// What is seen of the tiles of two clusters.
+#[derive(Clone, Debug)]
+struct Seen {
+    /// The tiles of each end that the other end sees something of, and what: hardly any in a town.
+    tiles: [Vec<(usize, f64)>; 2],
+    /// The same of the linear functions of an end that is one tile.
+    slopes: [[f64; 2]; 2],
+    /// What is seen of two tiles times this is what they exchange.
+    scale: f64,
+}
+
 /// The links between clusters, and their clusters.
 #[derive(Debug)]
 pub(super) struct ClusterLinks {
     pub(super) clusters: Clusters,
     pub(super) all: Vec<ClusterLink>,
+}
+
+impl Seen {
+    /// By what is seen of each end from the centre of the other, and what the products of that are to be multiplied by. One tile and many exchange
+    /// what points of the one see of each of the many: it is not the centre of these that the one faces, but each of them by itself.
+    fn of(
+        tiling: &Tiling<'_>,
+        clusters: &Clusters,
+        ends: [usize; 2],
+        views: [&ClusterView; 2],
+        scale: f64,
+    ) -> Seen {
+        let of = |end: usize, seen: &[f64]| some(clusters.tiles(ends[end]), seen);
+        let (tiles, slopes) = (views.map(|view| &view.seen[..]), views.map(|view| view.slopes));
+        let is_one = |end: &usize| clusters.tiles(ends[*end]).len() == 1;
+        let one = [0, 1].into_iter().find(|end| is_one(end) && !is_one(&(1 - end)));
+        let Some(one) = one else {
+            return Seen { tiles: [of(0, tiles[0]), of(1, tiles[1])], slopes, scale };
+        };
+        let area = tiling.tiles[clusters.tiles(ends[one])[0]].area;
+        let per = if tiles[one][0] > 0.0 { area / tiles[one][0] } else { 0.0 };
+        let mut found = [of(one, &[area]), of(1 - one, &views[1 - one].factors)];
+        found.rotate_left(one);
+        Seen { tiles: found, slopes: slopes.map(|slopes| slopes.map(|slope| slope * per)), scale: 1.0 }
+    }
 }
 
 impl ClusterLink {
@@ -67,27 +98,28 @@ impl ClusterLink {
         };
         let open = of_first.open.zip(of_second.open).map(|(one, other)| one * other);
         let open_error = BETWEEN + PARTLY * partly.max((visible * (1.0 - visible)).max(0.0).sqrt());
-        let seen =
-            [some(clusters.tiles(ends[0]), &of_first.seen), some(clusters.tiles(ends[1]), &of_second.seen)];
-        let is_open = open.map_or_else(|| seen.iter().all(|seen| !seen.is_empty()), |open| open > 0.0);
-        let crossing = clusters.crossing(tiling, ends);
-        (is_open || crossing > 0.0).then(|| ClusterLink {
+        let scale = if visible > 0.0 { open_scale / visible } else { 0.0 };
+        let seen = Seen::of(tiling, clusters, ends, [&of_first, &of_second], scale);
+        let [most, crossing] = clusters.bounds(tiling, ends);
+        let are_seen = [&of_first, &of_second].map(ClusterView::is_seen);
+        let is_open = open.map_or(are_seen == [true; 2], |open| open > 0.0);
+        // What points of one see of the other, and those of the other do not of the one, may be anything.
+        let unknown = if !is_open && are_seen.contains(&true) { most } else { crossing };
+        (is_open || unknown > 0.0).then(|| ClusterLink {
             ends,
             bends: [bend(ends[0], ends[1]), bend(ends[1], ends[0])],
-            scale: if visible > 0.0 { open_scale / visible } else { 0.0 },
             error: BILINEAR * clusters.nearness(ends) + PARTLY * doubt + ROUGH,
-            hidden: open.map_or(0.0, |open| open_error * open_scale * open) + crossing,
-            slopes: [of_first.slopes, of_second.slopes],
+            hidden: open.map_or(0.0, |open| open_error * open_scale * open) + unknown,
             seen,
         })
     }
 
     /// What each tile of one end receives, as powers, when the tiles send so much.
     fn carry(&self, end: usize, sent: &[Linear], mut to: impl FnMut(usize, Linear)) {
-        let brings = self.scale * self.sent(1 - end, sent);
+        let brings = self.seen.scale * self.sent(1 - end, sent);
         if brings != 0.0 {
-            let [first, second] = self.slopes[end];
-            for (tile, seen) in &self.seen[end] {
+            let [first, second] = self.seen.slopes[end];
+            for (tile, seen) in &self.seen.tiles[end] {
                 to(*tile, [*seen, first, second].map(|s| s * brings));
             }
         }
@@ -95,10 +127,10 @@ impl ClusterLink {
 
     /// What an end sends, as the other sees it.
     fn sent(&self, end: usize, sent: &[Linear]) -> f64 {
-        let seen = &self.seen[end];
+        let seen = &self.seen.tiles[end];
         let slope = |(tile, _): &(usize, f64)| {
             let [_, first, second] = sent[*tile];
-            self.slopes[end][0] * first + self.slopes[end][1] * second
+            self.seen.slopes[end][0] * first + self.seen.slopes[end][1] * second
         };
         let mean: f64 = seen.iter().map(|(tile, seen)| seen * sent[*tile][0]).sum();
         mean + seen.first().map_or(0.0, slope)
@@ -106,12 +138,12 @@ impl ClusterLink {
 
     /// What is seen of an end that is one tile.
     fn only(&self, end: usize) -> Option<(usize, f64)> {
-        self.seen[end].first().copied().filter(|_| self.bends[end] > 0.0)
+        self.seen.tiles[end].first().copied().filter(|_| self.bends[end] > 0.0)
     }
 
     /// An end that is one tile, and how far what it receives may be from linear, as a power.
     pub(super) fn curvature(&self, end: usize, sent: &[Linear]) -> Option<(usize, f64)> {
-        let power = |seen: f64| self.bends[end] * self.scale * seen * self.sent(1 - end, sent).abs();
+        let power = |seen: f64| self.bends[end] * self.seen.scale * seen * self.sent(1 - end, sent).abs();
         self.only(end).map(|(tile, seen)| (tile, power(seen)))
     }
 
@@ -124,8 +156,16 @@ impl ClusterLink {
     ) -> impl Iterator<Item = (usize, f64)> {
         let uneven =
             self.only(1 - end).map_or(0.0, |(tile, seen)| self.bends[1 - end] * seen * deviation[tile]);
-        let brings = self.scale * (self.error * self.sent(1 - end, sent).abs() + uneven);
-        self.seen[end].iter().map(move |(tile, seen)| (*tile, brings * seen))
+        let brings = self.seen.scale * (self.error * self.sent(1 - end, sent).abs() + uneven);
+        self.seen.tiles[end].iter().map(move |(tile, seen)| (*tile, brings * seen))
+    }
+
+    /// Whether all that it carries is known within such a share.
+    pub(super) fn is_within(&self, share: f64) -> bool {
+        let [one, other] =
+            self.seen.tiles.each_ref().map(|seen| seen.iter().map(|(_, seen)| seen).sum::<f64>());
+        let passed = self.seen.scale * one * other;
+        self.error * passed + self.hidden <= share * passed
     }
 
     /// What may be wrong of what could pass were nothing in between: a power, for a radiosity of 1.
@@ -135,25 +175,25 @@ impl ClusterLink {
 
     /// For each tile that is seen a number: the products of those of two tiles are what these exchange, raised to a power.
     pub(super) fn powers(&self, exponent: f64) -> [Vec<(usize, f64)>; 2] {
-        let half = self.scale.sqrt();
+        let half = self.seen.scale.sqrt();
         let power = |(tile, seen): &(usize, f64)| (*tile, (half * seen).powf(exponent));
-        self.seen.each_ref().map(|seen| seen.iter().map(power).collect())
+        self.seen.tiles.each_ref().map(|seen| seen.iter().map(power).collect())
     }
 
     /// The tiles of an end of which the other end sees something, and what: the product of what is seen of two tiles times the scale is what
     /// these exchange.
     pub(super) fn seen(&self, end: usize) -> &[(usize, f64)] {
-        &self.seen[end]
+        &self.seen.tiles[end]
     }
 
     pub(super) fn scale(&self) -> f64 {
-        self.scale
+        self.seen.scale
     }
 
     /// The tiles that exchange light.
     pub(super) fn lit(&self) -> impl Iterator<Item = usize> {
-        let lit = self.seen.iter().flatten().map(|(tile, _)| *tile);
-        lit.take(if self.scale > 0.0 { usize::MAX } else { 0 })
+        let lit = self.seen.tiles.iter().flatten().map(|(tile, _)| *tile);
+        lit.take(if self.seen.scale > 0.0 { usize::MAX } else { 0 })
     }
 }
 
@@ -165,19 +205,24 @@ impl ClusterLinks {
 
     /// Adds what all whole tiles receive when they send so much: irradiance.
     pub(super) fn gather(&self, tiling: &Tiling<'_>, sent: &[Linear], received: &mut [Linear]) {
-        for link in &self.all {
-            for end in [0, 1] {
-                link.carry(end, sent, |tile, power| {
-                    let per = 1.0 / tiling.tiles[tile].area;
-                    let scales = [per, per / SQUARE, per / SQUARE];
-                    received[tile]
-                        .iter_mut()
-                        .zip(power)
-                        .zip(scales)
-                        .for_each(|((sum, power), per)| *sum += power * per);
-                });
-            }
-        }
+        gather(tiling, self.all.iter(), sent, received);
+    }
+}
+
+/// Adds what whole tiles receive across some links.
+pub(super) fn gather<'l>(
+    tiling: &Tiling<'_>,
+    links: impl Iterator<Item = &'l ClusterLink>,
+    sent: &[Linear],
+    received: &mut [Linear],
+) {
+    for (link, end) in links.flat_map(|link| [(link, 0), (link, 1)]) {
+        link.carry(end, sent, |tile, power| {
+            let per = 1.0 / tiling.tiles[tile].area;
+            let scales = [per, per / SQUARE, per / SQUARE];
+            let parts = received[tile].iter_mut().zip(power).zip(scales);
+            parts.for_each(|((sum, power), per)| *sum += power * per);
+        });
     }
 }
 

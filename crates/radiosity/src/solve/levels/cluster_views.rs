@@ -26,7 +26,9 @@ const NEAR: f64 = 1e-9;
 /// What one cluster is seen of from another.
 #[derive(Debug)]
 pub(super) struct ClusterView {
-    /// For each tile the form factor from points of the other cluster, as from its centre.
+    /// For each tile the mean form factor from points of the other cluster.
+    pub(super) factors: Vec<f64>,
+    /// The same, as from its centre to where it looks.
     pub(super) seen: Vec<f64>,
     /// Of a single tile: the integrals over it of the kernel times its linear functions.
     pub(super) slopes: [f64; 2],
@@ -215,6 +217,7 @@ impl ClusterView {
     fn none(count: usize, is_past_others: bool) -> ClusterView {
         ClusterView {
             open: is_past_others.then_some(0.0),
+            factors: vec![0.0; count],
             seen: vec![0.0; count],
             slopes: [0.0; 2],
             points: Vec::new(),
@@ -229,6 +232,7 @@ impl ClusterView {
         let [mut common, mut all] = [0.0; 2];
         for (k, factor) in found.iter_mut().enumerate().filter(|(_, factor)| **factor > 0.0) {
             let tile = &tiling.tiles[tiles[k]];
+            self.factors[k] += *factor;
             *factor *= view.weight(tile);
             let seen = *factor;
             if tiles.len() == 1 {
@@ -253,8 +257,13 @@ impl ClusterView {
     fn settle(&mut self) {
         let count = self.points.iter().filter(|point| point.all.max(point.open) > 0.0).count().max(1);
         let share = 1.0 / f64::from(u32::try_from(count).unwrap_or(1));
-        let all = self.seen.iter_mut().chain(&mut self.slopes).chain(&mut self.open);
-        all.for_each(|factor| *factor *= share);
+        let seen = self.factors.iter_mut().chain(&mut self.seen);
+        seen.chain(&mut self.slopes).chain(&mut self.open).for_each(|factor| *factor *= share);
+    }
+
+    /// Whether anything is seen.
+    pub(super) fn is_seen(&self) -> bool {
+        self.seen.iter().any(|seen| *seen > 0.0)
     }
 
     /// What share of what could be seen is.

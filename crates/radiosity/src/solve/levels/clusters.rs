@@ -1,4 +1,5 @@
 //! Clusters: tiles near each other, which exchange light as a whole with what is far away (Smits, Arvo and Greenberg 1994).
+//! What is seen of a cluster is seen from its centre: lamps are parted from what they light before all else.
 //!
 //! ```text
 //!                all
@@ -70,9 +71,15 @@ impl Clusters {
         if members.len() > 1 {
             let axis = self.all[index].extent.longest();
             let middle = |tile: &usize| extents[*tile].low[axis] + extents[*tile].high[axis];
-            self.order[members.clone()]
-                .sort_unstable_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
-            let half = members.start + members.len() / 2;
+            let is_dark = |tile: &usize| !shines(tiling, *tile);
+            let tiles = &mut self.order[members.clone()];
+            tiles.sort_unstable_by(|a, b| {
+                is_dark(a).cmp(&is_dark(b)).then(middle(a).total_cmp(&middle(b))).then(a.cmp(b))
+            });
+            let half = match tiles.partition_point(|tile| !is_dark(tile)) {
+                lamps if lamps > 0 && lamps < tiles.len() => members.start + lamps,
+                _ => members.start + members.len() / 2,
+            };
             let halves =
                 [members.start..half, half..members.end].map(|part| self.grow(tiling, extents, part));
             self.all[index].halves = Some(halves);
@@ -191,17 +198,18 @@ impl Clusters {
         (reach * reach).min(1.0)
     }
 
-    /// About the most that may be wrong of what tiles of one exchange with the other whose planes pass through it, for a radiosity of 1: points on the
-    /// two sides of such a plane see all and nothing of the tile.
-    pub(super) fn crossing(&self, tiling: &Tiling<'_>, [one, other]: [usize; 2]) -> f64 {
-        let bounds = |one: usize, other: usize| {
+    /// About the most that two exchange, for a radiosity of 1, and what of that may be wrong because planes of tiles pass through the other: points
+    /// on the two sides of such a plane see all and nothing of the tile.
+    pub(super) fn bounds(&self, tiling: &Tiling<'_>, [one, other]: [usize; 2]) -> [f64; 2] {
+        let of = |one: usize, other: usize| {
             let fill = self.fill(one, other);
             self.all[one].rise(tiling, self.tiles(one), &self.all[other]).map(|rise| fill * rise)
         };
-        let [[all, through], [back, back_through]] = [bounds(one, other), bounds(other, one)];
-        let most = (through + back_through).min(all).min(back);
+        let [[all, through], [back, back_through]] = [of(one, other), of(other, one)];
+        let most = all.min(back);
+        let crossing = (through + back_through).min(most);
         let are_two = [one, other].iter().all(|cluster| self.tiles(*cluster).len() == 1);
-        if are_two { most } else { ON_AVERAGE * most }
+        [most, if are_two { crossing } else { ON_AVERAGE * crossing }]
     }
 
     /// Whether some tile of one may be before some tile of the other, and the other way round, as far as normals and boxes tell.
@@ -209,6 +217,11 @@ impl Clusters {
         let [one, other] = [&self.all[one], &self.all[other]];
         one.may_see(other) && other.may_see(one)
     }
+}
+
+/// Whether a tile is a part of a lamp.
+fn shines(tiling: &Tiling<'_>, tile: usize) -> bool {
+    tiling.scene.patches[tiling.tiles[tile].patch].emission.iter().any(|emission| *emission > 0.0)
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 //!
 //! T takes what the leaves send to what they receive: pull, gather, push. As links carry light both ways by one matrix, it is its own
 //! adjoint, and power adds up. What leaves of closed rooms send and receive is scaled so that ΣF is 1 (Sinkhorn and Knopp 1967), and what
-//! is still missing is taken to be as bright as the receiver: so no room loses or gains light, however bright its finish.
-use super::cluster_links::ClusterLinks;
+//! is still missing is taken to be as bright as the receiver: so no room loses or gains light, however bright its finish. Some links of clusters
+//! are wrong by far more than others: where there are such, it is they that are scaled.
+use super::cluster_links::{self, ClusterLinks};
 use super::flow::{Linear, gather, pull, push, square};
 use super::link::Link;
 use super::roots::Roots;
@@ -15,6 +16,10 @@ use crate::union_find::UnionFind;
 const ROUNDS: usize = 30;
 const FEW_ROUNDS: usize = 4;
 const SLIGHT: f64 = 1e-9;
+/// Nothing is scaled by more than this at a leaf: where so much is missing, links say nothing about where it comes from.
+const MOST: f64 = 4.0;
+/// Where there are links of clusters, those that are known within such a share are not scaled: what is missing is missing from others.
+const KNOWN: f64 = 0.3;
 
 /// The links of a tree as one operator.
 #[derive(Debug)]
@@ -23,7 +28,8 @@ pub(super) struct Equilibrium<'e> {
     links: &'e [Link],
     clusters: &'e ClusterLinks,
     leaves: Vec<usize>,
-    /// For each leaf, what it sends and receives is multiplied by.
+    firm: Firm,
+    /// For each leaf, what it sends and receives across the other links is multiplied by.
     scales: Vec<f64>,
     /// The largest change of ΣF by that.
     scaling: f64,
@@ -34,6 +40,15 @@ pub(super) struct Equilibrium<'e> {
     /// The room of each leaf, and the first leaf of each room.
     room_of: Vec<usize>,
     first_of: Vec<usize>,
+}
+
+/// Which links carry what was measured, and nothing else. What links of a tile carry that is covered in part is not known to be the same for its
+/// parts.
+#[derive(Debug)]
+struct Firm {
+    of_tiles: Vec<bool>,
+    of_clusters: Vec<bool>,
+    is_any: bool,
 }
 
 impl<'e> Equilibrium<'e> {
@@ -49,11 +64,13 @@ impl<'e> Equilibrium<'e> {
         let (room_of, first_of) = rooms(tiling, links, clusters, &leaves);
         let count = leaves.len();
         let (scales, missing, sums) = (vec![1.0; count], vec![[0.0; 3]; count], Vec::new());
+        let firm = Firm::of(tiling, links, clusters, known);
         let mut equilibrium = Equilibrium {
             tiling,
             links,
             clusters,
             leaves,
+            firm,
             scales,
             missing,
             sums,
@@ -70,12 +87,15 @@ impl<'e> Equilibrium<'e> {
         let even = vec![[1.0, 0.0, 0.0]; self.leaves.len()];
         let roots = Roots::new(self.tiling, self.links, self.clusters, &self.leaves, known);
         for round in 0..rounds {
-            let sums: Vec<f64> = self.receive(&even).iter().map(|sums| sums[0]).collect();
+            let [firm, loose] = self.carried(&even);
+            let sums: Vec<f64> = firm.iter().zip(&loose).map(|(firm, loose)| firm[0] + loose[0]).collect();
             let rights = roots.rights(&sums);
             let mut largest = 0.0f64;
             for (leaf, (sum, right)) in sums.iter().zip(rights).enumerate() {
-                if *sum > 0.0 && right >= 0.0 {
-                    self.scales[leaf] *= (right / sum).sqrt();
+                let (firm, loose) = (firm[leaf][0], loose[leaf][0]);
+                if loose > 0.0 && right >= 0.0 {
+                    let by = ((right - firm).max(0.0) / loose).sqrt();
+                    self.scales[leaf] = (self.scales[leaf] * by).min(MOST);
                     largest = largest.max((sum - right).abs());
                 }
             }
@@ -110,10 +130,13 @@ impl<'e> Equilibrium<'e> {
         self.scaling
     }
 
-    /// What each tile sends and receives is multiplied by, on average.
+    /// What each link carries is multiplied by, on average.
     pub(super) fn scales(&self) -> Vec<f64> {
         let scales: Vec<Linear> = self.scales.iter().map(|scale| [*scale, 0.0, 0.0]).collect();
-        self.spread(&scales).into_iter().map(|mean| mean[0]).collect()
+        let of_tiles = self.spread(&scales);
+        let of_ends = |link: &Link| link.ends.map(|end| of_tiles[end][0]).into_iter().product();
+        let of = |(link, is_firm): (&Link, &bool)| if *is_firm { 1.0 } else { of_ends(link) };
+        self.links.iter().zip(&self.firm.of_tiles).map(of).collect()
     }
 
     /// What the leaves reflect.
@@ -177,14 +200,9 @@ impl<'e> Equilibrium<'e> {
 
     /// T: what the leaves receive when they send so much.
     pub(super) fn receive(&self, sent: &[Linear]) -> Vec<Linear> {
-        let scaled: Vec<Linear> =
-            sent.iter().zip(&self.scales).map(|(light, scale)| light.map(|l| l * scale)).collect();
-        let spread = self.spread(&scaled);
-        let mut received = gather(self.tiling, self.links, &spread);
-        self.clusters.gather(self.tiling, &spread, &mut received);
-        push(self.tiling, &mut received);
-        let here = |(((&leaf, scale), own), missing): (((&usize, &f64), &Linear), &Linear)| {
-            let [mean, first, second] = received[leaf].map(|l| l * scale);
+        let [firm, loose] = self.carried(sent);
+        let here = |(((firm, loose), own), missing): (((Linear, Linear), &Linear), &Linear)| {
+            let [mean, first, second] = [0, 1, 2].map(|k| firm[k] + loose[k]);
             let of_slopes = SQUARE * (missing[1] * own[1] + missing[2] * own[2]);
             [
                 mean + missing[0] * own[0] + of_slopes,
@@ -192,7 +210,31 @@ impl<'e> Equilibrium<'e> {
                 second + missing[2] * own[0],
             ]
         };
-        self.leaves.iter().zip(&self.scales).zip(sent).zip(&self.missing).map(here).collect()
+        firm.into_iter().zip(loose).zip(sent).zip(&self.missing).map(here).collect()
+    }
+
+    /// What the leaves receive by what is carried as it was measured, and by what is scaled.
+    fn carried(&self, sent: &[Linear]) -> [Vec<Linear>; 2] {
+        let of = |light: &[Linear]| -> Vec<Linear> {
+            let by = |(light, scale): (&Linear, &f64)| light.map(|l| l * scale);
+            light.iter().zip(&self.scales).map(by).collect()
+        };
+        let loose = self.across(&of(sent), false);
+        let firm = if self.firm.is_any { self.across(sent, true) } else { vec![[0.0; 3]; sent.len()] };
+        [firm, of(&loose)]
+    }
+
+    /// What the leaves receive across some of the links when they send so much.
+    fn across(&self, sent: &[Linear], are_firm: bool) -> Vec<Linear> {
+        let sent = self.spread(sent);
+        let is_taken = |is_firm: &bool| *is_firm == are_firm;
+        let links = self.links.iter().zip(&self.firm.of_tiles).filter(|(_, is_firm)| is_taken(is_firm));
+        let mut received = gather(self.tiling, links.map(|(link, _)| link), &sent);
+        let far = self.clusters.all.iter().zip(&self.firm.of_clusters);
+        let far = far.filter(|(_, is_firm)| is_taken(is_firm)).map(|(link, _)| link);
+        cluster_links::gather(self.tiling, far, &sent, &mut received);
+        push(self.tiling, &mut received);
+        self.of_leaves(&received)
     }
 
     /// Takes the light out of rooms into which none is sent: what rounding leaves there.
@@ -247,6 +289,24 @@ impl<'e> Equilibrium<'e> {
 /// The largest value of a function anywhere on its tile, about.
 pub(super) fn largest(light: &[Linear]) -> f64 {
     light.iter().map(|l| l[0].abs() + l[1].abs() + l[2].abs()).fold(0.0, f64::max)
+}
+
+impl Firm {
+    fn of(tiling: &Tiling<'_>, links: &[Link], clusters: &ClusterLinks, known: &[Option<f64>]) -> Firm {
+        if clusters.all.is_empty() || !known.contains(&Some(1.0)) {
+            let [of_tiles, of_clusters] = [links.len(), clusters.all.len()].map(|count| vec![false; count]);
+            return Firm { of_tiles, of_clusters, is_any: false };
+        }
+        let root_of = tiling.roots();
+        let is_whole = |end: &usize| !tiling.tiles[root_of[*end]].is_crossed;
+        let is_known = |link: &Link| link.error() <= KNOWN * link.exchange[0];
+        let is_firm = |link: &Link| is_known(link) && link.ends.iter().all(is_whole);
+        Firm {
+            of_tiles: links.iter().map(is_firm).collect(),
+            of_clusters: clusters.all.iter().map(|link| link.is_within(KNOWN)).collect(),
+            is_any: true,
+        }
+    }
 }
 
 /// Which leaves exchange light, at once or through others: the room of each, and the first leaf of each room.

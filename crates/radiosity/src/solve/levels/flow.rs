@@ -29,8 +29,12 @@ pub(super) fn push(tiling: &Tiling<'_>, received: &mut [Linear]) {
     }
 }
 
-/// What all tiles receive across the links when they send so much: irradiance.
-pub(super) fn gather(tiling: &Tiling<'_>, links: &[Link], sent: &[Linear]) -> Vec<Linear> {
+/// What all tiles receive across some links when they send so much: irradiance.
+pub(super) fn gather<'l>(
+    tiling: &Tiling<'_>,
+    links: impl Iterator<Item = &'l Link>,
+    sent: &[Linear],
+) -> Vec<Linear> {
     let mut received = vec![[0.0; 3]; sent.len()];
     for link in links {
         let [one, other] = link.ends;

@@ -76,12 +76,11 @@ impl Totals {
         self.0.get(pair).copied().flatten().is_some_and(|total| total.power + total.error == 0.0)
     }
 
-    /// Makes the links add up to the totals though what each tile sends and receives is scaled.
+    /// Makes the links add up to the totals though what each carries is scaled.
     pub(super) fn restore(&self, links: &mut [Link], scales: &[f64]) {
         let mut found = vec![0.0; self.0.len()];
-        let scaled = |link: &Link| link.exchange[0] * scales[link.ends[0]] * scales[link.ends[1]];
-        for link in links.iter() {
-            found.get_mut(link.pair).into_iter().for_each(|sum| *sum += scaled(link));
+        for (link, scale) in links.iter().zip(scales) {
+            found.get_mut(link.pair).into_iter().for_each(|sum| *sum += link.exchange[0] * scale);
         }
         for link in links.iter_mut().filter(|link| link.of_total.is_some()) {
             let Some(total) = self.0.get(link.pair).copied().flatten() else { continue };
