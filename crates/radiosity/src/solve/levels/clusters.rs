@@ -1,5 +1,5 @@
 //! Clusters: tiles near each other, which exchange light as a whole with what is far away (Smits, Arvo and Greenberg 1994).
-//! What is seen of a cluster is seen from its centre: lamps are parted from what they light before all else.
+//! What is seen of a cluster is seen from its centre: a few lamps are parted from what is dark beside them before all else.
 //!
 //! ```text
 //!                all
@@ -18,7 +18,7 @@ use std::ops::Range;
 
 /// Two clusters are far from each other when the product of their radii is less than this share of the square of their distance.
 const NEAR: f64 = 0.15;
-/// Clusters of so few tiles are halved before a larger tile is cut for them.
+/// Clusters of so few tiles are halved before a larger tile is cut for them, and so few lamps are parted from other tiles.
 const FEW: usize = 8;
 
 /// Of many tiles whose planes pass through a cluster, what of that they may exchange with it is wrong on average.
@@ -71,15 +71,14 @@ impl Clusters {
         if members.len() > 1 {
             let axis = self.all[index].extent.longest();
             let middle = |tile: &usize| extents[*tile].low[axis] + extents[*tile].high[axis];
-            let is_dark = |tile: &usize| !shines(tiling, *tile);
             let tiles = &mut self.order[members.clone()];
+            let lamps = tiles.iter().filter(|tile| shines(tiling, **tile)).count();
+            let are_parted = (1..=FEW).contains(&lamps) && lamps < tiles.len();
+            let is_left = |tile: &usize| are_parted && !shines(tiling, *tile);
             tiles.sort_unstable_by(|a, b| {
-                is_dark(a).cmp(&is_dark(b)).then(middle(a).total_cmp(&middle(b))).then(a.cmp(b))
+                is_left(a).cmp(&is_left(b)).then(middle(a).total_cmp(&middle(b))).then(a.cmp(b))
             });
-            let half = match tiles.partition_point(|tile| !is_dark(tile)) {
-                lamps if lamps > 0 && lamps < tiles.len() => members.start + lamps,
-                _ => members.start + members.len() / 2,
-            };
+            let half = members.start + if are_parted { lamps } else { members.len() / 2 };
             let halves =
                 [members.start..half, half..members.end].map(|part| self.grow(tiling, extents, part));
             self.all[index].halves = Some(halves);

@@ -21,6 +21,8 @@ const MOST: u64 = 1 << 12;
 /// … and for one that is wrong by more than this share of what its patches may be wrong by in all.
 const MANY: u64 = 1 << 16;
 const MUCH: f64 = 0.2;
+/// Where there are many, not those between which more may stand: a point costs as much more, and parts of the two are linked in any case.
+const BETWEEN: usize = 128;
 /// Links without an error take part with this share of what they carry.
 const EVEN: f64 = 1e-3;
 
@@ -55,7 +57,8 @@ impl Totals {
         are_many: bool,
     ) -> Vec<Option<Wanted>> {
         let wanted = |([share, whole], link): ([f64; 2], &Link)| {
-            let matters = !are_many || link.transfer.exchange[0] + link.error() > error * whole;
+            let is_much = link.transfer.exchange[0] + link.error() > error * whole;
+            let matters = !are_many || (is_much && link.among.len() <= BETWEEN);
             matters.then_some(Wanted {
                 absolute: EXACT * error * share,
                 relative: EXACT * error,
