@@ -1,4 +1,4 @@
-//! Light by clusters beside path tracing: in a town, whose ground is far larger than what stands on it, and in a room of tiles.
+//! Light by clusters beside path tracing: in a town, whose ground is far larger than what stands on it, and in rooms of many patches.
 #[path = "../examples/beside_paths/mod.rs"]
 mod beside_paths;
 
@@ -6,7 +6,7 @@ use beside_paths::{errors, root_mean_square, scene};
 use glam::DVec3;
 use radiosity::{Method, Options, Quality, Solution, solve};
 use std::ops::ControlFlow;
-use tests::light::{KINDS, Surface, mean_irradiance, room, tiled_room, town};
+use tests::light::{KINDS, Surface, cut, mean_irradiance, room, tiled_room, town};
 
 const PATHS: u32 = 10_000;
 
@@ -37,6 +37,21 @@ fn a_town_has_the_light_that_paths_find_within_its_estimates() {
 #[test]
 fn a_tiled_room_has_the_light_that_paths_find_beside_boxes_that_cover_tiles() {
     assert_within_estimates(&tiled_room(), 0.015);
+}
+
+/// Of what is lit through clusters no patch is left dark: a lamp faces each of the tiles of a wall, and not their centre.
+#[test]
+fn a_tiled_room_with_a_window_has_the_light_that_paths_find() {
+    let mut room = tiled_room();
+    room.retain(|tile| tile.name != "tile-4-3-3");
+    assert_within_estimates(&room, 0.03);
+}
+
+/// Its lamp is no part of the ceiling, what blocks cover is in no closed room, and what a lamp brings is not scaled for what others lack.
+#[test]
+fn a_room_of_cut_blocks_has_the_light_that_paths_find() {
+    let blocks = KINDS.iter().position(|kind| *kind == "blocks").expect("a kind");
+    assert_within_estimates(&cut(room(blocks, 0), 3), 0.04);
 }
 
 /// However much there is outside, light does not leave a closed room: not over the floor, on which legs stand, nor by what is far from each other in it.

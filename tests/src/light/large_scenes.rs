@@ -1,4 +1,4 @@
-//! Scenes of hundreds of surfaces: a town, and a room of tiles.
+//! Scenes of hundreds of surfaces: a town, a room of tiles, and rooms whose faces are cut.
 use super::Surface;
 use crate::random::Random;
 use glam::{DMat3, DVec3};
@@ -62,4 +62,31 @@ pub fn tiled_room() -> Vec<Surface> {
         all.push(surface(format!("top-{index}"), base.map(|p| p + rise), 0.5, 0.0));
     }
     all
+}
+
+/// A room of which every face with four corners is so many times so many, each less bright than the last, but for lamps.
+pub fn cut(room: Vec<Surface>, times: usize) -> Vec<Surface> {
+    let is_whole = |face: &Surface| {
+        face.loops.len() > 1
+            || face.loops[0].len() != 4
+            || face.radiance.iter().any(|radiance| *radiance > 0.0)
+    };
+    let parts = |face: Surface| {
+        if is_whole(&face) {
+            return vec![face];
+        }
+        let at = |i: usize, j: usize| {
+            let [u, v] = [i, j].map(|k| k as f64 / times as f64);
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| face.loops[0][k]);
+            (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * d + u * c)
+        };
+        let part = |i: usize, j: usize| Surface {
+            name: format!("{}-{i}-{j}", face.name),
+            loops: vec![vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]],
+            reflectance: face.reflectance.map(|rho| rho * (1.0 - 0.07 * ((3 * i + 5 * j) % 7) as f64)),
+            ..face.clone()
+        };
+        (0..times).flat_map(|i| (0..times).map(move |j| (i, j))).map(|(i, j)| part(i, j)).collect()
+    };
+    room.into_iter().flat_map(parts).collect()
 }

@@ -12,6 +12,7 @@
 use super::cluster_views::{ClusterView, ROUGH, stands_between, views};
 use super::clusters::Clusters;
 use super::flow::Linear;
+use super::seen::Seen;
 use super::tile::SQUARE;
 use super::tiling::Tiling;
 use std::f64::consts::PI;
@@ -39,47 +40,11 @@ pub(super) struct ClusterLink {
     bends: [f64; 2],
 }
 
-/// What is seen of the tiles of two clusters.
-#[derive(Clone, Debug)]
-struct Seen {
-    /// The tiles of each end that the other end sees something of, and what: hardly any in a town.
-    tiles: [Vec<(usize, f64)>; 2],
-    /// The same of the linear functions of an end that is one tile.
-    slopes: [[f64; 2]; 2],
-    /// What is seen of two tiles times this is what they exchange.
-    scale: f64,
-}
-
 /// The links between clusters, and their clusters.
 #[derive(Debug)]
 pub(super) struct ClusterLinks {
     pub(super) clusters: Clusters,
     pub(super) all: Vec<ClusterLink>,
-}
-
-impl Seen {
-    /// By what is seen of each end from the centre of the other, and what the products of that are to be multiplied by. One tile and many exchange
-    /// what points of the one see of each of the many: it is not the centre of these that the one faces, but each of them by itself.
-    fn of(
-        tiling: &Tiling<'_>,
-        clusters: &Clusters,
-        ends: [usize; 2],
-        views: [&ClusterView; 2],
-        scale: f64,
-    ) -> Seen {
-        let of = |end: usize, seen: &[f64]| some(clusters.tiles(ends[end]), seen);
-        let (tiles, slopes) = (views.map(|view| &view.seen[..]), views.map(|view| view.slopes));
-        let is_one = |end: &usize| clusters.tiles(ends[*end]).len() == 1;
-        let one = [0, 1].into_iter().find(|end| is_one(end) && !is_one(&(1 - end)));
-        let Some(one) = one else {
-            return Seen { tiles: [of(0, tiles[0]), of(1, tiles[1])], slopes, scale };
-        };
-        let area = tiling.tiles[clusters.tiles(ends[one])[0]].area;
-        let per = if tiles[one][0] > 0.0 { area / tiles[one][0] } else { 0.0 };
-        let mut found = [of(one, &[area]), of(1 - one, &views[1 - one].factors)];
-        found.rotate_left(one);
-        Seen { tiles: found, slopes: slopes.map(|slopes| slopes.map(|slope| slope * per)), scale: 1.0 }
-    }
 }
 
 impl ClusterLink {
@@ -226,11 +191,6 @@ pub(super) fn gather<'l>(
     }
 }
 
-/// The tiles of which something is seen, with that.
-fn some(tiles: &[usize], seen: &[f64]) -> Vec<(usize, f64)> {
-    tiles.iter().copied().zip(seen.iter().copied()).filter(|(_, seen)| *seen > 0.0).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,6 +255,31 @@ mod tests {
         for between in [None, Some(half)] {
             let [found, error, exact] = exchanges(&corners(between), [&[0, 1], &[2, 3]]);
             assert!(exact > 0.0 && (found - exact).abs() <= error, "{found} ± {error}, {exact}");
+        }
+    }
+
+    /// A lamp and the tiles of a floor beneath it, some of which it sees far from straight ahead.
+    #[test]
+    fn one_tile_and_many_exchange_what_each_of_these_does() {
+        let [x, y, z] = DVec3::AXES;
+        let lamp = Patch { emission: vec![1.0], ..square(z * 3.0, [y * 0.1, x * 0.1]) };
+        let floor = (0..4).map(|k| square(x * f64::from(k), [x, y]));
+        let patches = floor.chain([lamp]).collect();
+        let scene = Scene { patches, bands: 1, ..Scene::default() };
+        let tiling = Tiling::new(&scene).unwrap();
+        let clusters = Clusters::of(&tiling);
+        let of = |tiles: &[usize]| {
+            (0..clusters.all.len()).find(|cluster| clusters.tiles(*cluster) == tiles).unwrap()
+        };
+        let link = ClusterLink::measure(&tiling, &clusters, [of(&[4]), of(&[0, 1, 2, 3])]).unwrap();
+        let mut found = [0.0; 4];
+        link.carry(1, &[[1.0, 0.0, 0.0]; 5], |tile, power| found[tile] = power[0]);
+        let part = |tile: usize| (tiling.tiles[tile].surface, &tiling.tiles[tile].polygon);
+        for (tile, found) in found.into_iter().enumerate() {
+            let limits = formfactor::Limits::default();
+            let exact = tiling.enclosure.area_form_factor(part(4), part(tile), 1e-9, &limits);
+            let exact = tiling.tiles[4].area * exact.unwrap().unwrap().value;
+            assert!((found / exact - 1.0).abs() < 0.01, "{tile}: {found} {exact}");
         }
     }
 

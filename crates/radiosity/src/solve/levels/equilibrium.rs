@@ -5,6 +5,7 @@
 //! is still missing is taken to be as bright as the receiver: so no room loses or gains light, however bright its finish. Some links of clusters
 //! are wrong by far more than others: where there are such, it is they that are scaled.
 use super::cluster_links::{self, ClusterLinks};
+use super::firm::Firm;
 use super::flow::{Linear, gather, pull, push, square};
 use super::link::Link;
 use super::roots::Roots;
@@ -18,8 +19,6 @@ const FEW_ROUNDS: usize = 4;
 const SLIGHT: f64 = 1e-9;
 /// Nothing is scaled by more than this at a leaf: where so much is missing, links say nothing about where it comes from.
 const MOST: f64 = 4.0;
-/// Where there are links of clusters, those that are known within such a share are not scaled: what is missing is missing from others.
-const KNOWN: f64 = 0.3;
 
 /// The links of a tree as one operator.
 #[derive(Debug)]
@@ -40,15 +39,6 @@ pub(super) struct Equilibrium<'e> {
     /// The room of each leaf, and the first leaf of each room.
     room_of: Vec<usize>,
     first_of: Vec<usize>,
-}
-
-/// Which links carry what was measured, and nothing else. What links of a tile carry that is covered in part is not known to be the same for its
-/// parts.
-#[derive(Debug)]
-struct Firm {
-    of_tiles: Vec<bool>,
-    of_clusters: Vec<bool>,
-    is_any: bool,
 }
 
 impl<'e> Equilibrium<'e> {
@@ -289,24 +279,6 @@ impl<'e> Equilibrium<'e> {
 /// The largest value of a function anywhere on its tile, about.
 pub(super) fn largest(light: &[Linear]) -> f64 {
     light.iter().map(|l| l[0].abs() + l[1].abs() + l[2].abs()).fold(0.0, f64::max)
-}
-
-impl Firm {
-    fn of(tiling: &Tiling<'_>, links: &[Link], clusters: &ClusterLinks, known: &[Option<f64>]) -> Firm {
-        if clusters.all.is_empty() || !known.contains(&Some(1.0)) {
-            let [of_tiles, of_clusters] = [links.len(), clusters.all.len()].map(|count| vec![false; count]);
-            return Firm { of_tiles, of_clusters, is_any: false };
-        }
-        let root_of = tiling.roots();
-        let is_whole = |end: &usize| !tiling.tiles[root_of[*end]].is_crossed;
-        let is_known = |link: &Link| link.error() <= KNOWN * link.exchange[0];
-        let is_firm = |link: &Link| is_known(link) && link.ends.iter().all(is_whole);
-        Firm {
-            of_tiles: links.iter().map(is_firm).collect(),
-            of_clusters: clusters.all.iter().map(|link| link.is_within(KNOWN)).collect(),
-            is_any: true,
-        }
-    }
 }
 
 /// Which leaves exchange light, at once or through others: the room of each, and the first leaf of each room.

@@ -26,10 +26,12 @@
 //! budget        the same of tiles
 //! gradients     the light of all leaves at once, by conjugate gradients
 //! equilibrium   what all leaves exchange, made to close
+//! firm          which links that leaves as they are
 //! roots         what ΣF of every leaf is to be
 //! flow          light up the tree, across the links, and down
 //! hidden        what may be wrong between clusters of what points do not see
 //! cluster_links light between tiles that are far from each other
+//! seen          what each of these tiles is seen of
 //! cluster_views what clusters see of each other
 //! clusters      the tree of whole tiles, and of their parts where these are linked with clusters
 //! cluster       one of these
@@ -67,6 +69,7 @@ mod direct;
 mod equilibrium;
 mod errors;
 mod estimate;
+mod firm;
 mod flow;
 mod gradients;
 mod hidden;
@@ -88,6 +91,7 @@ mod roots;
 pub(super) mod rounds;
 mod run;
 mod screen;
+mod seen;
 mod shadow;
 mod shaft;
 mod stand;
