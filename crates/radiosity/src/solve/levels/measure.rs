@@ -53,7 +53,9 @@ pub(super) fn measure(tiling: &Tiling<'_>, [one, other]: [&Tile; 2], among: &[u3
     let [first, second] = [[one, other], [other, one]].map(|ends| View::of(tiling, ends, &among));
     let [at_first, at_second] = [&first, &second].map(|view| view.bend[0].abs() + view.bend[1].abs());
     let is_dark = [&first, &second].map(|view| view.seen.iter().all(|factor| *factor == 0.0));
-    let from_second = !is_dark[1] && (is_dark[0] || at_second < at_first);
+    // What hardly sees anything is even, and says little: the curvatures are those of what is seen.
+    let is_more_even = at_second * first.exchange[0] < at_first * second.exchange[0];
+    let from_second = !is_dark[1] && (is_dark[0] || is_more_even);
     let (mut exchange, bend) =
         if from_second { (transposed(second.exchange), at_second) } else { (first.exchange, at_first) };
     let gap = (first.exchange[0] - second.exchange[0]).abs();
@@ -94,4 +96,31 @@ impl View {
 
 fn transposed(g: [f64; 9]) -> [f64; 9] {
     [g[0], g[3], g[6], g[1], g[4], g[7], g[2], g[5], g[8]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use formfactor::{Limits, PlanarPolygon};
+    use glam::DVec3;
+
+    /// Most of a ground is behind a low wall on it, one point of it sees the wall from afar, and the wall sees the strip before it.
+    #[test]
+    fn what_points_of_a_ground_hardly_see_is_measured_from_the_wall() {
+        let patch = |corners: [[f64; 3]; 4]| {
+            let polygon = PlanarPolygon::new([corners.map(DVec3::from)]).unwrap();
+            Patch::new("", polygon, vec![0.5], vec![0.0])
+        };
+        let ground = patch([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 4.0, 0.0], [0.0, 4.0, 0.0]]);
+        let wall = patch([[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [2.0, 1.0, 0.6], [1.0, 1.0, 0.6]]);
+        let scene = Scene { patches: vec![ground, wall], bands: 1, ..Scene::default() };
+        let tiling = Tiling::new(&scene).unwrap();
+        let exact = tiling.enclosure.area_form_factor(1, 0, 1e-6, &Limits::default()).unwrap().unwrap();
+        let exact = tiling.tiles[1].area * exact.value;
+        for ends in [[0, 1], [1, 0]] {
+            let found = measure(&tiling, ends.map(|tile| &tiling.tiles[tile]), &[]).exchange[0];
+            assert!((found / exact - 1.0).abs() < 0.1, "{found} {exact}");
+        }
+    }
 }
