@@ -142,7 +142,7 @@ mod tests {
 
     /// What is packed as tightly as can be is read.
     #[test]
-    fn a_picture_of_one_colour_is_read_however_large() {
+    fn a_large_picture_of_one_colour_is_read() {
         for format in [image::ImageFormat::Png, image::ImageFormat::Jpeg] {
             let mut file = Cursor::new(Vec::new());
             image::RgbImage::from_pixel(4096, 4096, image::Rgb([0; 3])).write_to(&mut file, format).unwrap();

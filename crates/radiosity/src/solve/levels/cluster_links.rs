@@ -167,14 +167,9 @@ impl ClusterLinks {
     pub(super) fn hidden(&self) -> impl Iterator<Item = (&ClusterLink, usize)> {
         self.all.iter().filter(|link| link.hidden > 0.0).flat_map(|link| [(link, 0), (link, 1)])
     }
-
-    /// Adds what all whole tiles receive when they send so much: irradiance.
-    pub(super) fn gather(&self, tiling: &Tiling<'_>, sent: &[Linear], received: &mut [Linear]) {
-        gather(tiling, self.all.iter(), sent, received);
-    }
 }
 
-/// Adds what whole tiles receive across some links.
+/// Adds what tiles receive across some links when they send so much: irradiance.
 pub(super) fn gather<'l>(
     tiling: &Tiling<'_>,
     links: impl Iterator<Item = &'l ClusterLink>,

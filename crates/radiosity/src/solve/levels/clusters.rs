@@ -72,9 +72,10 @@ impl Clusters {
             let axis = self.all[index].extent.longest();
             let middle = |tile: &usize| extents[*tile].low[axis] + extents[*tile].high[axis];
             let tiles = &mut self.order[members.clone()];
-            let lamps = tiles.iter().filter(|tile| shines(tiling, **tile)).count();
+            let emits = |tile: &usize| tiling.scene.patches[tiling.tiles[*tile].patch].emits();
+            let lamps = tiles.iter().filter(|tile| emits(tile)).count();
             let are_parted = (1..=FEW).contains(&lamps) && lamps < tiles.len();
-            let is_left = |tile: &usize| are_parted && !shines(tiling, *tile);
+            let is_left = |tile: &usize| are_parted && !emits(tile);
             tiles.sort_unstable_by(|a, b| {
                 is_left(a).cmp(&is_left(b)).then(middle(a).total_cmp(&middle(b))).then(a.cmp(b))
             });
@@ -216,11 +217,6 @@ impl Clusters {
         let [one, other] = [&self.all[one], &self.all[other]];
         one.may_see(other) && other.may_see(one)
     }
-}
-
-/// Whether a tile is a part of a lamp.
-fn shines(tiling: &Tiling<'_>, tile: usize) -> bool {
-    tiling.scene.patches[tiling.tiles[tile].patch].emission.iter().any(|emission| *emission > 0.0)
 }
 
 #[cfg(test)]

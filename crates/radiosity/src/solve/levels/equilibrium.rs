@@ -205,13 +205,12 @@ impl<'e> Equilibrium<'e> {
 
     /// What the leaves receive by what is carried as it was measured, and by what is scaled.
     fn carried(&self, sent: &[Linear]) -> [Vec<Linear>; 2] {
-        let of = |light: &[Linear]| -> Vec<Linear> {
-            let by = |(light, scale): (&Linear, &f64)| light.map(|l| l * scale);
-            light.iter().zip(&self.scales).map(by).collect()
+        let scaled = |light: &[Linear]| -> Vec<Linear> {
+            light.iter().zip(&self.scales).map(|(light, scale)| light.map(|l| l * scale)).collect()
         };
-        let loose = self.across(&of(sent), false);
+        let loose = self.across(&scaled(sent), false);
         let firm = if self.firm.is_any { self.across(sent, true) } else { vec![[0.0; 3]; sent.len()] };
-        [firm, of(&loose)]
+        [firm, scaled(&loose)]
     }
 
     /// What the leaves receive across some of the links when they send so much.

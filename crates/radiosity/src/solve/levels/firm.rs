@@ -6,10 +6,11 @@ use super::tiling::Tiling;
 /// Where there are links of clusters, those that are known within such a share are not scaled: what is missing is missing from others.
 const KNOWN: f64 = 0.3;
 
-/// Which links carry what was measured, and nothing else: none where all are of two tiles, since what is missing then is what points of these miss. What
-/// all of a tile carries that is covered in part is not known to be the same for its parts.
+/// Which links carry what was measured, and nothing else: none where all are of two tiles, since what is missing then is what points of these miss.
+/// Nor is what a tile that is covered in part carries known to be the same for its parts.
 #[derive(Debug)]
 pub(super) struct Firm {
+    /// Of the links of two tiles, of those of two clusters, and whether any may be.
     pub(super) of_tiles: Vec<bool>,
     pub(super) of_clusters: Vec<bool>,
     pub(super) is_any: bool,

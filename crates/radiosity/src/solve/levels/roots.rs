@@ -5,7 +5,7 @@
 //! |  1  |  1  |  ?  |    on the last one stands something that covers a part of it: the area factors of the whole tell
 //! +-----+-----+--##-+    what is left for it
 //! ```
-use super::cluster_links::ClusterLinks;
+use super::cluster_links::{self, ClusterLinks};
 use super::link::Link;
 use super::tiling::Tiling;
 
@@ -34,7 +34,7 @@ impl Roots {
         let root_of = tiling.roots();
         let even = vec![[1.0, 0.0, 0.0]; tiling.tiles.len()];
         let mut of_clusters = vec![[0.0; 3]; tiling.tiles.len()];
-        clusters.gather(tiling, &even, &mut of_clusters);
+        cluster_links::gather(tiling, clusters.all.iter(), &even, &mut of_clusters);
         let mut wholes = vec![0.0; tiling.tiles.len()];
         let sums = tiling.tiles.iter().zip(of_clusters).zip(&root_of);
         sums.for_each(|((tile, sum), &root)| wholes[root] += tile.area * sum[0]);

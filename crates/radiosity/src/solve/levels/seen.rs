@@ -25,17 +25,16 @@ impl Seen {
         scale: f64,
     ) -> Seen {
         let of = |end: usize, seen: &[f64]| some(clusters.tiles(ends[end]), seen);
-        let (tiles, slopes) = (views.map(|view| &view.seen[..]), views.map(|view| view.slopes));
-        let is_one = |end: &usize| clusters.tiles(ends[*end]).len() == 1;
-        let one = [0, 1].into_iter().find(|end| is_one(end) && !is_one(&(1 - end)));
-        let Some(one) = one else {
-            return Seen { tiles: [of(0, tiles[0]), of(1, tiles[1])], slopes, scale };
+        let slopes = views.map(|view| view.slopes);
+        let is_one = |end: usize| clusters.tiles(ends[end]).len() == 1;
+        let Some(one) = [0, 1].into_iter().find(|&end| is_one(end) && !is_one(1 - end)) else {
+            return Seen { tiles: [of(0, &views[0].seen), of(1, &views[1].seen)], slopes, scale };
         };
-        let area = tiling.tiles[clusters.tiles(ends[one])[0]].area;
-        let per = if tiles[one][0] > 0.0 { area / tiles[one][0] } else { 0.0 };
-        let mut found = [of(one, &[area]), of(1 - one, &views[1 - one].factors)];
-        found.rotate_left(one);
-        Seen { tiles: found, slopes: slopes.map(|slopes| slopes.map(|slope| slope * per)), scale: 1.0 }
+        let area = [tiling.tiles[clusters.tiles(ends[one])[0]].area];
+        let seen = views[one].seen[0];
+        let per = if seen > 0.0 { area[0] / seen } else { 0.0 };
+        let tiles = [0, 1].map(|end| of(end, if end == one { &area } else { &views[end].factors[..] }));
+        Seen { tiles, slopes: slopes.map(|slopes| slopes.map(|slope| slope * per)), scale: 1.0 }
     }
 }
 

@@ -21,7 +21,8 @@ const MOST: u64 = 1 << 12;
 /// … and for one that is wrong by more than this share of what its patches may be wrong by in all.
 const MANY: u64 = 1 << 16;
 const MUCH: f64 = 0.2;
-/// Where there are many, not those between which more may stand: a point costs as much more, and parts of the two are linked in any case.
+/// Where there are many, none is found between whose tiles more may stand, as between a wall and all of a ground: a point costs as much more, and
+/// what matters of it is told by links of parts.
 const BETWEEN: usize = 128;
 /// Links without an error take part with this share of what they carry.
 const EVEN: f64 = 1e-3;

@@ -1,4 +1,5 @@
 //! What points receive: from every linked tile as bright as it was found, and from lights, exactly past what stands in between.
+use super::cluster_links;
 use super::corners::CornerLight;
 use super::direct::Direct;
 use super::flow::Linear;
@@ -104,7 +105,7 @@ impl<'s> Sights<'s> {
         let mut of_tile: Vec<Sight> = of_tile.into_iter().enumerate().map(sight).collect();
         for (band, sent) in sent.iter().enumerate() {
             let mut far = vec![[0.0; 3]; sent.len()];
-            clusters.gather(tiling, sent, &mut far);
+            cluster_links::gather(tiling, clusters.all.iter(), sent, &mut far);
             of_tile.iter_mut().zip(far).for_each(|(sight, light)| sight.rest[band][0] += light[0]);
         }
         Sights { tiling, in_view, links, direct, of_tile, sent, known }
