@@ -1,5 +1,6 @@
 //! The Cornell box against path tracing, at every quality.
 
+use radiosity::glam::DVec2;
 use radiosity::{Method, Options, Quality, Solution, io::collada::Collada, solve};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -113,12 +114,15 @@ fn nothing_shines_under_the_blocks() {
 
 fn assert_dark_under_the_short_block(options: &Options) {
     let (scene, solution) = cornell(options);
-    // Well inside the short block's footprint: 130 65, 82 225, 240 272, 290 114 in x and z.
+    // The short block's footprint, in x and z, turning left.
+    let footprint = [[130.0, 65.0], [290.0, 114.0], [240.0, 272.0], [82.0, 225.0]].map(DVec2::from);
     let dark = (0..solution.mesh.elements.len()).filter(|&element| {
         let c = solution.mesh.centroid(element);
-        scene.patches[solution.mesh.elements[element].patch].name == "floor"
-            && (c.x - 185.0).abs() < 40.0
-            && (c.z - 169.0).abs() < 40.0
+        let is_left = |k: usize| {
+            let (start, end) = (footprint[k], footprint[(k + 1) % 4]);
+            (end - start).perp_dot(DVec2::new(c.x, c.z) - start) > 0.0
+        };
+        scene.patches[solution.mesh.elements[element].patch].name == "floor" && (0..4).all(is_left)
     });
     let mut count = 0;
     for element in dark {

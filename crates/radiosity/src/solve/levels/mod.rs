@@ -44,6 +44,7 @@
 //! shadow        what one polygon hides from a point
 //! shaft         what can stand between two tiles
 //! tiling        the tree
+//! base          the lines along which it is cut
 //! ways          six ways that tiles face
 //! boxes         a tree of the boxes around polygons
 //! tile          a convex polygon, its linear functions and its points
@@ -55,6 +56,7 @@
 //! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
 //! visibility).
 mod allowance;
+mod base;
 mod borders;
 mod boxes;
 mod budget;

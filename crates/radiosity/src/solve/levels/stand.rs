@@ -82,7 +82,7 @@ impl Stand<'_> {
     ) -> Result<Option<Solution>, Error> {
         let Stand { tiling, members, in_view, links, direct, sent, light, .. } = self;
         let means = light.means(equilibrium);
-        let fine: Vec<f64> = means.iter().map(|mean| self.options.error * mean).collect();
+        let fine: Vec<f64> = means.iter().chain([&1.0]).map(|mean| self.options.error * mean).collect();
         let in_view = in_view.map_or_else(|| vec![true; tiling.scene.patches.len()], <[bool]>::to_vec);
         let sights = Sights::new(tiling, in_view, links, direct, sent, &fine);
         let mut ask = || self.show(watch, state);

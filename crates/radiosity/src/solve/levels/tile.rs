@@ -137,6 +137,16 @@ impl Outline {
         whole > 1e-4 * self.axes[0].length() && self.within([start, end]) > (1.0 - 1e-6) * whole
     }
 
+    /// The diagonal of a box along a line around what is on one side of it: the larger of both.
+    pub(super) fn diagonal_of_parts(&self, [start, end]: [DVec2; 2]) -> f64 {
+        let way = (end - start).normalize_or_zero();
+        let heights = || self.corners.iter().map(|(corner, _)| way.perp_dot(*corner - start));
+        let (low, high) = (heights().fold(0.0, f64::min), heights().fold(0.0, f64::max));
+        let along = || self.corners.iter().map(|(corner, _)| way.dot(*corner - start));
+        let length = along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min);
+        high.max(-low).hypot(length)
+    }
+
     /// How much of a line is inside: the length of that part.
     pub(super) fn within(&self, [start, end]: [DVec2; 2]) -> f64 {
         let way = (end - start).normalize_or_zero();

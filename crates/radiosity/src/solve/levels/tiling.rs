@@ -1,14 +1,11 @@
 //! The tree of tiles of a scene, which grows where light is not resolved.
+use super::base::Base;
 use super::boxes::Boxes;
 use super::plates::Plates;
 use super::tile::{Outline, SQUARE};
 use crate::error::Error;
 use crate::extent::Extent;
-use crate::mesh::{
-    contacts::Neighbourhood,
-    convex::convex_parts,
-    frame::{Frame, power_of_two},
-};
+use crate::mesh::{contacts::Neighbourhood, convex::convex_parts, frame::power_of_two};
 use crate::scene::Scene;
 use crate::solve::lights::magnitude;
 use crate::solve::occluders::Occluders;
@@ -16,12 +13,6 @@ use formfactor::{DifferentialArea, Enclosure, PlanarPolygon};
 use glam::{DVec2, DVec3};
 use std::{f64::consts::PI, sync::Arc};
 
-/// What is small beside a patch is small beside the scene or, where that is less, beside so many times the patch.
-const WIDE: f64 = 100.0;
-/// Edges of other patches are contacts within this share of that.
-const NEAR: f64 = 1e-9;
-/// What is beside an outline by less than this share of its size may be on its rim.
-const RIM: f64 = 1e-6;
 /// Tiles that reach less than this share of that are not cut.
 const LEAST: f64 = 1e-4;
 /// Parts of patches are seen smaller by this share, so that no edge of one lies along a longer one of what stands on it: form factors are
@@ -52,17 +43,6 @@ pub(super) struct Tile {
     pub(super) reflectance: Vec<f64>,
     /// The standard deviation of the reflectance over it.
     pub(super) mottle: Vec<f64>,
-}
-
-/// Where a patch is cut.
-#[derive(Debug)]
-struct Base {
-    frame: Frame,
-    /// What lengths on it are small beside.
-    scale: f64,
-    contacts: Vec<[DVec2; 2]>,
-    /// The boxes around them, in the frame.
-    contact_boxes: Boxes,
 }
 
 /// The tiles of a scene; children come after their parents.
@@ -100,14 +80,7 @@ impl<'s> Tiling<'s> {
         let size = (high - low).length();
         let neighbourhood = Neighbourhood::of(scene);
         let base = |(patch, polygon): (usize, &PlanarPolygon)| {
-            let (frame, Extent { low, high }) = (Frame::new(polygon), Extent::around(polygon));
-            let scale = size.min(WIDE * (high - low).length());
-            // A thousandth of this is near.
-            let lines = neighbourhood.contacts(patch, 1e3 * NEAR * scale);
-            let contacts: Vec<[DVec2; 2]> =
-                lines.into_iter().map(|ends| ends.map(|end| frame.flatten(end))).collect();
-            let boxes: Vec<Extent> = contacts.iter().map(|line| flat_box(line.iter().copied())).collect();
-            Base { frame, scale, contacts, contact_boxes: Boxes::around(&boxes) }
+            Base::of(polygon, size, |near| neighbourhood.contacts(patch, near))
         };
         let around: Vec<Extent> = polygons.iter().map(Extent::around).collect();
         let mut tiling = Tiling {
@@ -256,7 +229,7 @@ impl<'s> Tiling<'s> {
         Ok(Some(halves))
     }
 
-    /// The halves of an outline on a patch: cut along a contact in it if there is one, else across one of its axes through the centroid.
+    /// The halves of an outline on a patch: cut along one of the contacts in it if there are any, else across one of its axes through the centroid.
     pub(super) fn cut(&self, patch: usize, outline: &Outline, axis: usize) -> Option<[Outline; 2]> {
         self.cut_along(patch, outline, None, axis)
     }
@@ -271,25 +244,14 @@ impl<'s> Tiling<'s> {
     ) -> Option<[Outline; 2]> {
         let frame = self.bases[patch].frame;
         let cut = |line| outline.cut(line, |flat| frame.lift(flat));
-        let contact = self.contact_in(patch, outline).into_iter().chain(edge);
+        let contact = self.bases[patch].contact_in(outline).into_iter().chain(edge);
         let along = contact.filter_map(|[start, end]| cut([start, end - start])).next();
         along.or_else(|| cut(outline.across(axis)))
     }
 
     /// Whether something else stands on an outline.
     pub(super) fn is_crossed(&self, patch: usize, outline: &Outline) -> bool {
-        self.contact_in(patch, outline).is_some()
-    }
-
-    /// The contact of which most is inside an outline.
-    fn contact_in(&self, patch: usize, outline: &Outline) -> Option<[DVec2; 2]> {
-        let Base { contacts, contact_boxes, .. } = &self.bases[patch];
-        let around = flat_box(outline.corners.iter().map(|(flat, _)| *flat));
-        let near = contact_boxes.find(|extent| !extent.is_near(&around, RIM * around.diagonal()));
-        let inside =
-            near.iter().map(|line| &contacts[*line as usize]).map(|line| (outline.within(*line), line));
-        let longest = inside.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
-        (longest.0 > 1e-4 * outline.axes[0].length()).then_some(*longest.1)
+        self.bases[patch].is_crossed(outline)
     }
 
     /// The surfaces that may stand between two tiles, by their boxes.
@@ -352,11 +314,6 @@ impl<'s> Tiling<'s> {
     pub(super) fn leaves(&self) -> impl Iterator<Item = usize> {
         (0..self.tiles.len()).filter(|&tile| self.tiles[tile].halves.is_none())
     }
-}
-
-/// The box around places in a frame.
-fn flat_box(places: impl Iterator<Item = DVec2>) -> Extent {
-    Extent::of_points(places.map(|flat| flat.extend(0.0)))
 }
 
 /// A power of two near the largest radiosity that is emitted, or what lights bring.

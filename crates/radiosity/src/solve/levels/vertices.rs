@@ -55,7 +55,7 @@ struct Sight {
 }
 
 impl<'s> Sights<'s> {
-    /// `fine` is how wrong the light of points may be in each band.
+    /// `fine` is how wrong the light of points may be in each band, and their ΣF.
     pub(super) fn new(
         tiling: &'s Tiling<'s>,
         in_view: Vec<bool>,
@@ -83,12 +83,16 @@ impl<'s> Sights<'s> {
                     link.ends.map(|end| tiling.tiles[end].area).into_iter().fold(f64::MAX, f64::min);
                 let other = &extents[link.ends[1 - end]];
                 let is_beside = extents[tile].is_near(other, BESIDE * other.diagonal());
-                if is_crossed || is_beside || link.exchange[0] > NEAR * smaller {
+                if is_beside || link.exchange[0] > NEAR * smaller {
                     return f64::INFINITY;
                 }
-                let wrong = (link.curvature(end) + link.error()) / area;
-                let light = sent.iter().map(|sent| sent[link.ends[1 - end]][0].abs());
-                let share = |(light, fine): (f64, &f64)| if light > 0.0 { wrong * light / fine } else { 0.0 };
+                // Under what stands on a tile nothing is received: all may be elsewhere, of ΣF as well.
+                let wrong = if is_crossed { link.exchange[0] } else { link.curvature(end) + link.error() };
+                let bands = sent.len() - usize::from(!is_crossed);
+                let light = sent[..bands].iter().map(|sent| sent[link.ends[1 - end]][0].abs());
+                let share = |(light, fine): (f64, &f64)| {
+                    if light > 0.0 { wrong * light / (area * fine) } else { 0.0 }
+                };
                 light.zip(fine).map(share).fold(0.0, f64::max)
             };
             let mut flaws: Vec<(f64, (usize, usize))> = of_tile.iter().map(|at| (flaw(at), *at)).collect();

@@ -1,0 +1,117 @@
+//! The lines on a patch along which tiles are cut: light jumps where something else touches it.
+use super::boxes::Boxes;
+use super::tile::Outline;
+use crate::extent::Extent;
+use crate::mesh::frame::Frame;
+use formfactor::PlanarPolygon;
+use glam::{DVec2, DVec3};
+
+/// What is small beside a patch is small beside the scene or, where that is less, beside so many times the patch.
+const WIDE: f64 = 100.0;
+/// Edges of other patches are contacts within this share of that; a thousandth of what is given is near.
+const NEAR: f64 = 1e3 * 1e-9;
+/// What is beside an outline by less than this share of its size may be on its rim.
+const RIM: f64 = 1e-6;
+/// Of a line at least this share of an outline's long axis is inside, or nothing.
+const LEAST: f64 = 1e-4;
+/// Outlines are cut along contacts of which this share is inside, of what is of the one that is longest there.
+const MUCH: f64 = 0.5;
+
+/// Where a patch is cut.
+#[derive(Debug)]
+pub(super) struct Base {
+    pub(super) frame: Frame,
+    /// What lengths on it are small beside.
+    pub(super) scale: f64,
+    pub(super) contacts: Vec<[DVec2; 2]>,
+    /// The boxes around them, in the frame.
+    boxes: Boxes,
+}
+
+impl Base {
+    /// Of a patch in a scene of some size; `contacts` finds the edges of others that touch it within a length.
+    pub(super) fn of(
+        polygon: &PlanarPolygon,
+        size: f64,
+        contacts: impl FnOnce(f64) -> Vec<[DVec3; 2]>,
+    ) -> Base {
+        let (frame, Extent { low, high }) = (Frame::new(polygon), Extent::around(polygon));
+        let scale = size.min(WIDE * (high - low).length());
+        let flat = |ends: [DVec3; 2]| ends.map(|end| frame.flatten(end));
+        let contacts: Vec<[DVec2; 2]> = contacts(NEAR * scale).into_iter().map(flat).collect();
+        let boxes: Vec<Extent> = contacts.iter().map(|line| flat_box(line.iter().copied())).collect();
+        Base { frame, scale, contacts, boxes: Boxes::around(&boxes) }
+    }
+
+    /// Of the contacts of which much is inside an outline, the one along which a cut leaves the smallest parts: a ground with many houses is cut in
+    /// halves, not house by house.
+    pub(super) fn contact_in(&self, outline: &Outline) -> Option<[DVec2; 2]> {
+        let inside = self.inside(outline);
+        let longest = inside.iter().map(|(length, _)| *length).fold(0.0, f64::max);
+        let long = inside.iter().filter(|(length, _)| *length >= MUCH * longest);
+        let parts = long.map(|(_, line)| (outline.diagonal_of_parts(*line), *line));
+        parts.reduce(|a, b| if b.0 < (1.0 - RIM) * a.0 { b } else { a }).map(|(_, line)| line)
+    }
+
+    /// Whether a contact is inside an outline.
+    pub(super) fn is_crossed(&self, outline: &Outline) -> bool {
+        !self.inside(outline).is_empty()
+    }
+
+    /// The contacts in an outline, and how much of each is inside.
+    fn inside(&self, outline: &Outline) -> Vec<(f64, [DVec2; 2])> {
+        let around = flat_box(outline.corners.iter().map(|(flat, _)| *flat));
+        let near = self.boxes.find(|extent| !extent.is_near(&around, RIM * around.diagonal()));
+        let contacts = near.into_iter().map(|line| self.contacts[line as usize]);
+        let inside = contacts.map(|line| (outline.within(line), line));
+        inside.filter(|(length, _)| *length > LEAST * outline.axes[0].length()).collect()
+    }
+}
+
+/// The box around places in a frame.
+fn flat_box(places: impl Iterator<Item = DVec2>) -> Extent {
+    Extent::of_points(places.map(|flat| flat.extend(0.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::convex::PlacedCorner;
+    use std::array;
+
+    /// A ground under n × n houses, cut until no part has any of a house's edges inside; how deep the parts are, and how many.
+    fn parts_of_a_ground(n: u32) -> Vec<usize> {
+        let end = f64::from(2 * n);
+        let square = |[x, y]: [f64; 2], side: f64| -> [DVec3; 4] {
+            let ways = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
+            ways.map(|[u, v]| DVec3::new(x + u, y + v, 0.0))
+        };
+        let corners = square([0.0; 2], end);
+        let house = |k: u32| square([k % n, k / n].map(|at| 2.0 * f64::from(at) + 0.5), 1.0);
+        let edges = (0..n * n).map(house).flat_map(|c| array::from_fn::<_, 4, _>(|k| [c[k], c[(k + 1) % 4]]));
+        let base = Base::of(&PlanarPolygon::new([corners]).unwrap(), end, |_| edges.collect());
+        let placed = |place: DVec3| -> PlacedCorner { (base.frame.flatten(place), place) };
+        let whole = Outline::new(corners.map(placed).to_vec()).unwrap();
+        let (mut open, mut depths) = (vec![(0, whole)], Vec::new());
+        while let Some((depth, outline)) = open.pop() {
+            match base.contact_in(&outline) {
+                None => depths.push(depth),
+                Some([start, end]) => {
+                    let halves = outline.cut([start, end - start], |flat| base.frame.lift(flat)).unwrap();
+                    open.extend(halves.map(|half| (depth + 1, half)));
+                }
+            }
+        }
+        depths
+    }
+
+    #[test]
+    fn a_ground_with_many_houses_is_cut_in_halves() {
+        for doublings in [2, 3, 4] {
+            let depths = parts_of_a_ground(1 << doublings);
+            assert!(depths.len() > 1 << (2 * doublings));
+            let deepest = depths.into_iter().max().unwrap();
+            assert!(deepest <= 2 * (doublings + 2), "{deepest} of {doublings}");
+        }
+    }
+}
