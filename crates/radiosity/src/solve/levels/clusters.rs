@@ -182,8 +182,13 @@ impl Clusters {
         let [one, other] = pair.map(|cluster| &self.all[cluster]);
         self.nearness(pair) < NEAR
             && one.reach.max(other.reach) < one.centre.distance(other.centre)
-            && one.looks_at(other.centre)
-            && other.looks_at(one.centre)
+            && (0..2).all(|end| self.looks_at_centre(pair[end], pair[1 - end]))
+    }
+
+    /// Whether another cluster may be looked at as if it were at its centre; one tile looks at each of many by itself.
+    fn looks_at_centre(&self, from: usize, to: usize) -> bool {
+        let is_one_and_many = self.tiles(from).len() == 1 && self.tiles(to).len() > 1;
+        is_one_and_many || self.all[from].looks_at(self.all[to].centre)
     }
 
     /// The product of the radii over the square of the distance.
@@ -278,6 +283,32 @@ mod tests {
                 assert!(!sees || found.contains_key(&[a, b]), "{a} and {b}");
             }
         }
+    }
+
+    /// Walls that are higher than a roof, though less than half of each is, are seen from afar as clusters of many.
+    #[test]
+    fn a_lamp_is_linked_by_itself_with_what_is_near_it_alone() {
+        let [x, y, z] = DVec3::AXES;
+        let square = |corner: DVec3, [along, up]: [DVec3; 2], emission: f64| {
+            let corners = [corner, corner + along, corner + along + up, corner + up];
+            Patch::new("square", PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![emission])
+        };
+        let wall = |k: u32| {
+            let at = 2.0 * (f64::from(k % 16) * x + f64::from(k / 16) * y);
+            square(at, [z * 1.5, y], 0.0)
+        };
+        let roof = square(-x * 3.0 + z, [x, y], 1.0);
+        let scene =
+            Scene { patches: (0..256).map(wall).chain([roof]).collect(), bands: 1, ..Scene::default() };
+        let tiling = Tiling::new(&scene).unwrap();
+        let Pairs { near, .. } =
+            Clusters::of(&tiling).pairs(&mut |_| panic!("no tile is larger than a wall")).unwrap();
+        let of_lamp: Vec<[usize; 2]> = near.into_iter().filter(|pair| pair.contains(&256)).collect();
+        let distance = |ends: &[usize; 2]| {
+            let [one, other] = ends.map(|end| tiling.tiles[end].points[0].position());
+            one.distance(other)
+        };
+        assert!(of_lamp.iter().all(|ends| distance(ends) < 12.0), "{}", of_lamp.len());
     }
 
     /// A ground under small boxes is cut for them, and no place of it is forgotten or linked twice with a box.
