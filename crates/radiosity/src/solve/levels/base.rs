@@ -8,13 +8,13 @@ use glam::{DVec2, DVec3};
 
 /// What is small beside a patch is small beside the scene or, where that is less, beside so many times the patch.
 const WIDE: f64 = 100.0;
-/// Edges of other patches are contacts within this share of that; a thousandth of what is given is near.
-const NEAR: f64 = 1e3 * 1e-9;
+/// Edges of other patches are contacts within this share of that.
+const NEAR: f64 = 1e-9;
 /// What is beside an outline by less than this share of its size may be on its rim.
 const RIM: f64 = 1e-6;
-/// Of a line at least this share of an outline's long axis is inside, or nothing.
+/// Of a contact that is inside an outline there is at least this share of the outline's long axis.
 const LEAST: f64 = 1e-4;
-/// Outlines are cut along contacts of which this share is inside, of what is of the one that is longest there.
+/// An outline is cut along a contact of which at least this share is inside of what is of any other.
 const MUCH: f64 = 0.5;
 
 /// Where a patch is cut.
@@ -29,7 +29,7 @@ pub(super) struct Base {
 }
 
 impl Base {
-    /// Of a patch in a scene of some size; `contacts` finds the edges of others that touch it within a length.
+    /// Of a patch in a scene of some size; `contacts` finds the edges of others that touch it within a thousandth of a length.
     pub(super) fn of(
         polygon: &PlanarPolygon,
         size: f64,
@@ -38,7 +38,7 @@ impl Base {
         let (frame, Extent { low, high }) = (Frame::new(polygon), Extent::around(polygon));
         let scale = size.min(WIDE * (high - low).length());
         let flat = |ends: [DVec3; 2]| ends.map(|end| frame.flatten(end));
-        let contacts: Vec<[DVec2; 2]> = contacts(NEAR * scale).into_iter().map(flat).collect();
+        let contacts: Vec<[DVec2; 2]> = contacts(1e3 * NEAR * scale).into_iter().map(flat).collect();
         let boxes: Vec<Extent> = contacts.iter().map(|line| flat_box(line.iter().copied())).collect();
         Base { frame, scale, contacts, boxes: Boxes::around(&boxes) }
     }
@@ -79,16 +79,20 @@ mod tests {
     use crate::mesh::convex::PlacedCorner;
     use std::array;
 
-    /// A ground under n × n houses, cut until no part has any of a house's edges inside; how deep the parts are, and how many.
-    fn parts_of_a_ground(n: u32) -> Vec<usize> {
+    /// A ground under n × n houses of some width, from the first or the last on, cut until no part has any of a house's edges inside: the depth of each part.
+    fn parts_of_a_ground(n: u32, width: impl Fn(u32) -> f64, is_reversed: bool) -> Vec<usize> {
         let end = f64::from(2 * n);
         let square = |[x, y]: [f64; 2], side: f64| -> [DVec3; 4] {
             let ways = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
             ways.map(|[u, v]| DVec3::new(x + u, y + v, 0.0))
         };
         let corners = square([0.0; 2], end);
-        let house = |k: u32| square([k % n, k / n].map(|at| 2.0 * f64::from(at) + 0.5), 1.0);
-        let edges = (0..n * n).map(house).flat_map(|c| array::from_fn::<_, 4, _>(|k| [c[k], c[(k + 1) % 4]]));
+        let house = |k: u32| square([k % n, k / n].map(|at| 2.0 * f64::from(at) + 0.5), width(k));
+        let turn = |k: u32| if is_reversed { n * n - 1 - k } else { k };
+        let edges = (0..n * n)
+            .map(turn)
+            .map(house)
+            .flat_map(|c| array::from_fn::<_, 4, _>(|k| [c[k], c[(k + 1) % 4]]));
         let base = Base::of(&PlanarPolygon::new([corners]).unwrap(), end, |_| edges.collect());
         let placed = |place: DVec3| -> PlacedCorner { (base.frame.flatten(place), place) };
         let whole = Outline::new(corners.map(placed).to_vec()).unwrap();
@@ -107,11 +111,14 @@ mod tests {
 
     #[test]
     fn a_ground_with_many_houses_is_cut_in_halves() {
+        let widths: [fn(u32) -> f64; 2] = [|_| 1.0, |k| 0.6 + f64::from(k * 7919 % 97) / 120.0];
         for doublings in [2, 3, 4] {
-            let depths = parts_of_a_ground(1 << doublings);
-            assert!(depths.len() > 1 << (2 * doublings));
-            let deepest = depths.into_iter().max().unwrap();
-            assert!(deepest <= 2 * (doublings + 2), "{deepest} of {doublings}");
+            for (width, is_reversed) in widths.iter().flat_map(|width| [(width, false), (width, true)]) {
+                let depths = parts_of_a_ground(1 << doublings, width, is_reversed);
+                assert!(depths.len() > 1 << (2 * doublings));
+                let deepest = depths.into_iter().max().unwrap();
+                assert!(deepest <= 2 * (doublings + 2), "{deepest} of {doublings}");
+            }
         }
     }
 }

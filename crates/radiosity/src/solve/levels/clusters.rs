@@ -301,8 +301,13 @@ mod tests {
         let scene =
             Scene { patches: (0..256).map(wall).chain([roof]).collect(), bands: 1, ..Scene::default() };
         let tiling = Tiling::new(&scene).unwrap();
-        let Pairs { near, .. } =
-            Clusters::of(&tiling).pairs(&mut |_| panic!("no tile is larger than a wall")).unwrap();
+        let mut clusters = Clusters::of(&tiling);
+        let Pairs { far, near } = clusters.pairs(&mut |_| panic!("no tile is larger than a wall")).unwrap();
+        let with_many = far.iter().filter(|pair| {
+            let [one, other] = pair.map(|cluster| clusters.tiles(cluster));
+            (one == [256] && other.len() > 8) || (other == [256] && one.len() > 8)
+        });
+        assert!(with_many.count() > 0);
         let of_lamp: Vec<[usize; 2]> = near.into_iter().filter(|pair| pair.contains(&256)).collect();
         let distance = |ends: &[usize; 2]| {
             let [one, other] = ends.map(|end| tiling.tiles[end].points[0].position());
