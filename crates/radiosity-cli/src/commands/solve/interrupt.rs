@@ -152,7 +152,7 @@ impl<'o> Follower<'o> {
         let (shots, products) = (solution.shots, solution.products);
         if solution.estimate.is_some() {
             say!(
-                "warning: stopped after {products} products, before every patch was within the error asked for; allow more \
+                "warning: stopped after {products} products, before the patches were within the error asked for; allow more \
                  --time or a larger --error"
             );
         } else {

@@ -49,8 +49,8 @@ pub(crate) struct Solve {
     /// light's brightness; no form factor is taken roughly then [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub(super) tolerance: Option<f64>,
-    /// What the mean irradiance of each patch may be off by, as a share like 0.01 or 1% of itself or of 1 % of the scene's mean; the scene
-    /// is solved by levels then [default: by quality]
+    /// What the mean irradiance of each patch may be off by, as a share like 0.01 or 1% of itself or of 1 % of the scene's mean; of more than
+    /// 300 patches those below 1e-4 of the area, 5 % of it at most, may be further off; the scene is solved by levels then [default: by quality]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(super) error: Option<f64>,
     /// Find the light for the camera of the picture, see --camera: what it sees is within --error, the rest as far as that matters to what

@@ -16,7 +16,7 @@ const IDLE: usize = 2;
 /// Of so many patches, the worst, it is asked what their estimates come of.
 const WORST: usize = 16;
 /// The light changes a little yet: estimates are to be less than what is asked for by so much.
-const NEARLY: f64 = 0.95;
+pub(super) const NEARLY: f64 = 0.95;
 
 /// What the links of each patch may be off by together, as a share of its light.
 #[derive(Debug)]

@@ -9,10 +9,10 @@ use crate::mesh::{
 };
 use glam::DVec3;
 
-/// Patches of less than this share of the area may be more wrong than others where plates are made of them,
-const SMALL: f64 = 1e-4;
-/// so many of them as are this share of the area of their plate.
-const FEW: f64 = 0.05;
+/// Patches of less than this share of the area may be more wrong than others,
+pub(super) const SMALL: f64 = 1e-4;
+/// so many of them as are this share of it. No more is made of those that are this share of their plate.
+pub(super) const FEW: f64 = 0.05;
 
 /// Errors count so many times as much where they are too large, to be a little less than they may be; in one round no more than the next, and in
 /// all no more than the last.

@@ -7,6 +7,7 @@
 //! in_view       which patches a camera sees
 //! importance    how much more wrong the others may be
 //! allowance     how large the errors of the links of every patch may be
+//! asked         which patches are to be right
 //! stand         where a run stands, and how its light is shown
 //! output        the light of the leaves on a mesh
 //! parting       the mesh of plates, cut along the borders of their patches
@@ -56,6 +57,7 @@
 //! factors from five points of each end to all of the other (Hanrahan, Salzman and Aupperle 1991, for constant light and sampled
 //! visibility).
 mod allowance;
+mod asked;
 mod base;
 mod borders;
 mod boxes;

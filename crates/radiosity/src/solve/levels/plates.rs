@@ -18,6 +18,11 @@ const FEW: usize = 300;
 /// The area of a plate is that of its members but for such a share.
 const SAME: f64 = 1e-9;
 
+/// Whether a scene has many patches.
+pub(super) fn is_large(scene: &Scene) -> bool {
+    scene.patches.len() > FEW
+}
+
 /// A scene in plates.
 #[derive(Debug)]
 pub(crate) struct Plates<'s> {
@@ -35,7 +40,7 @@ impl<'s> Plates<'s> {
     /// O(n log n) for n vertices.
     pub(crate) fn of(given: &'s Scene) -> Plates<'s> {
         let Occluders { polygons, of_patch } = Occluders::join(given);
-        let is_large = given.patches.len() > FEW;
+        let is_large = is_large(given);
         let joins = |[one, other]: [usize; 2]| {
             is_large
                 && of_patch[one] == of_patch[other]

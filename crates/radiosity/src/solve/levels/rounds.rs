@@ -1,5 +1,6 @@
 //! Rounds of linking, solving and refining.
-use super::allowance::{Allowance, SUM};
+use super::allowance::{Allowance, NEARLY, SUM};
+use super::asked::Asked;
 use super::budget::BandLight;
 use super::clusters::Pairs;
 use super::direct::Direct;
@@ -115,7 +116,11 @@ impl Levels<'_> {
         let most = MANY.max(MORE * self.tiling.tiles.len().max(TILES * patches));
         for _ in 0..FINER {
             let errors = self.errors(&lights);
-            let ErrorShares { of_plates, of_patches } = self.seen_shares(&errors);
+            let shares = self.seen_shares(&errors);
+            if self.is_within(&shares, NEARLY * self.options.error) {
+                return Ok(true);
+            }
+            let ErrorShares { of_plates, of_patches } = shares;
             let is_full = self.tiling.tiles.len() > most || !self.has_time();
             let helps = allowance.after(&of_plates, |worst| causes(&self.tiling, &errors, worst));
             let spread = self.members.spread(&self.tiling);
@@ -158,12 +163,9 @@ impl Levels<'_> {
         shares
     }
 
-    /// Whether estimates are within the error that is asked for.
-    fn is_within(&self, errors: &[Errors<'_>]) -> bool {
-        let ErrorShares { of_plates, of_patches } = self.seen_shares(errors);
-        let error = self.options.error;
-        let spread = self.members.spread(&self.tiling);
-        of_plates.into_iter().all(|share| share <= error) && spread.beyond(&of_patches, error).is_empty()
+    /// Whether estimates are within an error on all that is asked for.
+    fn is_within(&self, shares: &ErrorShares, error: f64) -> bool {
+        Asked::of(self.members, self.in_view.as_deref()).are_within(shares, error)
     }
 
     /// Finds what whole tiles exchange in all, as well as it matters in such light; false when the watcher wants to stop.
@@ -227,7 +229,7 @@ impl Levels<'_> {
         }
         let mut fault = self.fault.take();
         let errors = self.errors(&lights);
-        let is_within = self.is_within(&errors);
+        let is_within = self.is_within(&self.seen_shares(&errors), self.options.error);
         let estimate = estimate(&self.tiling, self.members, &errors, self.sent.len());
         drop(errors);
         let (stand, watch) = self.stand();
