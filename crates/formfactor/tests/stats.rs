@@ -164,3 +164,28 @@ fn a_body_on_a_slope_hides_all_from_what_it_stands_on() {
         assert!(seen(2.3 + 0.005 * f64::from(i)) > 0.0);
     }
 }
+
+/// Planes through dA and the edges of a square that it hardly rises above are almost the square's own: walls on both sides of that pass through
+/// all of them.
+#[test]
+fn what_stands_beside_a_target_is_not_looked_at_where_it_is_seen_at_a_grazing_angle() {
+    let square =
+        PlanarPolygon::new([[[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 1.0, 0.0], [3.0, 1.0, 0.0]]]).unwrap();
+    let wall = |k: u32| {
+        let y = 2.0 + 0.5 * f64::from(k / 2);
+        let y = if k % 2 == 0 { y } else { -y };
+        let corners = [[1.0, y, -1.0], [5.0, y, -1.0], [5.0, y + 0.2, 1.0], [1.0, y + 0.2, 1.0]];
+        PlanarPolygon::new([corners]).unwrap()
+    };
+    let board =
+        PlanarPolygon::new([[[2.0, 0.4, -1.0], [2.0, 2.0, -1.0], [2.0, 2.0, 1.0], [2.0, 0.4, 1.0]]]).unwrap();
+    for above in [1e-3, 1e-6, 1e-9] {
+        let from = DifferentialArea::new(DVec3::new(0.0, 0.5, above), DVec3::X).unwrap();
+        let [few, many] = [4, 400].map(|count| {
+            let polygons = [square.clone(), board.clone()].into_iter().chain((0..count).map(wall));
+            Enclosure::new(polygons.collect()).form_factor_with_stats(&from, 0)
+        });
+        assert_eq!(few.0, many.0);
+        assert!(few.0.value > 0.0 && many.1.looked_at == 1, "{above}: {}", many.1.looked_at);
+    }
+}

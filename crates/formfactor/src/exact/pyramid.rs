@@ -18,6 +18,8 @@ pub(crate) struct Pyramid {
     /// The near side of the target's plane, and a point of it.
     near: Side,
     anchor: DVec3,
+    /// The box around the target and dA: planes reach far where dA is hardly before the target's plane.
+    extent: Extent,
     /// The rectangle into which rounded projections are kept, five times as large.
     pub(crate) bounds: [DVec2; 2],
 }
@@ -93,6 +95,7 @@ impl Pyramid {
             walls: walls(low - size, high + size),
             near: Side::of(normal),
             anchor: to.plane().corners[0],
+            extent: Extent::around(to.points()).with(Extent::around(&[position])),
             bounds: [low - 2.0 * size, high + 2.0 * size],
         }
     }
@@ -102,7 +105,15 @@ impl Pyramid {
         let outside = |side: &Side, origin: DVec3| {
             polygon.points().iter().all(|p| side.of_offset(*p - origin, deviation) == Ordering::Less)
         };
-        outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
+        self.is_beside(&Extent::around(polygon.points()), deviation)
+            || outside(&self.near, self.anchor)
+            || self.tight.iter().any(|side| outside(side, self.position))
+    }
+
+    /// Whether a box is beside that of the target and dA for certain.
+    fn is_beside(&self, extent: &Extent, deviation: f64) -> bool {
+        // Twice: what the deviation is rounded to may be less.
+        self.extent.misses(&extent.grown(2.0 * deviation))
     }
 
     /// Whether everything in a box is outside for certain.
@@ -110,7 +121,9 @@ impl Pyramid {
         let outside = |side: &Side, origin: DVec3| {
             side.excludes_box(extent.low - origin, extent.high - origin, deviation)
         };
-        outside(&self.near, self.anchor) || self.tight.iter().any(|side| outside(side, self.position))
+        self.is_beside(extent, deviation)
+            || outside(&self.near, self.anchor)
+            || self.tight.iter().any(|side| outside(side, self.position))
     }
 
     /// An edge of a convex target which `polygon` touches from outside, at most: by exact decision, but for `deviation`.

@@ -20,8 +20,16 @@ pub(crate) struct Target<'a> {
     /// Whether it is all of `to`.
     pub(super) is_whole: bool,
     pub(super) cone: OneCone<'a>,
-    /// The half-spaces in which a part of an occluder must be to hide any of the target.
+    /// The half-spaces in which a part of an occluder must be to hide any of the target,
     sides: &'a [HalfSpace],
+    /// and the box around it and dA: half-spaces alone reach far where dA is hardly before its plane.
+    ///
+    /// ```text
+    ///  ------------ · ------        seen from above: the planes through dA and the edges are almost that of the target, and what
+    ///            · [target] ·       stands beside it at any distance is outside of none of them
+    ///  ---- dA -------------
+    /// ```
+    extent: Extent,
     /// A bound on the form factor of what its vertices' deviation leaves open.
     pub(super) error: f64,
 }
@@ -160,12 +168,17 @@ impl<'a> Target<'a> {
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
         let is_whole = to.is_convex() && to.convex_pieces().nth(1).is_none();
-        Some(Self { from, to, is_whole, cone: OneCone::new(edges, ids, spread), sides, error })
+        // Twice: what the deviation is rounded to may be less.
+        let extent = Extent::around(piece).with(Extent::around(&[origin])).grown(2.0 * to.deviation());
+        Some(Self { from, to, is_whole, cone: OneCone::new(edges, ids, spread), sides, extent, error })
     }
 
-    /// Whether everything in a box is outside of a side, below the horizon or behind the target, for certain. Polygons
+    /// Whether everything in a box is outside of a side, below the horizon, behind the target or beside both, for certain. Polygons
     /// in it may lie off their vertices by `deviation`.
     pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
+        if self.extent.misses(&extent.grown(2.0 * deviation)) {
+            return true;
+        }
         let origin = self.from.position();
         let (low, high) = (extent.low - origin, extent.high - origin);
         let size = size(low.abs().max(high.abs())) + deviation * INVERSE;
@@ -185,6 +198,9 @@ impl<'a> Target<'a> {
     /// Neighbours of a target in a mesh touch its sides; exact turns decide that they hide nothing.
     pub(super) fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
         let (origin, points) = (self.from.position(), occluder.points());
+        if self.extent.misses(&Extent::around(points).grown(2.0 * occluder.deviation())) {
+            return Some(Apart::Outside);
+        }
         let reach = points.iter().fold(0.0, |reach, p| greater(reach, size(*p - origin)));
         let reach = reach + occluder.deviation() * INVERSE;
         let mut touched = None;
