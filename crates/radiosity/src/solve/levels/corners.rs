@@ -1,5 +1,7 @@
 //! What the corners of parts of leaves receive: those that several leaves share are looked from once.
+use super::boxes::Boxes;
 use super::tiling::Tiling;
+use crate::extent::Extent;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
@@ -13,7 +15,7 @@ pub(super) type CornerKey = (usize, Option<usize>, [u64; 2]);
 pub(super) struct CornerLight<'c> {
     tiling: &'c Tiling<'c>,
     /// The lines on each patch across which light may jump, its sides among them.
-    jumps: Vec<Vec<[DVec2; 2]>>,
+    jumps: Vec<Jumps>,
     light: BTreeMap<CornerKey, Vec<f64>>,
 }
 
@@ -26,15 +28,15 @@ impl<'c> CornerLight<'c> {
             sides.map(move |(start, end)| [*start, *end].map(|place| tiling.flatten(patch, place)))
         };
         let jumps = lines.iter().enumerate();
-        let jumps = jumps.map(|(patch, lines)| lines.iter().copied().chain(sides(patch)).collect());
+        let jumps =
+            jumps.map(|(patch, lines)| Jumps::of(lines.iter().copied().chain(sides(patch)).collect()));
         CornerLight { tiling, jumps: jumps.collect(), light: BTreeMap::new() }
     }
 
     /// The key of a corner of a part of a tile.
     pub(super) fn key(&self, tile: usize, corner: DVec2) -> CornerKey {
         let patch = self.tiling.tiles[tile].patch;
-        let jumps = self.jumps[patch].iter().any(|line| distance(corner, *line) < 2.0 * APART);
-        (patch, jumps.then_some(tile), place(corner))
+        (patch, self.jumps[patch].pass(corner).then_some(tile), place(corner))
     }
 
     pub(super) fn is_known(&self, key: &CornerKey) -> bool {
@@ -53,6 +55,29 @@ impl<'c> CornerLight<'c> {
     /// The light at a place within a patch, where that is the same for all around it and was looked from.
     pub(super) fn at(&self, patch: usize, at: DVec3) -> Option<&[f64]> {
         self.of(&(patch, None, place(self.tiling.flatten(patch, at))))
+    }
+}
+
+/// The lines on a patch across which light may jump, of which a ground may have as many as there are houses on it.
+struct Jumps {
+    lines: Vec<[DVec2; 2]>,
+    boxes: Boxes,
+}
+
+impl Jumps {
+    fn of(lines: Vec<[DVec2; 2]>) -> Jumps {
+        let extent = |ends: &[DVec2; 2]| Extent::of_points(ends.iter().map(|end| end.extend(0.0)));
+        let boxes = Boxes::around(&lines.iter().map(extent).collect::<Vec<_>>());
+        Jumps { lines, boxes }
+    }
+
+    /// Whether one of them passes a place.
+    fn pass(&self, place: DVec2) -> bool {
+        let at = Extent::of_points([place.extend(0.0)].into_iter());
+        self.boxes.any(
+            |extent| !extent.is_near(&at, 3.0 * APART),
+            |line| distance(place, self.lines[line as usize]) < 2.0 * APART,
+        )
     }
 }
 

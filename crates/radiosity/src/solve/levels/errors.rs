@@ -3,15 +3,12 @@ use super::budget::BandLight;
 use super::cluster_links::ClusterLinks;
 use super::hidden::HiddenLight;
 use super::link::Link;
-use super::tiling::{Tile, Tiling};
+use super::tiling::Tiling;
 use super::ways::{Ways, dot, ways};
 
 /// Errors add up as this power of them does: between those of one sign, of which it is the first, and independent ones, of which it is the
 /// second. So are those of the rooms of seven kinds of which the benchmarks tell.
 pub(super) const EXPONENT: f64 = 1.2;
-
-/// Where a part of a tile is looked at, so much of what the light of the tile bends may be light of the part that it does not have.
-const ASTRAY: f64 = 0.5;
 
 /// What the irradiance of every tile may be off by in a band of what it receives by itself, raised to the exponent.
 #[derive(Debug)]
@@ -83,25 +80,11 @@ fn each(
             link.errors(end, (&light.sent, &light.deviation)).for_each(|(tile, error)| to(tile, error, 0.0));
         }
     }
-    let astray = astray(tiling, light);
     for link in links {
         for end in [0, 1] {
             let flaw = light.flaw(tiling, link, end);
-            let astray = astray[link.ends[1 - end]] * link.exchange[0];
-            to(link.ends[end], flaw.of_mean + flaw.of_sender + astray, flaw.of_total);
+            to(link.ends[end], flaw.of_mean + flaw.of_sender, flaw.of_total);
         }
     }
     tiling.leaves().for_each(|leaf| to(leaf, light.direct_power(tiling, leaf), 0.0));
-}
-
-/// What each tile may send too much or too little because the light that larger tiles receive is not linear over these.
-fn astray(tiling: &Tiling<'_>, light: &BandLight) -> Vec<f64> {
-    let mut squares = vec![0.0; tiling.tiles.len()];
-    // Halves come after what they are halves of.
-    for (index, tile) in tiling.tiles.iter().enumerate() {
-        squares[index] =
-            tile.parent.map_or(0.0, |parent| squares[parent] + light.bend[parent] * light.bend[parent]);
-    }
-    let reflected = |(tile, square): (&Tile, f64)| ASTRAY * tile.reflectance[light.band] * square.sqrt();
-    tiling.tiles.iter().zip(squares).map(reflected).collect()
 }
