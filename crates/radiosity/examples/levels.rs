@@ -4,7 +4,8 @@
 //! RAYON_NUM_THREADS=1 cargo run --release -p radiosity --example levels -- [ERROR] [town|sky|room|torus|row] [PATCHES]...
 //! ```
 //!
-//! Links are those of two tiles in the end. An exponent is the logarithm of the ratio of times, or links, over that of the numbers of patches in two rows.
+//! Links are those of two tiles in the end. An exponent is the logarithm of the ratio of times, or links, over that of the numbers of patches in
+//! two rows.
 mod large_scenes;
 
 use cpu_time::ProcessTime;

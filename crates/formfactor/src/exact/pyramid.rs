@@ -100,20 +100,14 @@ impl Pyramid {
         }
     }
 
-    /// Whether a polygon lies wholly below the horizon, outside one side, or behind the target, for certain.
+    /// Whether a polygon lies wholly below the horizon, outside one side, behind the target, or beside it and dA, for certain.
     pub(crate) fn misses(&self, polygon: &PlanarPolygon, deviation: f64) -> bool {
         let outside = |side: &Side, origin: DVec3| {
             polygon.points().iter().all(|p| side.of_offset(*p - origin, deviation) == Ordering::Less)
         };
-        self.is_beside(&Extent::around(polygon.points()), deviation)
+        self.extent.is_beside(&Extent::around(polygon.points()), deviation)
             || outside(&self.near, self.anchor)
             || self.tight.iter().any(|side| outside(side, self.position))
-    }
-
-    /// Whether a box is beside that of the target and dA for certain.
-    fn is_beside(&self, extent: &Extent, deviation: f64) -> bool {
-        // Twice: what the deviation is rounded to may be less.
-        self.extent.misses(&extent.grown(2.0 * deviation))
     }
 
     /// Whether everything in a box is outside for certain.
@@ -121,7 +115,7 @@ impl Pyramid {
         let outside = |side: &Side, origin: DVec3| {
             side.excludes_box(extent.low - origin, extent.high - origin, deviation)
         };
-        self.is_beside(extent, deviation)
+        self.extent.is_beside(extent, deviation)
             || outside(&self.near, self.anchor)
             || self.tight.iter().any(|side| outside(side, self.position))
     }

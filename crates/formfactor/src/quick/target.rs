@@ -22,13 +22,8 @@ pub(crate) struct Target<'a> {
     pub(super) cone: OneCone<'a>,
     /// The half-spaces in which a part of an occluder must be to hide any of the target,
     sides: &'a [HalfSpace],
-    /// and the box around it and dA: half-spaces alone reach far where dA is hardly before its plane.
-    ///
-    /// ```text
-    ///  ------------ · ------        seen from above: the planes through dA and the edges are almost that of the target, and what
-    ///            · [target] ·       stands beside it at any distance is outside of none of them
-    ///  ---- dA -------------
-    /// ```
+    /// and the box around it and dA. Where dA is hardly before the target's plane those half-spaces end almost at that plane: what stands across
+    /// the plane beside the target is outside of none of them, however far it is.
     extent: Extent,
     /// A bound on the form factor of what its vertices' deviation leaves open.
     pub(super) error: f64,
@@ -168,15 +163,14 @@ impl<'a> Target<'a> {
         sides.extend([HalfSpace::before(to, origin), HalfSpace::above(from)]);
         sides.extend(edges.iter().map(HalfSpace::within));
         let is_whole = to.is_convex() && to.convex_pieces().nth(1).is_none();
-        // Twice: what the deviation is rounded to may be less.
-        let extent = Extent::around(piece).with(Extent::around(&[origin])).grown(2.0 * to.deviation());
+        let extent = Extent::around(piece).with(Extent::around(&[origin]));
         Some(Self { from, to, is_whole, cone: OneCone::new(edges, ids, spread), sides, extent, error })
     }
 
     /// Whether everything in a box is outside of a side, below the horizon, behind the target or beside both, for certain. Polygons
     /// in it may lie off their vertices by `deviation`.
     pub(crate) fn misses_box(&self, extent: &Extent, deviation: f64) -> bool {
-        if self.extent.misses(&extent.grown(2.0 * deviation)) {
+        if self.extent.is_beside(extent, deviation + self.to.deviation()) {
             return true;
         }
         let origin = self.from.position();
@@ -198,7 +192,7 @@ impl<'a> Target<'a> {
     /// Neighbours of a target in a mesh touch its sides; exact turns decide that they hide nothing.
     pub(super) fn apart(&self, occluder: &PlanarPolygon) -> Option<Apart<'_>> {
         let (origin, points) = (self.from.position(), occluder.points());
-        if self.extent.misses(&Extent::around(points).grown(2.0 * occluder.deviation())) {
+        if self.extent.is_beside(&Extent::around(points), occluder.deviation() + self.to.deviation()) {
             return Some(Apart::Outside);
         }
         let reach = points.iter().fold(0.0, |reach, p| greater(reach, size(*p - origin)));

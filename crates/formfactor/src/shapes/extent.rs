@@ -26,6 +26,12 @@ impl Extent {
         self.low.cmpgt(other.high).any() || other.low.cmpgt(self.high).any()
     }
 
+    /// Whether two boxes have no point in common, wherever what is in them is that may lie off its place by `deviation`: twice that is more than
+    /// what is left of it where coordinates are rounded.
+    pub(crate) fn is_beside(&self, other: &Self, deviation: f64) -> bool {
+        self.misses(&other.grown(2.0 * deviation))
+    }
+
     /// Whether a ray misses the box by more than rounding explains: a margin of 1e-12 of the coordinates, far more than the
     /// roundings of this test.
     pub(crate) fn misses_ray(&self, origin: DVec3, direction: DVec3) -> bool {

@@ -51,6 +51,36 @@ impl Asked {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use crate::solve::levels::plates::Plates;
+    use formfactor::PlanarPolygon;
+    use glam::DVec3;
+
+    /// A large square and so many small ones, each in a plane of its own.
+    fn squares(count: u32) -> Scene {
+        let square = |k: u32| {
+            let (at, size) = (DVec3::Z * f64::from(k), if k == 0 { 100.0 } else { 0.1 });
+            let corners = [at, at + size * DVec3::X, at + size * (DVec3::X + DVec3::Y), at + size * DVec3::Y];
+            Patch::new("square", PlanarPolygon::new([corners]).unwrap(), vec![0.5], vec![0.0])
+        };
+        Scene { patches: (0..count).map(square).collect(), bands: 1, ..Scene::default() }
+    }
+
+    /// Of few patches all are asked for, and what is small is so beside what is in view.
+    #[test]
+    fn the_small_are_those_of_many_in_view() {
+        let is_within = |count: u32, view: Option<&[bool]>| {
+            let scene = squares(count);
+            let plates = Plates::of(&scene);
+            let members = PlateMembers::of(&plates).unwrap();
+            let off: Vec<f64> = (0..count).map(|k| if k == 1 { 0.5 } else { 0.0 }).collect();
+            Asked::of(&members, view)
+                .are_within(&ErrorShares { of_plates: off.clone(), of_patches: off }, 0.01)
+        };
+        assert!(is_within(301, None) && !is_within(300, None));
+        let small: Vec<bool> = (0..301).map(|k| k > 0).collect();
+        assert!(!is_within(301, Some(&small)), "one of 300 alike is no small one");
+    }
 
     /// A hundred small patches beside two large ones, of all of which some are beyond 1 %.
     fn are_within(beyond: &[usize], small: f64) -> bool {

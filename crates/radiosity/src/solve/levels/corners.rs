@@ -75,6 +75,7 @@ impl Jumps {
     fn pass(&self, place: DVec2) -> bool {
         let at = Extent::of_points([place.extend(0.0)].into_iter());
         self.boxes.any(
+            // A little more than what is asked for: boxes are rounded otherwise than distances.
             |extent| !extent.is_near(&at, 3.0 * APART),
             |line| distance(place, self.lines[line as usize]) < 2.0 * APART,
         )
@@ -123,5 +124,24 @@ mod tests {
         corners.add([(within, vec![7.0])].into_iter());
         assert_eq!(corners.at(0, DVec3::new(0.25, 0.5, 0.0)), Some(&[7.0][..]));
         assert_eq!(corners.at(0, DVec3::new(0.25, 0.5 + 1e-6, 0.0)), None);
+    }
+
+    /// A grid of lines, as around the houses of a town.
+    #[test]
+    fn a_place_is_on_one_of_many_lines_if_it_is_on_any_of_them() {
+        let at = |k: u32| DVec2::new(f64::from(k % 20), f64::from(k / 20));
+        let lines: Vec<[DVec2; 2]> = (0..400)
+            .flat_map(|k| [[at(k), at(k) + 0.5 * DVec2::X], [at(k), at(k) + 0.5 * DVec2::new(0.6, 0.8)]])
+            .collect();
+        let jumps = Jumps::of(lines.clone());
+        for [start, end] in lines {
+            for share in [0.0, 0.3, 1.0] {
+                let place = start.lerp(end, share);
+                let aside = (end - start).perp() * 1e-6;
+                assert!(jumps.pass(place) && jumps.pass(place + aside * 1e-4), "{place}");
+                assert!(share == 0.0 || !jumps.pass(place + aside), "{place}");
+            }
+        }
+        assert!(!jumps.pass(DVec2::splat(0.7)) && !Jumps::of(Vec::new()).pass(DVec2::ZERO));
     }
 }
