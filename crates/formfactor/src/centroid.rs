@@ -2,18 +2,11 @@
 //!
 //! In polar coordinates r, phi about the foot of the perpendicular from dA to the target's plane, h below it, the kernel is
 //! h (a + r w) / (pi (h^2 + r^2)^2), with a the height of the foot over the horizon and w(phi) the cosine between dA's normal and the
-//! direction e(phi) in the plane. Integrated over r to the boundary at R = z h it leaves
-//!
-//! ```text
-//! integral of y K dA = (1 / pi) sum over edges of the integral of e (a J2(z) + h w J3(z)) dphi,
-//! J2 = (atan z - z / (1 + z^2)) / 2,   J3 = (ln(1 + z^2) - z^2 / (1 + z^2)) / 2,
-//! ```
-//!
-//! which Gauss's rule finds to ten digits along every edge.
+//! direction e(phi) in the plane. Integrated over r to the boundary it leaves a line integral along every edge.
 use crate::buffers::Buffers;
+use crate::edge_moment::EdgeLine;
 use crate::exact::pyramid::Pyramid;
 use crate::form_factor::FormFactor;
-use crate::numeric::gauss::{RULE_2, RULE_3, RULE_4, RULE_6};
 use crate::occluders::{Reach, Taker};
 use crate::pipeline::past;
 use crate::quick;
@@ -22,13 +15,6 @@ use crate::visible_part::seen_past;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
-
-/// Gauss's rules, and the longest stretches over which they find an integral to 1e-10 that is analytic but from pi / 2 aside on: where that is d
-/// times half the stretch they err by (d + (d^2 + 1)^(1/2))^(-2n) (Trefethen 2008, theorem 4.5). The moments of a strip's edges cancel but for its
-/// width: their errors may not be as large as what is left.
-const RULES: [(f64, &[[f64; 2]]); 4] =
-    [(0.02, &RULE_2), (0.13, &RULE_3), (0.35, &RULE_4), (LONGEST, &RULE_6)];
-const LONGEST: f64 = 0.9;
 
 /// The form factor, and the mean of the target's visible points, each weighed by what it contributes; of a target that is not seen
 /// some point.
@@ -92,44 +78,10 @@ impl PolarPlane {
             return DVec2::ZERO;
         }
         let (away, across) = (away * distance.signum(), distance.abs());
-        let ends = [start, end].map(|end| end.dot(along));
-        self.over_line([away, along], across, ends) * distance.signum() / PI
-    }
-
-    /// The integral over the angle, by the place on the edge's line: ds = (r^2 / across) dphi.
-    ///
-    /// It is analytic but where r^2 = -h^2, at s = i c and -i c, c^2 = across^2 + h^2: with s = c sinh t at pi / 2 aside of every real t.
-    fn over_line(&self, [away, along]: [DVec2; 2], across: f64, ends: [f64; 2]) -> DVec2 {
-        let clear = across.hypot(self.height);
-        let [low, high] = ends.map(|end| (end / clear).asinh());
-        let count = ((high - low).abs() / LONGEST).ceil().max(1.0);
-        let step = (high - low) / count;
-        let rule =
-            RULES.iter().find(|(longest, _)| step.abs() <= *longest).map_or(&RULE_6[..], |(_, rule)| rule);
-        let at = |stretch: f64| {
-            let of_node = move |[node, weight]: &[f64; 2]| {
-                let sinh = (low + step * (stretch + node)).sinh();
-                let (place, speed) = (clear * sinh, clear * sinh.hypot(1.0));
-                let radius = across.hypot(place);
-                let toward = (away * across + along * place) / radius;
-                let within = self.within(radius, self.tilt.dot(toward));
-                toward * (weight * step * speed * across / (radius * radius) * within)
-            };
-            rule.iter().map(of_node).sum::<DVec2>()
-        };
-        (0_u32..).map(f64::from).take_while(|stretch| *stretch < count).map(at).sum()
-    }
-
-    /// a J2 + h w J3.
-    fn within(&self, radius: f64, lean: f64) -> f64 {
-        let z = radius / self.height;
-        let q = z * z;
-        let [second, third] = if q < 1e-2 {
-            [z * q * (2.0 / 3.0 - q * (0.8 - q * 6.0 / 7.0)), q * q * (0.5 - q * (2.0 / 3.0 - q * 0.75))]
-        } else {
-            [z.atan() - z / (1.0 + q), q.ln_1p() - q / (1.0 + q)]
-        };
-        (self.rise * second + self.height * lean * third) / 2.0
+        let lean = [self.tilt.dot(away) * across, self.tilt.dot(along)];
+        let line = EdgeLine::new([across, self.height], self.rise, lean);
+        let [outward, forward] = line.integral([start, end].map(|end| end.dot(along)));
+        (away * (across * outward) + along * forward) * distance / PI
     }
 
     /// The moment over the visible part as polygon Booleans find it.

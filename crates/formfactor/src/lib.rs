@@ -137,6 +137,7 @@ mod area;
 mod buffers;
 mod centroid;
 mod complement;
+mod edge_moment;
 mod error;
 mod exact;
 mod form_factor;
