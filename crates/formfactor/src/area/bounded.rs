@@ -75,7 +75,7 @@ impl Enclosure {
         };
         let [first, second] = if from.id <= to.id { [&from, &to] } else { [&to, &from] };
         let deviation = self.deviation().max(from.deviation).max(to.deviation);
-        let outlook = Outlook::from(self.surfaces(), &first.surface);
+        let outlook = Outlook::toward(self.surfaces(), &first.surface, &second.surface);
         let found = outlook.proven(&second.surface, &allowed, deviation, limits.stop);
         Ok(found.map(|found| bounded(&found, areas[0])))
     }

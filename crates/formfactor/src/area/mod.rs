@@ -135,7 +135,7 @@ impl Enclosure {
         tolerance.check()?;
         let [from, to] = [End::of(self, from.into())?, End::of(self, to.into())?];
         let [first, second] = if from.id <= to.id { [&from, &to] } else { [&to, &from] };
-        let outlook = Outlook::from(self.surfaces(), &first.surface);
+        let outlook = Outlook::toward(self.surfaces(), &first.surface, &second.surface);
         let limits = limits.with(limits.in_all);
         let found = self.pair(&outlook, [first, second], &tolerance, &limits, &mut Eye::default());
         Ok(found.map(|found| found.map_or_else(AreaFormFactor::default, |f| factor(&f, from.surface.area))))

@@ -24,23 +24,34 @@ const EASY: f64 = 0.1;
 pub(super) struct Outlook<'e> {
     surfaces: &'e Surfaces,
     own: &'e Surface,
-    /// What of each occluder is before it.
+    /// What of each occluder is before it, or of those toward the one polygon that is looked at.
     near: Vec<Option<(Origin, Near<'e>)>>,
-    /// The numbers of those that some is of.
+    /// The numbers of those that some is of, or of all toward the one polygon.
     all: Vec<usize>,
+    is_toward_one: bool,
 }
 
 impl<'e> Outlook<'e> {
     pub(super) fn from(surfaces: &'e Surfaces, own: &'e Surface) -> Self {
-        let seen = |hider: &'e Hider| {
-            if own.is_of(hider.of) {
-                return None;
-            }
-            Some((hider.of, before(Cow::Borrowed(&hider.shape), own)?))
-        };
-        let near: Vec<_> = surfaces.hiders.iter().map(seen).collect();
+        let near: Vec<_> = surfaces.hiders.iter().map(|hider| seen(hider, own)).collect();
         let all = (0..near.len()).filter(|id| near[*id].is_some()).collect();
-        Self { surfaces, own, near, all }
+        Self { surfaces, own, near, all, is_toward_one: false }
+    }
+
+    /// The same for a look at one polygon alone: nothing aside of both is looked at.
+    pub(super) fn toward(surfaces: &'e Surfaces, own: &'e Surface, other: &Surface) -> Self {
+        if surfaces.hiders.len() <= FEW {
+            return Self::from(surfaces, own);
+        }
+        let all = in_hull(surfaces, [own, other]);
+        let near = all.iter().map(|id| seen(&surfaces.hiders[*id], own)).collect();
+        Self { surfaces, own, near, all, is_toward_one: true }
+    }
+
+    /// What of an occluder is before this polygon.
+    fn near(&self, id: usize) -> Option<&(Origin, Near<'e>)> {
+        let at = if self.is_toward_one { self.all.binary_search(&id).ok()? } else { id };
+        self.near.get(at)?.as_ref()
     }
 
     /// The double integral of the kernel over this polygon and another one that it faces.
@@ -108,16 +119,10 @@ impl<'e> Outlook<'e> {
 
     /// The numbers of the occluders that balls do not show to be elsewhere than between this polygon and another one.
     fn near_to(&self, other: &Surface) -> Cow<'_, [usize]> {
-        if self.near.len() <= FEW {
+        if self.is_toward_one || self.near.len() <= FEW {
             return Cow::Borrowed(&self.all);
         }
-        let one = self.own;
-        let mut found = self.surfaces.tree.find(|extent| {
-            let middle = extent.low.midpoint(extent.high);
-            to_hull(one, other, middle, middle.distance(extent.high)).is_none()
-        });
-        found.sort_unstable();
-        Cow::Owned(found)
+        Cow::Owned(in_hull(self.surfaces, [self.own, other]))
     }
 
     /// What can stand between this polygon and another one; `None` where one occluder hides all of it.
@@ -126,7 +131,7 @@ impl<'e> Outlook<'e> {
         // What hid the last one may hide this one.
         let may_cover = |id: usize| {
             let is_between = |near: &&(Origin, _)| !other.is_of(near.0) && hiders[id].counts(one, other);
-            self.near.get(id)?.as_ref().filter(is_between)
+            self.near(id).filter(is_between)
         };
         if let Some(part) =
             may_cover(eye.cover).and_then(|near| before(Cow::Borrowed(near.1.as_ref()), other))
@@ -159,6 +164,24 @@ impl<'e> Outlook<'e> {
 
 /// So few occluders are looked at one by one: asking for boxes around them first would cost more.
 const FEW: usize = 64;
+
+/// The numbers of the occluders that may be in the hull of the balls around two surfaces.
+fn in_hull(surfaces: &Surfaces, [one, other]: [&Surface; 2]) -> Vec<usize> {
+    let mut found = surfaces.tree.find(|extent| {
+        let middle = extent.low.midpoint(extent.high);
+        to_hull(one, other, middle, middle.distance(extent.high)).is_none()
+    });
+    found.sort_unstable();
+    found
+}
+
+/// What of an occluder is before a polygon that it is no part of.
+fn seen<'e>(hider: &'e Hider, own: &Surface) -> Option<(Origin, Near<'e>)> {
+    if own.is_of(hider.of) {
+        return None;
+    }
+    Some((hider.of, before(Cow::Borrowed(&hider.shape), own)?))
+}
 
 /// What of an occluder is before a surface.
 fn before<'o>(occluder: Near<'o>, surface: &Surface) -> Option<Near<'o>> {

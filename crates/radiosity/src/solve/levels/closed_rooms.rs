@@ -9,7 +9,9 @@ use super::equilibrium::Equilibrium;
 use super::look::rises;
 use super::tiling::{Tile, Tiling};
 use formfactor::DifferentialArea;
+use glam::DVec3;
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// A point is in a closed room when ΣF is 1 within this, and covered when it is 0 within this.
 const CLOSED: f64 = 1e-9;
@@ -20,6 +22,11 @@ const IN_TURN: usize = 8;
 /// … but so many of all. After so many turns it is not known whether the room is closed.
 const SAMPLES: usize = 64;
 const TURNS: usize = 32;
+/// A point looks for what is beyond all so far aside of its normal for each unit along it, in so many directions each, of which so many may be
+/// through cracks.
+const ASIDE: [f64; 3] = [0.5, 1.5, 4.0];
+const DIRECTIONS: u32 = 8;
+const CRACKS: usize = 2;
 
 /// Whether a tile is in a closed room, by the points of it: all, some, or none. Those under what stands on it are not, which parts of a tile that
 /// is crossed may be; of those some see nothing.
@@ -40,11 +47,24 @@ pub(super) struct ClosedRooms {
     room_of: Vec<usize>,
 }
 
+/// What a point sees of its room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RoomView {
+    /// The room and nothing else.
+    Whole,
+    /// What is beyond it, too.
+    Out,
+    /// Little: it may be covered.
+    Little,
+}
+
 /// Tiles that exchange light, at once or through others.
 #[derive(Debug)]
 struct TileRoom {
     tiles: Vec<usize>,
     surfaces: Vec<usize>,
+    /// Farther than anything is.
+    far: f64,
 }
 
 impl Enclosed {
@@ -76,8 +96,10 @@ impl ClosedRooms {
         let (mut of_tiles, mut room_of) = (vec![Enclosed::Nowhere; count], vec![0; count]);
         let mut linked = vec![0.0; count];
         leaves.iter().enumerate().for_each(|(leaf, tile)| linked[*tile] = equilibrium.sums(leaf)[0]);
+        let [low, high] = tiling.scene.extent();
+        let far = 2.0 * (high - low).length();
         let room =
-            |room: Vec<usize>| TileRoom::of(tiling, room.into_iter().map(|leaf| leaves[leaf]).collect());
+            |room: Vec<usize>| TileRoom::of(tiling, room.into_iter().map(|leaf| leaves[leaf]).collect(), far);
         let rooms: Vec<TileRoom> = equilibrium.rooms().into_iter().map(room).collect();
         for (index, room) in rooms.iter().enumerate() {
             for tile in room.enclosed(tiling, &linked) {
@@ -136,11 +158,11 @@ impl ClosedRooms {
 }
 
 impl TileRoom {
-    fn of(tiling: &Tiling<'_>, tiles: Vec<usize>) -> TileRoom {
+    fn of(tiling: &Tiling<'_>, tiles: Vec<usize>, far: f64) -> TileRoom {
         let mut surfaces: Vec<usize> = tiles.iter().map(|tile| tiling.tiles[*tile].surface).collect();
         surfaces.sort_unstable();
         surfaces.dedup();
-        TileRoom { tiles, surfaces }
+        TileRoom { tiles, surfaces, far }
     }
 
     /// The tiles that see nothing but the room, whatever else there is; those on which something stands may be covered in part. Unless it is the whole
@@ -148,11 +170,10 @@ impl TileRoom {
     fn enclosed(&self, tiling: &Tiling<'_>, linked: &[f64]) -> Vec<usize> {
         let is_seen = |tile: &usize| linked[*tile] >= COVERED;
         let seen: Vec<usize> = self.tiles.iter().copied().filter(is_seen).collect();
-        let sum = |tile: usize| self.sum(tiling, &tiling.tiles[tile].points[0]);
+        let view = |tile: usize| self.view(tiling, &tiling.tiles[tile].points[0]);
         let step = seen.len().div_ceil(SAMPLES).max(1);
-        let is_open = |tile: &usize| (COVERED..=1.0 - CLOSED).contains(&sum(*tile));
-        let (enclosed, is_closed) = self.least(linked, &seen, sum);
-        if !is_closed || seen.par_iter().step_by(step).any(is_open) {
+        let (enclosed, is_closed) = self.least(linked, &seen, view);
+        if !is_closed || seen.par_iter().step_by(step).any(|tile| view(*tile) == RoomView::Out) {
             return enclosed;
         }
         // Of a tile that is cut for what stands on it, parts are covered, which see as much across the links of the whole as others.
@@ -160,22 +181,29 @@ impl TileRoom {
         let is_of_crossed = |tile: usize| {
             std::iter::successors(above(&tile), above).any(|whole| tiling.tiles[whole].is_crossed)
         };
-        let is_enclosed =
-            |tile: &usize| tiling.tiles[*tile].is_crossed || !is_of_crossed(*tile) || is_one(sum(*tile));
+        let is_enclosed = |tile: &usize| {
+            tiling.tiles[*tile].is_crossed || !is_of_crossed(*tile) || view(*tile) == RoomView::Whole
+        };
         seen.into_par_iter().filter(is_enclosed).collect()
     }
 
     /// Those in a closed room of the tiles that lack most across their links, several in turn until nothing is lacking; and whether it came to that.
     /// What is covered does not tell.
-    fn least(&self, linked: &[f64], seen: &[usize], sum: impl Fn(usize) -> f64 + Sync) -> (Vec<usize>, bool) {
+    fn least(
+        &self,
+        linked: &[f64],
+        seen: &[usize],
+        view: impl Fn(usize) -> RoomView + Sync,
+    ) -> (Vec<usize>, bool) {
         let mut least = seen.to_vec();
         least.sort_by(|a, b| linked[*a].total_cmp(&linked[*b]));
         let mut enclosed = Vec::new();
         for tiles in least.chunks(IN_TURN).take(TURNS) {
-            let sums: Vec<f64> = tiles.par_iter().map(|tile| sum(*tile)).collect();
-            let told = sums.iter().filter(|sum| **sum >= COVERED).count();
+            let views: Vec<RoomView> = tiles.par_iter().map(|tile| view(*tile)).collect();
+            let told = views.iter().filter(|view| **view != RoomView::Little).count();
             let before = enclosed.len();
-            enclosed.extend(tiles.iter().zip(sums).filter(|(_, sum)| is_one(*sum)).map(|(tile, _)| *tile));
+            let whole = tiles.iter().zip(views).filter(|(_, view)| *view == RoomView::Whole);
+            enclosed.extend(whole.map(|(tile, _)| *tile));
             match enclosed.len() - before {
                 0 if told > 0 => return (enclosed, false),
                 found if found == told && found > 0 => return (enclosed, true),
@@ -185,10 +213,35 @@ impl TileRoom {
         (enclosed, false)
     }
 
+    /// What a point sees of the room. Where it sees past everything that is known without a form factor to all of the room, one of thousands.
+    fn view(&self, tiling: &Tiling<'_>, point: &DifferentialArea) -> RoomView {
+        if sees_out(tiling, point, self.far) {
+            return RoomView::Out;
+        }
+        match self.sum(tiling, point) {
+            sum if is_one(sum) => RoomView::Whole,
+            sum if sum >= COVERED => RoomView::Out,
+            _ => RoomView::Little,
+        }
+    }
+
     /// ΣF of a point to the room.
     fn sum(&self, tiling: &Tiling<'_>, point: &DifferentialArea) -> f64 {
         sum(tiling, point, self.surfaces.iter().copied())
     }
+}
+
+/// Whether a point sees past everything in more directions than rounding may let a look through a crack.
+fn sees_out(tiling: &Tiling<'_>, point: &DifferentialArea, far: f64) -> bool {
+    let normal = point.normal();
+    let along = normal.any_orthonormal_vector();
+    let across = normal.cross(along);
+    let is_free = |aside: &DVec3| tiling.enclosure.sees(point, point.position() + (normal + *aside) * far);
+    let turned = |direction: u32| {
+        let angle = f64::from(direction) * TAU / f64::from(DIRECTIONS);
+        ASIDE.map(|aside| aside * (along * angle.cos() + across * angle.sin()))
+    };
+    (0..DIRECTIONS).flat_map(turned).filter(is_free).nth(CRACKS).is_some()
 }
 
 fn is_one(sum: f64) -> bool {
@@ -200,4 +253,41 @@ fn sum(tiling: &Tiling<'_>, point: &DifferentialArea, surfaces: impl Iterator<It
     let polygons = tiling.enclosure.polygons();
     let is_before = |surface: &usize| polygons[*surface].loops().flatten().any(|place| rises(*place, point));
     surfaces.filter(is_before).map(|surface| tiling.enclosure.form_factor(point, surface).value).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, patch::Patch};
+    use formfactor::PlanarPolygon;
+
+    /// The faces of the unit cube, seen from inside, floor and ceiling last.
+    fn cube() -> Scene {
+        let face = |corners: [[u8; 3]; 4]| {
+            let polygon = PlanarPolygon::new([corners.map(|at| DVec3::from(at.map(f64::from)))]).unwrap();
+            Patch::new("face", polygon, vec![0.5], vec![0.0])
+        };
+        let faces = [
+            [[0, 0, 0], [0, 1, 0], [0, 1, 1], [0, 0, 1]],
+            [[1, 0, 0], [1, 0, 1], [1, 1, 1], [1, 1, 0]],
+            [[0, 0, 0], [0, 0, 1], [1, 0, 1], [1, 0, 0]],
+            [[0, 1, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1]],
+            [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]],
+            [[0, 0, 1], [0, 1, 1], [1, 1, 1], [1, 0, 1]],
+        ];
+        Scene { patches: faces.map(face).to_vec(), bands: 1, ..Scene::default() }
+    }
+
+    /// From no place of a closed room something is seen beyond it, and from all others much is when the ceiling is gone.
+    #[test]
+    fn who_sees_past_everything_is_in_no_closed_room() {
+        let out = |scene: &Scene| {
+            let tiling = Tiling::new(scene).unwrap();
+            tiling.tiles.iter().filter(|tile| sees_out(&tiling, &tile.points[0], 4.0)).count()
+        };
+        let mut scene = cube();
+        assert_eq!(out(&scene), 0);
+        scene.patches.pop();
+        assert_eq!(out(&scene), 5);
+    }
 }

@@ -20,6 +20,8 @@ use std::ops::Range;
 const NEAR: f64 = 0.15;
 /// Clusters of so few tiles are halved before a larger tile is cut for them, and so few lamps are parted from other tiles.
 const FEW: usize = 8;
+/// A tile of more than so many times the radius of what is near it is cut first: what stands between it and that may be all there is.
+const WIDE: f64 = 16.0;
 
 /// Of many tiles whose planes pass through a cluster, what of that they may exchange with it is wrong on average.
 const ON_AVERAGE: f64 = 0.1;
@@ -134,17 +136,18 @@ impl Clusters {
         }
     }
 
-    /// The pairs that take the place of a pair: the larger cluster is halved; nothing for two tiles.
+    /// The pairs that take the place of a pair: the larger cluster is halved; nothing for two tiles of which none is far larger.
     pub(super) fn halve(&mut self, pair: [usize; 2], cut: Cut<'_>) -> Result<Option<[[usize; 2]; 2]>, Error> {
         let counts = pair.map(|cluster| self.tiles(cluster).len());
-        if counts == [1, 1] {
+        let [one, other] = pair.map(|cluster| self.all[cluster].radius);
+        let (are_two, is_wide) = (counts == [1, 1], one.max(other) > WIDE * one.min(other));
+        if are_two && !is_wide {
             return Ok(None);
         }
-        let [one, other] = pair.map(|cluster| self.all[cluster].radius);
         let larger = usize::from(other > one);
-        let is_of_few = counts[larger] == 1 && counts[1 - larger] <= FEW;
+        let is_of_few = counts[larger] == 1 && counts[1 - larger] <= FEW && !is_wide;
         let first = if is_of_few { 1 - larger } else { larger };
-        for end in [first, 1 - first] {
+        for end in [first, 1 - first].into_iter().filter(|end| !are_two || *end == larger) {
             if let Some(halves) = self.halves(pair[end], cut)? {
                 let with = |half| if end == 0 { [half, pair[1]] } else { [pair[0], half] };
                 return Ok(Some(halves.map(with)));
@@ -314,6 +317,28 @@ mod tests {
             one.distance(other)
         };
         assert!(of_lamp.iter().all(|ends| distance(ends) < 12.0), "{}", of_lamp.len());
+    }
+
+    /// A ground far larger than all boxes is not linked as a whole with the faces beside which the tree has it.
+    #[test]
+    fn no_tile_is_beside_one_that_is_far_larger() {
+        let corners = [[-50.0, -50.0], [60.0, -50.0], [60.0, 60.0], [-50.0, 60.0]];
+        let ground = PlanarPolygon::new([corners.map(|[x, y]| DVec3::new(x, y, -0.1))]).unwrap();
+        let mut scene = boxes();
+        scene.patches.push(Patch::new("ground", ground, vec![0.5], vec![0.0]));
+        let mut tiling = Tiling::new(&scene).unwrap();
+        let mut clusters = Clusters::of(&tiling);
+        let cut = &mut |tile: usize| {
+            let halves = tiling.halve(tile, 0)?;
+            Ok(halves.map(|halves| halves.map(|half| (half, Cluster::of_tile(&tiling, half)))))
+        };
+        let Pairs { near, .. } = clusters.pairs(cut).unwrap();
+        let radius = |tile: usize| Cluster::of_tile(&tiling, tile).radius;
+        let is_wide = |[one, other]: &&[usize; 2]| {
+            let [one, other] = [radius(*one), radius(*other)];
+            one.max(other) > WIDE * one.min(other)
+        };
+        assert_eq!(near.iter().filter(is_wide).count(), 0);
     }
 
     /// A ground under small boxes is cut for them, and no place of it is forgotten or linked twice with a box.
