@@ -10,7 +10,7 @@ mod large_scenes;
 
 use cpu_time::ProcessTime;
 use large_scenes::FAMILIES;
-use radiosity::{Method, Options, Quality, solve};
+use radiosity::{Method, Options, Quality, Scene, solve};
 use std::error::Error;
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -30,22 +30,39 @@ fn main() -> Result<(), Box<dyn Error>> {
     writeln!(out, "| --- | --- | --- | --- | --- | --- |")?;
     let mut before = None;
     for size in sizes {
-        let scene = scene_of(size);
-        let options = Options { method: Method::Hierarchical, error, ..Quality::Draft.options() };
-        let start = ProcessTime::now();
-        let solution = solve(&scene, &options, |_| ControlFlow::Continue(()))?;
-        let seconds = start.elapsed().as_secs_f64();
-        let count = scene.patches.len();
-        let links = solution.transfers.map_or(0, |found| found.open + found.occluded);
-        let now = [count as f64, seconds, links as f64];
-        let exponent = |of: usize| {
-            let ratio = |before: [f64; 3]| (now[of] / before[of]).ln() / (now[0] / before[0]).ln();
-            before.map_or("–".to_owned(), |before| format!("{:.2}", ratio(before)))
-        };
-        let [of_time, of_links] = [1, 2].map(exponent);
-        let converged = if solution.converged { "yes" } else { "no" };
-        writeln!(out, "| {count} | {seconds:.1} | {of_time} | {links} | {of_links} | {converged} |")?;
+        let now = Row::of(&scene_of(size), error)?;
+        now.write(before.as_ref(), &mut out)?;
         before = Some(now);
     }
     Ok(())
+}
+
+/// What one scene took.
+struct Row {
+    patches: f64,
+    seconds: f64,
+    links: f64,
+    converged: bool,
+}
+
+impl Row {
+    fn of(scene: &Scene, error: f64) -> Result<Row, Box<dyn Error>> {
+        let options = Options { method: Method::Hierarchical, error, ..Quality::Draft.options() };
+        let start = ProcessTime::now();
+        let solution = solve(scene, &options, |_| ControlFlow::Continue(()))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let links = solution.transfers.map_or(0, |found| found.open + found.occluded) as f64;
+        Ok(Row { patches: scene.patches.len() as f64, seconds, links, converged: solution.converged })
+    }
+
+    fn write(&self, before: Option<&Row>, out: &mut impl Write) -> std::io::Result<()> {
+        let Row { patches, seconds, links, converged } = self;
+        let exponent = |of: fn(&Row) -> f64| {
+            let ratio = |before: &Row| (of(self) / of(before)).ln() / (patches / before.patches).ln();
+            before.map_or("–".to_owned(), |before| format!("{:.2}", ratio(before)))
+        };
+        let (of_time, of_links) = (exponent(|row| row.seconds), exponent(|row| row.links));
+        let converged = if *converged { "yes" } else { "no" };
+        writeln!(out, "| {patches} | {seconds:.1} | {of_time} | {links} | {of_links} | {converged} |")
+    }
 }
