@@ -336,3 +336,26 @@ fn a_matrix_is_its_pairs_bit_for_bit() {
         }
     }
 }
+
+/// A hundred boards at all places and angles. A row knows what of each is before its polygon, a pair only what is near both.
+#[test]
+fn a_pair_is_what_it_is_in_a_row_past_any_number_of_boards() {
+    let board = |k: u32| {
+        let turn = f64::from(k) * 2.4;
+        let at = DVec3::new(turn.sin() * 2.0, (turn * 1.7).cos() * 2.0, 0.03 * f64::from(k));
+        let along = DVec3::new(turn.cos(), turn.sin(), 0.3) * 0.4;
+        let across = along.cross(DVec3::new(0.2, turn.cos(), 1.0)).normalize() * 0.3;
+        PlanarPolygon::new([[at, at + along, at + along + across, at + across]]).unwrap()
+    };
+    let room = Enclosure::new((0..100).map(board).collect());
+    let tolerance = Tolerance { absolute: 1e-3, relative: 0.0, row: f64::INFINITY };
+    let mut seen = 0;
+    for from in 0..100 {
+        for (to, in_row) in room.area_row(from, tolerance, &Limits::default()).unwrap().unwrap() {
+            let alone = room.area_form_factor(from, to, tolerance, &Limits::default()).unwrap().unwrap();
+            assert_eq!(alone, in_row, "{from} {to}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 500, "{seen} pairs");
+}

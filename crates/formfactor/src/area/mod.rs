@@ -165,7 +165,8 @@ impl Enclosure {
             let found = each(block, |eye, to| {
                 let other = End::whole(self, *to);
                 if *to < from {
-                    return self.pair(&self.outlook(*to), [&other, &end], &tolerance, &limits, eye);
+                    let outlook = Outlook::toward(self.surfaces(), &other.surface, &end.surface);
+                    return self.pair(&outlook, [&other, &end], &tolerance, &limits, eye);
                 }
                 self.pair(&own, [&end, &other], &tolerance, &limits, eye)
             });

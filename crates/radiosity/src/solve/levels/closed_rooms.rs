@@ -54,6 +54,8 @@ enum RoomView {
     Whole,
     /// What is beyond it, too.
     Out,
+    /// More than there is: faces that lie on each other count twice.
+    Twice,
     /// Little: it may be covered.
     Little,
 }
@@ -220,6 +222,7 @@ impl TileRoom {
         }
         match self.sum(tiling, point) {
             sum if is_one(sum) => RoomView::Whole,
+            sum if sum > 1.0 => RoomView::Twice,
             sum if sum >= COVERED => RoomView::Out,
             _ => RoomView::Little,
         }

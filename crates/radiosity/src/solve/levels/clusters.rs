@@ -254,6 +254,27 @@ mod tests {
         Scene { patches, bands: 1, ..Scene::default() }
     }
 
+    /// The boxes over a square ground, from one place to another on both axes.
+    fn with_ground([low, high]: [f64; 2]) -> Scene {
+        let corners = [[low, low], [high, low], [high, high], [low, high]];
+        let ground = PlanarPolygon::new([corners.map(|[x, y]| DVec3::new(x, y, -0.1))]).unwrap();
+        let mut scene = boxes();
+        scene.patches.push(Patch::new("ground", ground, vec![0.5], vec![0.0]));
+        scene
+    }
+
+    /// What is linked where the ground is cut as it is needed.
+    fn over_ground(scene: &Scene) -> (Tiling<'_>, Clusters, Pairs) {
+        let mut tiling = Tiling::new(scene).unwrap();
+        let mut clusters = Clusters::of(&tiling);
+        let cut = &mut |tile: usize| {
+            let halves = tiling.halve(tile, 0)?;
+            Ok(halves.map(|halves| halves.map(|half| (half, Cluster::of_tile(&tiling, half)))))
+        };
+        let pairs = clusters.pairs(cut).unwrap();
+        (tiling, clusters, pairs)
+    }
+
     #[test]
     fn every_pair_that_may_see_each_other_is_in_one_pair_of_clusters() {
         let scene = boxes();
@@ -322,17 +343,8 @@ mod tests {
     /// A ground far larger than all boxes is not linked as a whole with the faces beside which the tree has it.
     #[test]
     fn no_tile_is_beside_one_that_is_far_larger() {
-        let corners = [[-50.0, -50.0], [60.0, -50.0], [60.0, 60.0], [-50.0, 60.0]];
-        let ground = PlanarPolygon::new([corners.map(|[x, y]| DVec3::new(x, y, -0.1))]).unwrap();
-        let mut scene = boxes();
-        scene.patches.push(Patch::new("ground", ground, vec![0.5], vec![0.0]));
-        let mut tiling = Tiling::new(&scene).unwrap();
-        let mut clusters = Clusters::of(&tiling);
-        let cut = &mut |tile: usize| {
-            let halves = tiling.halve(tile, 0)?;
-            Ok(halves.map(|halves| halves.map(|half| (half, Cluster::of_tile(&tiling, half)))))
-        };
-        let Pairs { near, .. } = clusters.pairs(cut).unwrap();
+        let scene = with_ground([-50.0, 60.0]);
+        let (tiling, _, Pairs { near, .. }) = over_ground(&scene);
         let radius = |tile: usize| Cluster::of_tile(&tiling, tile).radius;
         let is_wide = |[one, other]: &&[usize; 2]| {
             let [one, other] = [radius(*one), radius(*other)];
@@ -344,17 +356,8 @@ mod tests {
     /// A ground under small boxes is cut for them, and no place of it is forgotten or linked twice with a box.
     #[test]
     fn a_ground_is_cut_for_what_stands_on_it() {
-        let corners = [[-1.0, -1.0], [9.0, -1.0], [9.0, 9.0], [-1.0, 9.0]];
-        let ground = PlanarPolygon::new([corners.map(|[x, y]| DVec3::new(x, y, -0.1))]).unwrap();
-        let mut scene = boxes();
-        scene.patches.push(Patch::new("ground", ground, vec![0.5], vec![0.0]));
-        let mut tiling = Tiling::new(&scene).unwrap();
-        let mut clusters = Clusters::of(&tiling);
-        let cut = &mut |tile: usize| {
-            let halves = tiling.halve(tile, 0)?;
-            Ok(halves.map(|halves| halves.map(|half| (half, Cluster::of_tile(&tiling, half)))))
-        };
-        let Pairs { far, near } = clusters.pairs(cut).unwrap();
+        let scene = with_ground([-1.0, 9.0]);
+        let (tiling, clusters, Pairs { far, near }) = over_ground(&scene);
         assert!(tiling.tiles.len() > 160, "{} tiles", tiling.tiles.len());
         let root_of = tiling.roots();
         let mut found = vec![0.0; 144];
