@@ -6,6 +6,7 @@
 use crate::buffers::Buffers;
 use crate::edge_moment::EdgeLine;
 use crate::exact::pyramid::Pyramid;
+use crate::far_centroid::far_centroid;
 use crate::form_factor::FormFactor;
 use crate::occluders::{Reach, Taker};
 use crate::pipeline::past;
@@ -16,6 +17,9 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+/// Ends of edges that are nearer to each other than this share of how far away they are, are one corner.
+const NEAR: f64 = 1e-12;
+
 /// The form factor, and the mean of the target's visible points, each weighed by what it contributes; of a target that is not seen
 /// some point.
 pub(crate) fn with_centroid<'a>(
@@ -25,12 +29,16 @@ pub(crate) fn with_centroid<'a>(
     buffers: &mut Buffers,
 ) -> (FormFactor, DVec3) {
     let plane = PolarPlane::seen_from(from, to);
-    let (factor, moment) = match quick::parts(from, to, &occluders, &mut buffers.quick) {
-        Some(factor) => (factor, buffers.quick.recorded().iter().map(|edge| plane.moment(*edge)).sum()),
-        None => (past(from, to, &occluders, None, buffers), plane.moment_of_part(from, to, occluders)),
+    let (factor, far, moment) = match quick::parts(from, to, &occluders, &mut buffers.quick) {
+        Some(factor) => {
+            let edges = buffers.quick.recorded();
+            let far = plane.far_centroid(edges);
+            (factor, far, if far.is_some() { DVec2::ZERO } else { plane.moment_within(edges) })
+        }
+        None => (past(from, to, &occluders, None, buffers), None, plane.moment_of_part(from, to, occluders)),
     };
-    let centroid = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
-    (factor, plane.place(from, centroid))
+    let mean = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
+    (factor, plane.place(from, far.unwrap_or(mean)))
 }
 
 /// A target's plane relative to dA.
@@ -65,6 +73,29 @@ impl PolarPlane {
 
     fn place(&self, from: &DifferentialArea, point: DVec2) -> DVec3 {
         from.position() + self.foot + self.axes[0] * point.x + self.axes[1] * point.y
+    }
+
+    /// The centroid between the edges of one ring of three or four that is far for its size.
+    fn far_centroid(&self, edges: &[[DVec3; 2]]) -> Option<DVec2> {
+        let follows = |[edge, next]: [&[DVec3; 2]; 2]| edge[1].distance(next[0]) <= NEAR * next[0].length();
+        let is_ring = |edges: &[[DVec3; 2]]| {
+            edges.iter().zip(edges.iter().cycle().skip(1)).all(|(edge, next)| follows([edge, next]))
+        };
+        let corners = match edges {
+            [a, b, c] if is_ring(edges) => [a, b, c, c],
+            [a, b, c, d] if is_ring(edges) => [a, b, c, d],
+            _ => return None,
+        };
+        let weight = |place: DVec2| {
+            let square = self.height * self.height + place.length_squared();
+            (self.rise + self.tilt.dot(place)) / (square * square)
+        };
+        far_centroid(self.height, corners.map(|edge| self.project(edge[0])), weight)
+    }
+
+    /// The moment over what edges bound.
+    fn moment_within(&self, edges: &[[DVec3; 2]]) -> DVec2 {
+        edges.iter().map(|edge| self.moment(*edge)).sum()
     }
 
     /// The moment over the triangle between the foot and an edge, negative for one that runs clockwise.

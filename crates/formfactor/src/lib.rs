@@ -140,6 +140,7 @@ mod complement;
 mod edge_moment;
 mod error;
 mod exact;
+mod far_centroid;
 mod form_factor;
 mod hierarchy;
 mod matrix;

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 143] = [
+const ORDER: [&str; 144] = [
     "approx", "approx/paraboloid", "approx/monte_carlo", "approx/single_plane", "approx/baum", "approx/hemicube",
     "approx/visibility_index", "approx/pietrek", "approx/wallace", "approx/exact", "approx/gather", "approx/disk",
     "approx/screen", "approx/ray", "approx/frame", "approx/parts", "approx/contour", "approx/delta", "approx/random",
@@ -20,7 +20,7 @@ const ORDER: [&str; 143] = [
     "area/silhouettes", "area/clip", "area/lambert", "area/integral", "area/tolerance",
     "scene", "scene/blockers", "scene/sight", "scene/enclosure", "scene/surfaces", "scene/plates", "scene/coplanar", "scene/occluder", "scene/inside", "scene/apart", "scene/pool", "scene/looks", "scene/shaft",
     "scene/body", "scene/body/clearance", "scene/body/winding", "scene/body/lids", "scene/body/components", "scene/line", "scene/cap", "scene/shell", "scene/slab", "scene/tree",
-    "complement", "hierarchy", "centroid", "visible_part", "pipeline", "buffers", "edge_moment",
+    "complement", "hierarchy", "centroid", "visible_part", "pipeline", "buffers", "edge_moment", "far_centroid",
     "quick", "occluders", "quick/trace", "quick/uncovered", "quick/boundary", "quick/neighbours", "quick/seams", "quick/sides", "quick/inside", "quick/exact_side", "quick/contour", "quick/classify", "quick/target",
     "quick/clip", "quick/corners", "quick/horizon", "quick/slopes", "quick/cone", "quick/lanes", "quick/interval",
     "exact", "exact/whole", "exact/cubature", "exact/visible", "exact/shadows", "exact/project", "exact/cull",

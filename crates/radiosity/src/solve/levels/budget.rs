@@ -1,10 +1,10 @@
 //! Which links to refine: the errors of the links of every patch add up to no more than its share.
 use super::cluster_links::ClusterLinks;
+use super::curvatures::Curvatures;
 use super::direct::DirectFlaws;
 use super::equilibrium::deviations;
 use super::flow::{Linear, square};
 use super::link::Link;
-use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use rayon::prelude::*;
 
@@ -22,8 +22,6 @@ const PLACE: f64 = 0.3;
 const BLIND: f64 = 0.3;
 /// Patches whose errors add up to so much more than their share are not refined for the rest.
 const ENOUGH: f64 = 1.25;
-/// What part of the square of all curvatures of light from clusters is left where these are added up: they are of both signs.
-const ALIKE: f64 = 0.1;
 /// How much less than that of a whole the light of a half deviates from linear.
 const HALVED: f64 = 0.5;
 /// Patches that are darker than this share of the mean count as if they were as bright.
@@ -106,7 +104,7 @@ impl BandLight {
         // What the sender's points miss, the receiver's see, but not how bright it is.
         let is_missed = usize::from(transfer.from_second) == end;
         let missed = if is_missed { transfer.gap * self.reflected[sender] } else { 0.0 };
-        let elsewhere = PLACE * transfer.locality() * link.exchange[0];
+        let elsewhere = PLACE * link.locality * link.exchange[0];
         let shared = if link.of_total.is_some() { link.error() } else { 0.0 };
         // Where the total is known only how it is shared can be wrong: no matter where the sender is even, and no part of the receiver is
         // told by itself.
@@ -168,9 +166,10 @@ impl BandLight {
         direct: DirectFlaws,
         strain: Vec<f64>,
     ) -> BandLight {
+        let even = Curvatures::of(tiling, (links, clusters), &sent, &direct.deviation);
         let (mut deviation, mut bend) = (vec![0.0; sent.len()], Vec::new());
         for _ in 0..2 {
-            bend = unresolved(tiling, (links, clusters), &sent, &deviation, &direct.deviation);
+            bend = even.unresolved(tiling, links, &deviation);
             let of_leaves = with_larger(tiling, &bend);
             let of_leaves = tiling.tiles.iter().zip(received).zip(of_leaves).map(|((tile, light), off)| {
                 (tile.reflectance[band] * off).hypot(tile.mottle[band] * light[0])
@@ -229,46 +228,6 @@ pub(super) fn with_larger(tiling: &Tiling<'_>, bend: &[f64]) -> Vec<f64> {
         squares[index] += squares[parent] * share * share;
     }
     squares.into_iter().map(f64::sqrt).collect()
-}
-
-/// How far what each tile receives by itself is from linear: the curvatures of all, and what lights bring.
-///
-/// Curvatures of one sign add up, as those of a lamp that is cut into many; others may be wrong independently. The larger counts.
-fn unresolved(
-    tiling: &Tiling<'_>,
-    (links, clusters): (&[Link], &ClusterLinks),
-    sent: &[Linear],
-    deviation: &[f64],
-    direct: &[f64],
-) -> Vec<f64> {
-    let mut squares = vec![0.0; direct.len()];
-    let mut sums = vec![[0.0; 2]; direct.len()];
-    let mut others: Vec<f64> = direct.iter().map(|deviation| deviation * deviation).collect();
-    for link in links {
-        for end in [0, 1] {
-            let [here, there] = [link.ends[end], link.ends[1 - end]];
-            let area = tiling.tiles[here].area;
-            let bend = link.curvature(end) / area;
-            squares[here] += SQUARE * bend * bend * square(sent[there]);
-            for (sum, bend) in sums[here].iter_mut().zip(link.transfer.bend[end]) {
-                *sum += bend / area * sent[there][0];
-            }
-            let carried = link.transfer.locality() * link.exchange[0] / area * deviation[there];
-            others[here] += carried * carried;
-        }
-    }
-    let mut far = vec![0.0; direct.len()];
-    for (link, end) in clusters.all.iter().flat_map(|link| [(link, 0), (link, 1)]) {
-        if let Some((tile, power)) = link.curvature(end, sent) {
-            far[tile] += power / tiling.tiles[tile].area;
-        }
-    }
-    others.iter_mut().zip(far).for_each(|(square, far)| *square += ALIKE * far * far);
-    for (square, (sums, others)) in squares.iter_mut().zip(sums.into_iter().zip(others)) {
-        let [first, second] = sums.map(f64::abs);
-        *square = (square.max(SQUARE * (first + second) * (first + second)) + others).sqrt();
-    }
-    squares
 }
 
 /// What the light that a leaf receives straight from lights may be off by, as a share of its patch's, in the worst band.

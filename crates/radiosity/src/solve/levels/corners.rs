@@ -2,7 +2,7 @@
 use super::boxes::Boxes;
 use super::tiling::Tiling;
 use crate::extent::Extent;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::collections::BTreeMap;
 
 /// Places in the frame of a patch are told apart by this.
@@ -52,9 +52,9 @@ impl<'c> CornerLight<'c> {
         self.light.get(key).map(Vec::as_slice)
     }
 
-    /// The light at a place within a patch, where that is the same for all around it and was looked from.
-    pub(super) fn at(&self, patch: usize, at: DVec3) -> Option<&[f64]> {
-        self.of(&(patch, None, place(self.tiling.flatten(patch, at))))
+    /// The light at a place of a tile, where that was looked from.
+    pub(super) fn at(&self, tile: usize, place: DVec2) -> Option<&[f64]> {
+        self.of(&self.key(tile, place))
     }
 }
 
@@ -121,9 +121,12 @@ mod tests {
         for on_a_line in [[1.0, 0.25, 0.0], [0.5, 0.0, 0.0], [2.0, 1.0, 0.0]] {
             assert_eq!(key(&corners, 0, on_a_line).1, Some(0), "{on_a_line:?}");
         }
-        corners.add([(within, vec![7.0])].into_iter());
-        assert_eq!(corners.at(0, DVec3::new(0.25, 0.5, 0.0)), Some(&[7.0][..]));
-        assert_eq!(corners.at(0, DVec3::new(0.25, 0.5 + 1e-6, 0.0)), None);
+        let at_wall = key(&corners, 0, [1.0, 0.25, 0.0]);
+        corners.add([(within, vec![7.0]), (at_wall, vec![8.0])].into_iter());
+        let at = |tile: usize, place: [f64; 3]| corners.at(tile, tiling.flatten(0, place.into()));
+        assert_eq!(at(0, [0.25, 0.5, 0.0]), Some(&[7.0][..]));
+        assert_eq!(at(0, [0.25, 0.5 + 1e-6, 0.0]), None);
+        assert_eq!(at(0, [1.0, 0.25, 0.0]), Some(&[8.0][..]));
     }
 
     /// A grid of lines, as around the houses of a town.

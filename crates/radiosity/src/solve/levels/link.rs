@@ -36,14 +36,21 @@ pub(super) struct Link {
     pub(super) of_total: Option<f64>,
     /// No more than this passes between all of the pair.
     pub(super) most: f64,
+    /// Of each end, see [`Transfer::curvature`].
+    curvatures: [f64; 2],
+    /// See [`Transfer::locality`].
+    pub(super) locality: f64,
 }
 
 impl Link {
     /// The link of a candidate; nothing where no light can pass.
     pub(super) fn new(candidate: &Candidate, among: Arc<[u32]>, transfer: Arc<Transfer>) -> Option<Link> {
         let Candidate { ends, unseen, pair, most, .. } = *candidate;
-        let exchange = transfer.exchange;
-        let link = Link { ends, among, unseen, pair, transfer, exchange, of_total: None, most };
+        let (exchange, locality) = (transfer.exchange, transfer.locality());
+        let curvatures = [0, 1].map(|end| transfer.curvature(end, !among.is_empty()));
+        let of_total = None;
+        let link =
+            Link { ends, among, unseen, pair, transfer, exchange, of_total, most, curvatures, locality };
         (link.transfer.exchange[0] > 0.0 || link.error() > 0.0).then_some(link)
     }
 
@@ -64,7 +71,7 @@ impl Link {
 
     /// See [`Transfer::curvature`].
     pub(super) fn curvature(&self, end: usize) -> f64 {
-        self.transfer.curvature(end, !self.among.is_empty())
+        self.curvatures[end]
     }
 
     /// The two pairs that take its place when one end is cut.

@@ -12,9 +12,11 @@
 //! output        the light of the leaves on a mesh
 //! parting       the mesh of plates, cut along the borders of their patches
 //! pieces        leaves in pieces that are small enough to be shown
+//! evenness      how far from linear the light of these is
 //! corners       what corners of pieces receive
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
+//! leaf_part     a part of a leaf, over which light is linear
 //! links         all links of a run, by all threads, and what the state knows of them
 //! closed_rooms  which tiles see nothing but the room that they are in
 //! totals        what whole tiles exchange, which the links of their parts add up to
@@ -25,6 +27,7 @@
 //! direct        what lights without surfaces bring to the leaves
 //! cluster_budget the errors of links of clusters, and which of these are too large
 //! budget        the same of tiles
+//! curvatures    how far what tiles receive is from linear
 //! gradients     the light of all leaves at once, by conjugate gradients
 //! equilibrium   what all leaves exchange, made to close
 //! firm          which links that leaves as they are
@@ -69,16 +72,19 @@ mod cluster_links;
 mod cluster_views;
 mod clusters;
 mod corners;
+mod curvatures;
 mod direct;
 mod equilibrium;
 mod errors;
 mod estimate;
+mod evenness;
 mod firm;
 mod flow;
 mod gradients;
 mod hidden;
 mod importance;
 mod in_view;
+mod leaf_part;
 mod link;
 mod links;
 mod look;

@@ -3,6 +3,7 @@ use super::cluster_links;
 use super::corners::CornerLight;
 use super::direct::Direct;
 use super::flow::Linear;
+use super::leaf_part::LeafPart;
 use super::link::Link;
 use super::links::Links;
 use super::look::look;
@@ -23,7 +24,7 @@ use std::ops::ControlFlow;
 pub(super) type Ask<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 /// How much of what points of a tile receive may be other than it is shown, by links of which points look at nothing: a share of what may be.
-const SMOOTH: f64 = 0.2;
+const SMOOTH: f64 = 0.3;
 
 /// Points look at tiles that see so much of theirs: those are near, and what they bring is least linear at the rim.
 const NEAR: f64 = 0.05;
@@ -115,33 +116,34 @@ impl<'s> Sights<'s> {
         Sights { tiling, in_view, links, direct, of_tile, sent, known }
     }
 
-    /// The irradiance of the vertices of a mesh, of which some corners' is known: vertices × bands; nothing when the caller wants to stop. `tile_of`
-    /// is the tile of an element.
+    /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `part_of` is the part of a leaf that an
+    /// element is on, and the leaf's tile: where its corners were not looked from, and it is not known to be linear inside, vertices are.
     ///
     /// # Errors
     /// [`Error::Defect`] when a form factor fails.
-    pub(super) fn vertices(
+    pub(super) fn vertices<'p>(
         &self,
         mesh: &Mesh,
         corners: &CornerLight<'_>,
-        tile_of: impl Fn(usize) -> usize,
+        part_of: impl Fn(usize) -> (&'p LeafPart, usize),
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
         let on_tile = |receiver: &Receiver<'_>| {
-            let tile = tile_of(receiver.element);
+            let (_, tile) = part_of(receiver.element);
             Ok((tile, receiver.inside_element(AT_RIM)?.owned_by(self.tiling.tiles[tile].surface)))
         };
+        let known = |(receiver, place): (&Receiver<'_>, &DVec3)| {
+            let (part, tile) = part_of(receiver.element);
+            let at = self.tiling.flatten(self.tiling.tiles[tile].patch, *place);
+            corners.at(tile, at).map(<[f64]>::to_vec).or_else(|| part.inside(at))
+        };
         let receivers = receivers(self.tiling.scene, mesh);
-        let known: Vec<Option<&[f64]>> = receivers
-            .iter()
-            .zip(&mesh.vertices)
-            .map(|(receiver, place)| corners.at(mesh.elements[receiver.element].patch, *place))
-            .collect();
+        let known: Vec<Option<Vec<f64>>> = receivers.iter().zip(&mesh.vertices).map(known).collect();
         let unknown = receivers.iter().zip(&known).filter(|(_, known)| known.is_none());
         let points = unknown.map(|(receiver, _)| on_tile(receiver)).collect::<Result<Vec<_>, Error>>()?;
         let Some(found) = self.irradiance(&points, ask)? else { return Ok(None) };
-        let mut found = found.chunks(self.sent.len() - 1);
-        let of = |known: Option<&[f64]>| known.or_else(|| found.next()).unwrap_or_default().to_vec();
+        let mut found = found.chunks(self.sent.len() - 1).map(<[f64]>::to_vec);
+        let of = |known: Option<Vec<f64>>| known.or_else(|| found.next()).unwrap_or_default();
         Ok(Some(known.into_iter().flat_map(of).collect()))
     }
 
