@@ -181,14 +181,19 @@ impl<'c, 's> Cutting<'c, 's> {
     fn new_corners(&self, parts: &[OpenPart]) -> BTreeMap<CornerKey, (usize, DVec2)> {
         let of_part = |OpenPart { part, .. }: &OpenPart| {
             let tile = self.leaves[part.leaf];
-            let is_even = !self.tiling.tiles[tile].is_crossed && !self.direct.has_edges(tile);
-            let corners = part.outline.corners.iter().filter(move |_| is_even);
+            let is_plain = self.is_plain(tile);
+            let corners = part.outline.corners.iter().filter(move |_| is_plain);
             corners
                 .map(move |corner| (self.corners.key(tile, corner.0), (tile, corner.0)))
                 .collect::<Vec<_>>()
         };
         let all = parts.iter().flat_map(of_part);
         all.filter(|(key, _)| !self.corners.is_known(key)).collect()
+    }
+
+    /// Whether nothing stands on a leaf, and no shadow has an edge on it.
+    fn is_plain(&self, tile: usize) -> bool {
+        !self.tiling.tiles[tile].is_crossed && !self.direct.has_edges(tile)
     }
 
     /// Whether the light of a whole leaf is known to be linear enough: its corners, all looked from, receive about what they were found to, and it
@@ -202,7 +207,8 @@ impl<'c, 's> Cutting<'c, 's> {
         };
         let bends =
             found.bend.iter().zip(found.received).map(|(bend, received)| [bend[tile], received[*leaf][0]]);
-        self.evenness.worst(bends) <= FLAT * most && outline.corners.iter().all(is_within)
+        let is_flat = self.is_plain(tile) && self.evenness.worst(bends) <= FLAT * most;
+        is_flat && outline.corners.iter().all(is_within)
     }
 
     /// Looks from the middles of whole leaves: those whose light is linear enough as these and their corners say, and the others; nothing when the caller
@@ -235,12 +241,12 @@ impl<'c, 's> Cutting<'c, 's> {
         Ok(Some((even, others)))
     }
 
-    /// What the corners of a leaf with four of them receive, if all were looked from.
+    /// What the corners of a leaf with four of them receive, if all were looked from and tell of what is between them.
     fn quad(&self, LeafPart { leaf, outline, .. }: &LeafPart) -> Option<[&[f64]; 4]> {
+        let tile = self.leaves[*leaf];
         let corners: &[_; 4] = outline.corners.as_slice().try_into().ok()?;
-        let [a, b, c, d] =
-            corners.map(|corner| self.corners.of(&self.corners.key(self.leaves[*leaf], corner.0)));
-        Some([a?, b?, c?, d?])
+        let [a, b, c, d] = corners.map(|corner| self.corners.of(&self.corners.key(tile, corner.0)));
+        Some([a?, b?, c?, d?]).filter(|_| self.is_plain(tile))
     }
 
     /// Whether the light of a leaf with four corners is linear enough along its diagonals.
