@@ -24,10 +24,11 @@ const LEAST: f64 = 1e-6;
 const BENT: f64 = 1.5;
 /// Leaves are small enough, and are looked at from their corners alone, where neither the estimate of how far light is off linear nor what corners
 /// differ by is more than so many times what it may be: of 12 532 such leaves of the rooms of `tests` 136 bend more than they may, none by
-/// 2.4 times that.
+/// 2.4 times that. Where the border of a shadow passes it may not be more at all: light bends there, out of sight of corners.
 const FLAT: f64 = 2.0;
-/// The others are small enough, and are looked at from their middles as well, where those receive what corners do in the mean along both diagonals, but
-/// for so many times what light may be off: of 4825 of which that was said, 47 bend more than they may, all but one by less than 2.1 times that.
+/// Others that no such border passes are small enough, and are looked at from their middles as well, where those receive what corners do in the mean
+/// along both diagonals, but for so many times what light may be off: of 4825 of which that was said, 47 bend more than they may, all but one by
+/// less than 2.1 times that.
 const DIAGONAL: f64 = 1.5;
 /// Corners where light may jump are looked from a little inside of the leaf: by this share of the way to its middle.
 const INWARD: f64 = 1e-4;
@@ -84,8 +85,7 @@ pub(super) fn pieces<'s>(
     if !cutting.look_from_corners(sights, &seen, &mut *ask)? {
         return Ok(None);
     }
-    let (flat, open): (Vec<_>, Vec<_>) =
-        seen.into_iter().partition(|piece| cutting.is_flat(&piece.part, found));
+    let (flat, open): (Vec<_>, Vec<_>) = seen.into_iter().partition(|piece| cutting.is_flat(piece, found));
     let known = |OpenPart { part, .. }: OpenPart| {
         let light = found.of(part.leaf);
         part.receiving(light)
@@ -191,6 +191,12 @@ impl<'c, 's> Cutting<'c, 's> {
         all.filter(|(key, _)| !self.corners.is_known(key)).collect()
     }
 
+    /// Whether the border of a shadow passes through a part.
+    fn has_borders(&self, OpenPart { part, borders }: &OpenPart) -> bool {
+        let patch = self.tiling.tiles[self.leaves[part.leaf]].patch;
+        !self.borders.within(patch, &part.outline, borders).is_empty()
+    }
+
     /// Whether nothing stands on a leaf, and no shadow has an edge on it.
     fn is_plain(&self, tile: usize) -> bool {
         !self.tiling.tiles[tile].is_crossed && !self.direct.has_edges(tile)
@@ -198,16 +204,18 @@ impl<'c, 's> Cutting<'c, 's> {
 
     /// Whether the light of a whole leaf is known to be linear enough: its corners, all looked from, receive about what they were found to, and it
     /// bends little.
-    fn is_flat(&self, LeafPart { leaf, outline, .. }: &LeafPart, found: &FoundLight<'_>) -> bool {
+    fn is_flat(&self, piece: &OpenPart, found: &FoundLight<'_>) -> bool {
+        let LeafPart { leaf, outline, .. } = &piece.part;
         let tile = self.leaves[*leaf];
-        let most = self.most(self.tiling.tiles[tile].patch, outline);
+        let times = if self.has_borders(piece) { 1.0 } else { FLAT };
+        let most = times * self.most(self.tiling.tiles[tile].patch, outline);
         let is_within = |corner: &(DVec2, DVec3)| {
             let Some(light) = self.corners.of(&self.corners.key(tile, corner.0)) else { return false };
-            self.evenness.off(&found.of(*leaf), outline.linear(corner.0), light) <= FLAT * most
+            self.evenness.off(&found.of(*leaf), outline.linear(corner.0), light) <= most
         };
         let bends =
             found.bend.iter().zip(found.received).map(|(bend, received)| [bend[tile], received[*leaf][0]]);
-        let is_flat = self.is_plain(tile) && self.evenness.worst(bends) <= FLAT * most;
+        let is_flat = self.is_plain(tile) && self.evenness.worst(bends) <= most;
         is_flat && outline.corners.iter().all(is_within)
     }
 
@@ -221,7 +229,7 @@ impl<'c, 's> Cutting<'c, 's> {
         ask: Ask<'_>,
     ) -> Result<Option<Sorted>, Error> {
         let (quads, mut others): (Vec<_>, Vec<_>) =
-            parts.into_iter().partition(|piece| self.quad(&piece.part).is_some());
+            parts.into_iter().partition(|piece| !self.has_borders(piece) && self.quad(&piece.part).is_some());
         let middle = |OpenPart { part, .. }: &OpenPart| {
             let tile = self.leaves[part.leaf];
             Ok((tile, self.tiling.point(self.tiling.tiles[tile].patch, part.outline.points()[0])?))

@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 pub(super) type Ask<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 /// How much of what points of a tile receive may be other than it is shown, by links of which points look at nothing: a share of what may be.
-const SMOOTH: f64 = 0.3;
+const SMOOTH: f64 = 0.2;
 
 /// Points look at tiles that see so much of theirs: those are near, and what they bring is least linear at the rim.
 const NEAR: f64 = 0.05;
