@@ -1,6 +1,5 @@
 //! How far from linear the light of parts of leaves is.
 use super::flow::Linear;
-use super::leaf_part::{planes, value};
 
 /// At corners, which are farther out than the points on both sides, so many times as much may be missing.
 const CORNER: f64 = 3.0;
@@ -52,4 +51,19 @@ impl Evenness<'_> {
         };
         off.zip(self.dim).map(share).fold(0.0, f64::max)
     }
+}
+
+/// The linear light that five points receive, band by band: from the centroid and the tips of the axes.
+fn planes(light: &[f64]) -> Vec<Linear> {
+    let bands = light.len() / 5;
+    let plane = |band: usize| {
+        let at = |point: usize| light[point * bands + band];
+        [at(0), (at(1) - at(2)) / 2.0, (at(3) - at(4)) / 2.0]
+    };
+    (0..bands).map(plane).collect()
+}
+
+/// What linear light is where the two linear functions are so much.
+fn value([mean, first, second]: Linear, [a, b]: [f64; 2]) -> f64 {
+    mean + a * first + b * second
 }

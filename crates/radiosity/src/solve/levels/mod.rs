@@ -16,7 +16,6 @@
 //! corners       what corners of pieces receive
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
-//! leaf_part     a part of a leaf, over which light is linear
 //! links         all links of a run, by all threads, and what the state knows of them
 //! closed_rooms  which tiles see nothing but the room that they are in
 //! totals        what whole tiles exchange, which the links of their parts add up to
@@ -84,7 +83,6 @@ mod gradients;
 mod hidden;
 mod importance;
 mod in_view;
-mod leaf_part;
 mod link;
 mod links;
 mod look;

@@ -2,8 +2,8 @@
 use super::direct::Direct;
 use super::equilibrium::{Equilibrium, largest};
 use super::flow::Linear;
-use super::leaf_part::LeafPart;
 use super::members::PlateMembers;
+use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
 use crate::mesh::{cover::Cover, guests::Guests};
@@ -118,7 +118,7 @@ impl LeafLight {
     }
 }
 
-/// A mesh of pieces of the leaves, and the piece that each element is a part of.
+/// A mesh of pieces of the leaves, and the leaf that each element is a part of.
 pub(super) fn cover(
     tiling: &Tiling<'_>,
     members: &PlateMembers<'_>,
@@ -127,8 +127,8 @@ pub(super) fn cover(
     pieces: &[LeafPart],
 ) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
-    for (piece, LeafPart { leaf, outline, .. }) in pieces.iter().enumerate() {
-        of_patch[equilibrium.patch(*leaf)].push((piece, outline.corners.as_slice()));
+    for LeafPart { leaf, outline } in pieces {
+        of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
     }
     let corners = of_patch.iter().flatten().flat_map(|(_, corners)| corners.iter().map(|corner| corner.1));
     let (mut cover, all) = (Cover::default(), Guests::new(corners.chain(members.corners())));
@@ -160,7 +160,7 @@ fn positive(tile: &Tile, [mean, first, second]: Linear) -> Linear {
     [mean, share * first, share * second]
 }
 
-/// The solution of a scene on a mesh and the leaf that each of its elements is a part of, as far as it is known here.
+/// The solution of a scene on a mesh of the leaves, as far as it is known here.
 pub(super) fn solution(
     scene: &Scene,
     tiling: &Tiling<'_>,

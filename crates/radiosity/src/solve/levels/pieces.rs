@@ -5,7 +5,6 @@ use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::evenness::Evenness;
 use super::flow::Linear;
-use super::leaf_part::{LeafPart, planes};
 use super::tile::Outline;
 use super::tiling::Tiling;
 use super::vertices::{Ask, Sights};
@@ -33,6 +32,14 @@ const DIAGONAL: f64 = 1.5;
 /// Corners where light may jump are looked from a little inside of the leaf: by this share of the way to its middle.
 const INWARD: f64 = 1e-4;
 
+/// A part of a leaf.
+#[derive(Clone, Debug)]
+pub(super) struct LeafPart {
+    /// Which of the leaves.
+    pub(super) leaf: usize,
+    pub(super) outline: Outline,
+}
+
 /// Parts whose light is linear enough, and the others.
 type Sorted = (Vec<LeafPart>, Vec<OpenPart>);
 
@@ -57,7 +64,8 @@ impl FoundLight<'_> {
 
 /// The leaves as they are.
 pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<LeafPart> {
-    let piece = |(leaf, tile): (usize, &usize)| LeafPart::new(leaf, tiling.tiles[*tile].outline.clone());
+    let piece =
+        |(leaf, tile): (usize, &usize)| LeafPart { leaf, outline: tiling.tiles[*tile].outline.clone() };
     equilibrium.leaves().iter().enumerate().map(piece).collect()
 }
 
@@ -86,12 +94,8 @@ pub(super) fn pieces<'s>(
         return Ok(None);
     }
     let (flat, open): (Vec<_>, Vec<_>) = seen.into_iter().partition(|piece| cutting.is_flat(piece, found));
-    let known = |OpenPart { part, .. }: OpenPart| {
-        let light = found.of(part.leaf);
-        part.receiving(light)
-    };
-    fine.extend(flat.into_iter().map(known));
-    let Some((even, mut open)) = cutting.look_from_middles(sights, open, found, &mut *ask)? else {
+    fine.extend(flat.into_iter().map(|piece| piece.part));
+    let Some((even, mut open)) = cutting.look_from_middles(sights, open, &mut *ask)? else {
         return Ok(None);
     };
     fine.extend(even);
@@ -101,7 +105,7 @@ pub(super) fn pieces<'s>(
         for (piece, light) in open.into_iter().zip(light.chunks(5 * means.len())) {
             match cutting.halves(&piece, light) {
                 Some(halves) => parts.extend(halves),
-                None => fine.push(piece.part.receiving(planes(light))),
+                None => fine.push(piece.part),
             }
         }
         open = parts;
@@ -205,7 +209,7 @@ impl<'c, 's> Cutting<'c, 's> {
     /// Whether the light of a whole leaf is known to be linear enough: its corners, all looked from, receive about what they were found to, and it
     /// bends little.
     fn is_flat(&self, piece: &OpenPart, found: &FoundLight<'_>) -> bool {
-        let LeafPart { leaf, outline, .. } = &piece.part;
+        let LeafPart { leaf, outline } = &piece.part;
         let tile = self.leaves[*leaf];
         let times = if self.has_borders(piece) { 1.0 } else { FLAT };
         let most = times * self.most(self.tiling.tiles[tile].patch, outline);
@@ -225,7 +229,6 @@ impl<'c, 's> Cutting<'c, 's> {
         &self,
         sights: &Sights<'_>,
         parts: Vec<OpenPart>,
-        found: &FoundLight<'_>,
         ask: Ask<'_>,
     ) -> Result<Option<Sorted>, Error> {
         let (quads, mut others): (Vec<_>, Vec<_>) =
@@ -239,9 +242,7 @@ impl<'c, 's> Cutting<'c, 's> {
         let mut even = Vec::with_capacity(quads.len());
         for (piece, middle) in quads.into_iter().zip(light.chunks(self.evenness.dim.len())) {
             if self.is_even(&piece.part, middle) {
-                let slopes = found.of(piece.part.leaf).into_iter();
-                let plane = slopes.zip(middle).map(|([_, first, second], mean)| [*mean, first, second]);
-                even.push(piece.part.receiving(plane.collect()));
+                even.push(piece.part);
             } else {
                 others.push(piece);
             }
@@ -250,7 +251,7 @@ impl<'c, 's> Cutting<'c, 's> {
     }
 
     /// What the corners of a leaf with four of them receive, if all were looked from and tell of what is between them.
-    fn quad(&self, LeafPart { leaf, outline, .. }: &LeafPart) -> Option<[&[f64]; 4]> {
+    fn quad(&self, LeafPart { leaf, outline }: &LeafPart) -> Option<[&[f64]; 4]> {
         let tile = self.leaves[*leaf];
         let corners: &[_; 4] = outline.corners.as_slice().try_into().ok()?;
         let [a, b, c, d] = corners.map(|corner| self.corners.of(&self.corners.key(tile, corner.0)));
@@ -277,7 +278,7 @@ impl<'c, 's> Cutting<'c, 's> {
     /// The halves of a part whose light is not linear enough, or on which something stands: cut along the border of a shadow where one passes
     /// through.
     fn halves(&self, piece: &OpenPart, light: &[f64]) -> Option<[OpenPart; 2]> {
-        let OpenPart { part: LeafPart { leaf, outline, .. }, borders } = piece;
+        let OpenPart { part: LeafPart { leaf, outline }, borders } = piece;
         let tile = self.leaves[*leaf];
         let patch = self.tiling.tiles[tile].patch;
         let area = self.tiling.area(patch, outline) / self.area;
@@ -294,7 +295,7 @@ impl<'c, 's> Cutting<'c, 's> {
         let along = if is_parted { None } else { self.borders.cut(patch, outline, &inside) };
         let halves = along.or_else(|| self.tiling.cut_along(patch, outline, edge, axis))?;
         let borders: Vec<usize> = inside.into_iter().map(|(_, border)| border).collect();
-        let open = |outline| OpenPart { part: LeafPart::new(*leaf, outline), borders: borders.clone() };
+        let open = |outline| OpenPart { part: LeafPart { leaf: *leaf, outline }, borders: borders.clone() };
         Some(halves.map(open))
     }
 }

@@ -3,7 +3,6 @@ use super::budget::{BandLight, with_larger};
 use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::flow::Linear;
-use super::leaf_part::LeafPart;
 use super::links::Links;
 use super::members::PlateMembers;
 use super::output::{LeafLight, cover, lines, solution, with_vertices};
@@ -12,7 +11,6 @@ use super::pieces::{FoundLight, pieces, whole};
 use super::tiling::Tiling;
 use super::vertices::Sights;
 use crate::error::Error;
-use crate::mesh::cover::Cover;
 use crate::solve::progress::{LinkedTiles, Moment, Progress};
 use crate::solve::{options::Options, solution::Solution, state::State};
 use std::{ops::ControlFlow, time::Instant};
@@ -95,19 +93,14 @@ impl Stand<'_> {
         let pieces = pieces(&sights, equilibrium, &found, &lines, (&means, self.options.error), &mut ask)?;
         let Some((pieces, corners)) = pieces else { return Ok(None) };
         let cover = cover(tiling, members, equilibrium, &lines, &pieces);
-        let part_of = |element: usize| {
-            let part: &LeafPart = &pieces[cover.owners[element]];
-            (part, equilibrium.leaves()[part.leaf])
-        };
-        let Some(vertices) = sights.vertices(&cover.mesh, &corners, part_of, &mut ask)? else {
+        let tile_of = |element: usize| equilibrium.leaves()[cover.owners[element]];
+        let Some(vertices) = sights.vertices(&cover.mesh, &corners, tile_of, &mut ask)? else {
             return Ok(None);
         };
         let parted = part(tiling, members, &lines, &cover);
         let vertices = parted.vertices(&cover.mesh, &vertices, sent.len());
-        let Cover { mesh, owners } = parted.cover;
-        let owners = owners.into_iter().map(|piece| pieces[piece].leaf).collect();
         let scene = members.plates.given;
-        let solution = solution(scene, tiling, equilibrium, light, Cover { mesh, owners });
+        let solution = solution(scene, tiling, equilibrium, light, parted.cover);
         Ok(Some(Solution { products: self.products, ..with_vertices(scene, tiling, solution, vertices) }))
     }
 }

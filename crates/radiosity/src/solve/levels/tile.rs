@@ -147,11 +147,6 @@ impl Outline {
         high.max(-low).hypot(length)
     }
 
-    /// Whether a place is inside, and on no side.
-    pub(super) fn holds(&self, at: DVec2) -> bool {
-        edges(&self.corners).all(|[p, q]| (q - p).perp_dot(at - p) > ON * self.area)
-    }
-
     /// How much of a line is inside: the length of that part.
     pub(super) fn within(&self, [start, end]: [DVec2; 2]) -> f64 {
         let way = (end - start).normalize_or_zero();

@@ -3,7 +3,6 @@ use super::cluster_links;
 use super::corners::CornerLight;
 use super::direct::Direct;
 use super::flow::Linear;
-use super::leaf_part::LeafPart;
 use super::link::Link;
 use super::links::Links;
 use super::look::look;
@@ -116,34 +115,33 @@ impl<'s> Sights<'s> {
         Sights { tiling, in_view, links, direct, of_tile, sent, known }
     }
 
-    /// The irradiance of the vertices of a mesh: vertices × bands; nothing when the caller wants to stop. `part_of` is the part of a leaf that an
-    /// element is on, and the leaf's tile: where its corners were not looked from, and it is not known to be linear inside, vertices are.
+    /// The irradiance of the vertices of a mesh, of which some corners' is known: vertices × bands; nothing when the caller wants to stop. `tile_of`
+    /// is the tile of an element.
     ///
     /// # Errors
     /// [`Error::Defect`] when a form factor fails.
-    pub(super) fn vertices<'p>(
+    pub(super) fn vertices(
         &self,
         mesh: &Mesh,
         corners: &CornerLight<'_>,
-        part_of: impl Fn(usize) -> (&'p LeafPart, usize),
+        tile_of: impl Fn(usize) -> usize,
         ask: Ask<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
         let on_tile = |receiver: &Receiver<'_>| {
-            let (_, tile) = part_of(receiver.element);
+            let tile = tile_of(receiver.element);
             Ok((tile, receiver.inside_element(AT_RIM)?.owned_by(self.tiling.tiles[tile].surface)))
         };
         let known = |(receiver, place): (&Receiver<'_>, &DVec3)| {
-            let (part, tile) = part_of(receiver.element);
-            let at = self.tiling.flatten(self.tiling.tiles[tile].patch, *place);
-            corners.at(tile, at).map(<[f64]>::to_vec).or_else(|| part.inside(at))
+            let tile = tile_of(receiver.element);
+            corners.at(tile, self.tiling.flatten(self.tiling.tiles[tile].patch, *place))
         };
         let receivers = receivers(self.tiling.scene, mesh);
-        let known: Vec<Option<Vec<f64>>> = receivers.iter().zip(&mesh.vertices).map(known).collect();
+        let known: Vec<Option<&[f64]>> = receivers.iter().zip(&mesh.vertices).map(known).collect();
         let unknown = receivers.iter().zip(&known).filter(|(_, known)| known.is_none());
         let points = unknown.map(|(receiver, _)| on_tile(receiver)).collect::<Result<Vec<_>, Error>>()?;
         let Some(found) = self.irradiance(&points, ask)? else { return Ok(None) };
-        let mut found = found.chunks(self.sent.len() - 1).map(<[f64]>::to_vec);
-        let of = |known: Option<Vec<f64>>| known.or_else(|| found.next()).unwrap_or_default();
+        let mut found = found.chunks(self.sent.len() - 1);
+        let of = |known: Option<&[f64]>| known.or_else(|| found.next()).unwrap_or_default().to_vec();
         Ok(Some(known.into_iter().flat_map(of).collect()))
     }
 
