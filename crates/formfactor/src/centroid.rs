@@ -29,16 +29,21 @@ pub(crate) fn with_centroid<'a>(
     buffers: &mut Buffers,
 ) -> (FormFactor, DVec3) {
     let plane = PolarPlane::seen_from(from, to);
-    let (factor, far, moment) = match quick::parts(from, to, &occluders, &mut buffers.quick) {
+    let mean = |factor: &FormFactor, moment: DVec2| {
+        if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO }
+    };
+    let (factor, centroid) = match quick::parts(from, to, &occluders, &mut buffers.quick) {
         Some(factor) => {
             let edges = buffers.quick.recorded();
-            let far = plane.far_centroid(edges);
-            (factor, far, if far.is_some() { DVec2::ZERO } else { plane.moment_within(edges) })
+            let centroid = plane.far_centroid(edges);
+            (factor, centroid.unwrap_or_else(|| mean(&factor, plane.moment_within(edges))))
         }
-        None => (past(from, to, &occluders, None, buffers), None, plane.moment_of_part(from, to, occluders)),
+        None => {
+            let factor = past(from, to, &occluders, None, buffers);
+            (factor, mean(&factor, plane.moment_of_part(from, to, occluders)))
+        }
     };
-    let mean = if factor.value > 0.0 { moment / factor.value } else { DVec2::ZERO };
-    (factor, plane.place(from, far.unwrap_or(mean)))
+    (factor, plane.place(from, centroid))
 }
 
 /// A target's plane relative to dA.

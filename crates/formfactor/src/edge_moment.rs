@@ -5,7 +5,8 @@
 //! J2 = (atan z - z / (1 + z^2)) / 2,   J3 = (ln(1 + z^2) - z^2 / (1 + z^2)) / 2,
 //! ```
 //!
-//! which Gauss's rule finds along every edge, to nine digits of how large it is as far aside as the edge is far. See [`centroid`](crate::centroid) for a, h, r, phi, e and w.
+//! which Gauss's rule finds along every edge, to nine digits of how large it is as far aside as the edge is far. See
+//! [`centroid`](crate::centroid) for a, h, r, phi, e and w.
 use crate::numeric::angle::angle;
 use crate::numeric::gauss::{RULE_2, RULE_3, RULE_4, RULE_6, RULE_8};
 use std::f64::consts::FRAC_PI_2;

@@ -214,6 +214,33 @@ fn shadows_are_where_points_see_them() {
     assert!(off[off.len() * 99 / 100] < 0.03 * brightest, "{} of {brightest}", off[off.len() * 99 / 100]);
 }
 
+/// Two narrow strips that shine beside a floor: light rises to both of its sides, and falls again to its corners, between which and the middle
+/// of a leaf a look can miss that. What is shown is off by three times what was asked for at most.
+#[test]
+fn light_that_rises_to_two_sides_is_shown() {
+    for (width, height, error) in [(0.1, 0.3, 0.03), (0.3, 0.5, 0.01), (0.3, 1.5, 0.01)] {
+        let strip = |x: f64, width: f64| {
+            [[x, 0.0, height], [x, 4.0, height], [x + width, 4.0, height], [x + width, 0.0, height]]
+        };
+        let floor = [[0., 0., 0.], [4., 0., 0.], [4., 4., 0.], [0., 4., 0.]];
+        let lit = scene(vec![
+            patch("floor", &floor, 0.0, 0.0),
+            patch("left", &strip(-width, width), 0.0, 1.0),
+            patch("right", &strip(4.0, width), 0.0, 1.0),
+        ]);
+        let solution = solved(&lit, &options(error));
+        let shown = solution.vertex_irradiance();
+        let enclosure = Enclosure::new(lit.patches.iter().map(|patch| patch.polygon.clone()).collect());
+        for (index, element) in solution.mesh.elements.iter().enumerate().filter(|(_, of)| of.patch == 0) {
+            let place = solution.mesh.centroid(index);
+            let point = DifferentialArea::new(place, DVec3::Z).unwrap().owned_by(0);
+            let exact: f64 = [1, 2].map(|strip| enclosure.form_factor(&point, strip).value).iter().sum();
+            let off = element.corners.map(|corner| shown[corner]).iter().sum::<f64>() / 3.0 / exact - 1.0;
+            assert!(off.abs() < 3.0 * error, "{off} of {exact} at {place}, {error} asked for");
+        }
+    }
+}
+
 /// Where a patch has a vertex on an edge that it shares with another, the other has it, too: no side of an element, on the rim of its patch, has
 /// a vertex in its middle.
 #[test]

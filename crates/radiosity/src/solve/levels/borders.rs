@@ -1,4 +1,5 @@
 //! The borders of shadows, along which pieces are cut: light bends there, and is smooth in between.
+use super::line_tree::LineTree;
 use super::tile::Outline;
 use super::tiling::Tiling;
 use crate::mesh::shadows::Shadows;
@@ -22,28 +23,41 @@ pub(super) struct Borders<'b> {
     tiling: &'b Tiling<'b>,
     shadows: Option<Shadows<'b>>,
     /// Those of each patch that was asked for, in its frame.
-    lines: Vec<Option<Vec<[DVec2; 2]>>>,
+    lines: Vec<Option<LineTree>>,
 }
 
 impl<'b> Borders<'b> {
     pub(super) fn new(tiling: &'b Tiling<'b>) -> Borders<'b> {
         let shadows = Some(Shadows::new(tiling.scene, LAMPS)).filter(|shadows| shadows.planes() <= PLANES);
-        Borders { tiling, shadows, lines: vec![None; tiling.scene.patches.len()] }
+        Borders { tiling, shadows, lines: tiling.scene.patches.iter().map(|_| None).collect() }
     }
 
-    /// All borders on a patch.
-    pub(super) fn of(&mut self, patch: usize) -> Vec<usize> {
+    /// All borders on a patch that pass through an outline.
+    pub(super) fn of(&mut self, patch: usize, outline: &Outline) -> Vec<usize> {
         let (tiling, shadows) = (self.tiling, &self.shadows);
         let lines = self.lines[patch].get_or_insert_with(|| {
             let lines = shadows.as_ref().map(|shadows| shadows.on(patch)).unwrap_or_default();
-            lines.into_iter().map(|ends| ends.map(|end| tiling.flatten(patch, end))).collect()
+            LineTree::of(lines.into_iter().map(|ends| ends.map(|end| tiling.flatten(patch, end))).collect())
         });
-        (0..lines.len()).collect()
+        let mut near = Vec::new();
+        lines.any_near(outline.corners.iter().map(|corner| corner.0), 0.0, |line| {
+            near.push(line);
+            false
+        });
+        near.sort_unstable();
+        let mut inside: Vec<usize> =
+            self.within(patch, outline, &near).into_iter().map(|(_, line)| line).collect();
+        inside.sort_unstable();
+        inside
+    }
+
+    fn ends(&self, patch: usize) -> &[[DVec2; 2]] {
+        self.lines[patch].as_ref().map_or(&[], |lines| &lines.ends)
     }
 
     /// Those of some borders that pass through an outline, the longest first, and how much of each does.
     pub(super) fn within(&self, patch: usize, outline: &Outline, some: &[usize]) -> Vec<(f64, usize)> {
-        let lines = self.lines[patch].as_deref().unwrap_or_default();
+        let lines = self.ends(patch);
         let least = SCRATCH * outline.axes[1].length();
         let inside = some.iter().map(|&line| (outline.within(lines[line]), line));
         let mut inside: Vec<(f64, usize)> = inside.filter(|(length, _)| *length > least).collect();
@@ -58,7 +72,7 @@ impl<'b> Borders<'b> {
         outline: &Outline,
         inside: &[(f64, usize)],
     ) -> Option<[Outline; 2]> {
-        let lines = self.lines[patch].as_deref().unwrap_or_default();
+        let lines = self.ends(patch);
         let least = SHORT * outline.axes[1].length();
         let halves = |(_, line): &(f64, usize)| {
             let [start, end] = lines[*line];

@@ -1,7 +1,6 @@
 //! What the corners of parts of leaves receive: those that several leaves share are looked from once.
-use super::boxes::Boxes;
+use super::line_tree::LineTree;
 use super::tiling::Tiling;
-use crate::extent::Extent;
 use glam::DVec2;
 use std::collections::BTreeMap;
 
@@ -15,7 +14,7 @@ pub(super) type CornerKey = (usize, Option<usize>, [u64; 2]);
 pub(super) struct CornerLight<'c> {
     tiling: &'c Tiling<'c>,
     /// The lines on each patch across which light may jump, its sides among them.
-    jumps: Vec<Jumps>,
+    jumps: Vec<LineTree>,
     light: BTreeMap<CornerKey, Vec<f64>>,
 }
 
@@ -29,14 +28,14 @@ impl<'c> CornerLight<'c> {
         };
         let jumps = lines.iter().enumerate();
         let jumps =
-            jumps.map(|(patch, lines)| Jumps::of(lines.iter().copied().chain(sides(patch)).collect()));
+            jumps.map(|(patch, lines)| LineTree::of(lines.iter().copied().chain(sides(patch)).collect()));
         CornerLight { tiling, jumps: jumps.collect(), light: BTreeMap::new() }
     }
 
     /// The key of a corner of a part of a tile.
     pub(super) fn key(&self, tile: usize, corner: DVec2) -> CornerKey {
         let patch = self.tiling.tiles[tile].patch;
-        (patch, self.jumps[patch].pass(corner).then_some(tile), place(corner))
+        (patch, is_on(&self.jumps[patch], corner).then_some(tile), place(corner))
     }
 
     pub(super) fn is_known(&self, key: &CornerKey) -> bool {
@@ -58,28 +57,10 @@ impl<'c> CornerLight<'c> {
     }
 }
 
-/// The lines on a patch across which light may jump, of which a ground may have as many as there are houses on it.
-struct Jumps {
-    lines: Vec<[DVec2; 2]>,
-    boxes: Boxes,
-}
-
-impl Jumps {
-    fn of(lines: Vec<[DVec2; 2]>) -> Jumps {
-        let extent = |ends: &[DVec2; 2]| Extent::of_points(ends.iter().map(|end| end.extend(0.0)));
-        let boxes = Boxes::around(&lines.iter().map(extent).collect::<Vec<_>>());
-        Jumps { lines, boxes }
-    }
-
-    /// Whether one of them passes a place.
-    fn pass(&self, place: DVec2) -> bool {
-        let at = Extent::of_points([place.extend(0.0)].into_iter());
-        self.boxes.any(
-            // A little more than what is asked for: boxes are rounded otherwise than distances.
-            |extent| !extent.is_near(&at, 3.0 * APART),
-            |line| distance(place, self.lines[line as usize]) < 2.0 * APART,
-        )
-    }
+/// Whether one of the lines across which light may jump passes a place.
+fn is_on(jumps: &LineTree, place: DVec2) -> bool {
+    // A little more than what is asked for: boxes are rounded otherwise than distances.
+    jumps.any_near([place].into_iter(), 3.0 * APART, |line| distance(place, jumps.ends[line]) < 2.0 * APART)
 }
 
 /// Names a place.
@@ -136,15 +117,15 @@ mod tests {
         let lines: Vec<[DVec2; 2]> = (0..400)
             .flat_map(|k| [[at(k), at(k) + 0.5 * DVec2::X], [at(k), at(k) + 0.5 * DVec2::new(0.6, 0.8)]])
             .collect();
-        let jumps = Jumps::of(lines.clone());
+        let jumps = LineTree::of(lines.clone());
         for [start, end] in lines {
             for share in [0.0, 0.3, 1.0] {
                 let place = start.lerp(end, share);
                 let aside = (end - start).perp() * 1e-6;
-                assert!(jumps.pass(place) && jumps.pass(place + aside * 1e-4), "{place}");
-                assert!(share == 0.0 || !jumps.pass(place + aside), "{place}");
+                assert!(is_on(&jumps, place) && is_on(&jumps, place + aside * 1e-4), "{place}");
+                assert!(share == 0.0 || !is_on(&jumps, place + aside), "{place}");
             }
         }
-        assert!(!jumps.pass(DVec2::splat(0.7)) && !Jumps::of(Vec::new()).pass(DVec2::ZERO));
+        assert!(!is_on(&jumps, DVec2::splat(0.7)) && !is_on(&LineTree::of(Vec::new()), DVec2::ZERO));
     }
 }

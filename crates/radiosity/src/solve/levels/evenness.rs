@@ -1,5 +1,5 @@
 //! How far from linear the light of parts of leaves is.
-use super::flow::Linear;
+use super::flow::{Linear, value};
 
 /// At corners, which are farther out than the points on both sides, so many times as much may be missing.
 const CORNER: f64 = 3.0;
@@ -61,9 +61,4 @@ fn planes(light: &[f64]) -> Vec<Linear> {
         [at(0), (at(1) - at(2)) / 2.0, (at(3) - at(4)) / 2.0]
     };
     (0..bands).map(plane).collect()
-}
-
-/// What linear light is where the two linear functions are so much.
-fn value([mean, first, second]: Linear, [a, b]: [f64; 2]) -> f64 {
-    mean + a * first + b * second
 }

@@ -11,6 +11,11 @@ pub(super) fn square([mean, first, second]: Linear) -> f64 {
     mean * mean + SQUARE * (first * first + second * second)
 }
 
+/// What linear light is where the two linear functions are so much.
+pub(super) fn value([mean, first, second]: Linear, [a, b]: [f64; 2]) -> f64 {
+    mean + a * first + b * second
+}
+
 /// What the tiles above the leaves send: projections of what their halves do.
 pub(super) fn pull(tiling: &Tiling<'_>, sent: &mut [Linear]) {
     for (index, tile) in tiling.tiles.iter().enumerate().rev() {

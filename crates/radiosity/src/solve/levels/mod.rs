@@ -16,6 +16,7 @@
 //! corners       what corners of pieces receive
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
+//! line_tree     lines on a patch, in a tree
 //! links         all links of a run, by all threads, and what the state knows of them
 //! closed_rooms  which tiles see nothing but the room that they are in
 //! totals        what whole tiles exchange, which the links of their parts add up to
@@ -83,6 +84,7 @@ mod gradients;
 mod hidden;
 mod importance;
 mod in_view;
+mod line_tree;
 mod link;
 mod links;
 mod look;

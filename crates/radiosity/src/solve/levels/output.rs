@@ -1,7 +1,7 @@
 //! The light of the leaves on a mesh.
 use super::direct::Direct;
 use super::equilibrium::{Equilibrium, largest};
-use super::flow::Linear;
+use super::flow::{Linear, value};
 use super::members::PlateMembers;
 use super::pieces::LeafPart;
 use super::tile::SQUARE;
@@ -174,10 +174,9 @@ pub(super) fn solution(
     for (element, &leaf) in owners.iter().enumerate() {
         let index = equilibrium.leaves()[leaf];
         let tile = &tiling.tiles[index];
-        let [a, b] = tile.outline.linear(tiling.flatten(tile.patch, mesh.centroid(element)));
+        let linear = tile.outline.linear(tiling.flatten(tile.patch, mesh.centroid(element)));
         for (band, received) in light.received.iter().enumerate() {
-            let [mean, first, second] = positive(tile, received[leaf]);
-            let (here, unit) = (mean + a * first + b * second, tiling.units()[band]);
+            let (here, unit) = (value(positive(tile, received[leaf]), linear), tiling.units()[band]);
             irradiance.push(unit * here);
             reflectance.push(tile.reflectance[band]);
             radiosity.push(unit * (tiling.emittance(index, band) + tile.reflectance[band] * here));

@@ -2,7 +2,7 @@
 use super::cluster_links;
 use super::corners::CornerLight;
 use super::direct::Direct;
-use super::flow::Linear;
+use super::flow::{Linear, value};
 use super::link::Link;
 use super::links::Links;
 use super::look::look;
@@ -190,11 +190,8 @@ impl<'s> Sights<'s> {
         let (leaf, above) = (tile, |tile: &usize| self.tiling.tiles[*tile].parent);
         for tile in std::iter::successors(Some(leaf), above) {
             let (Sight { looks, rest }, tile) = (&self.of_tile[tile], &self.tiling.tiles[tile]);
-            let [a, b] = tile.outline.linear(self.tiling.flatten(tile.patch, point.position()));
-            light
-                .iter_mut()
-                .zip(rest)
-                .for_each(|(sum, [mean, first, second])| *sum += mean + a * first + b * second);
+            let linear = tile.outline.linear(self.tiling.flatten(tile.patch, point.position()));
+            light.iter_mut().zip(rest).for_each(|(sum, rest)| *sum += value(*rest, linear));
             for (index, end) in looks {
                 let link = &self.links[*index];
                 let other = link.ends[1 - end];
