@@ -1,4 +1,5 @@
 //! Convex tiles of patches in triangles that share their vertices, but across contact lines.
+use super::convex::PlacedCorner;
 use super::divide::Points;
 use super::element::{Element, Mesh};
 use super::split::split;
@@ -14,11 +15,18 @@ pub(crate) struct Cover {
     pub(crate) owners: Vec<usize>,
 }
 
-/// The corners of a tile, counter-clockwise in the frame of its patch, each with its place in space.
-pub(crate) type TileCorners<'t> = &'t [(DVec2, DVec3)];
+/// A convex tile, in the frame of its patch, each point with its place in space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CoverTile<'t> {
+    pub(crate) number: usize,
+    /// Counter-clockwise.
+    pub(crate) corners: &'t [PlacedCorner],
+    /// A point inside.
+    pub(crate) middle: PlacedCorner,
+}
 
 impl Cover {
-    /// Adds the tiles of a patch, each with its number; `contacts` are the lines on which other patches touch it, `guests` what else must
+    /// Adds the tiles of a patch; `contacts` are the lines on which other patches touch it, `guests` what else must
     /// be a vertex: places on the patch's edges.
     ///
     /// ```text
@@ -31,19 +39,19 @@ impl Cover {
     pub(crate) fn add(
         &mut self,
         patch: usize,
-        tiles: &[(usize, TileCorners<'_>)],
+        tiles: &[CoverTile<'_>],
         contacts: &[[DVec2; 2]],
-        guests: &[(DVec2, DVec3)],
+        guests: &[PlacedCorner],
     ) {
-        let own = tiles.iter().flat_map(|(_, corners)| corners.iter());
+        let own = tiles.iter().flat_map(|tile| tile.corners.iter());
         let mut knots = Knots::of(own.chain(guests).copied());
         let on_lines = knots.on_lines(contacts);
         let mut triangles = Vec::new();
-        for &(tile, corners) in tiles {
-            let ring = knots.ring(corners);
-            for triangle in knots.fan(&ring) {
+        for tile in tiles {
+            let ring = knots.ring(tile.corners);
+            for triangle in knots.fan(&ring, tile.middle) {
                 triangles.push(triangle);
-                self.owners.push(tile);
+                self.owners.push(tile.number);
             }
         }
         let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
@@ -67,8 +75,8 @@ struct Knots {
 }
 
 impl Knots {
-    fn of(corners: impl Iterator<Item = (DVec2, DVec3)>) -> Knots {
-        let mut corners: Vec<(DVec2, DVec3)> = corners.collect();
+    fn of(corners: impl Iterator<Item = PlacedCorner>) -> Knots {
+        let mut corners: Vec<PlacedCorner> = corners.collect();
         corners.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)));
         let size = corners.iter().map(|corner| corner.0.abs().max_element()).fold(0.0, f64::max);
         let mut knots = Knots { flat: Vec::new(), places: Vec::new(), sorted: Vec::new(), near: NEAR * size };
@@ -99,7 +107,7 @@ impl Knots {
     }
 
     /// The knots around a tile, with those in the middle of its sides.
-    fn ring(&self, corners: TileCorners<'_>) -> Vec<usize> {
+    fn ring(&self, corners: &[PlacedCorner]) -> Vec<usize> {
         let mut ring: Vec<usize> = corners.iter().filter_map(|corner| self.find(corner.0)).collect();
         ring.dedup();
         let next = ring.iter().copied().cycle().skip(1);
@@ -126,15 +134,14 @@ impl Knots {
     }
 
     /// Triangles of a ring: around its middle where it has more than three knots, so that no diagonal shows.
-    fn fan(&mut self, ring: &[usize]) -> Vec<[usize; 3]> {
+    fn fan(&mut self, ring: &[usize], (flat, place): PlacedCorner) -> Vec<[usize; 3]> {
         let count = ring.len();
         if let [a, b, c] = *ring {
             return vec![[a, b, c]];
         }
         let middle = self.flat.len();
-        let share = 1.0 / count as f64;
-        self.flat.push(ring.iter().map(|&knot| self.flat[knot]).sum::<DVec2>() * share);
-        self.places.push(ring.iter().map(|&knot| self.places[knot]).sum::<DVec3>() * share);
+        self.flat.push(flat);
+        self.places.push(place);
         (0..count).map(|k| [middle, ring[k], ring[(k + 1) % count]]).collect()
     }
 

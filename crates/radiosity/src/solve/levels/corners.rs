@@ -1,4 +1,4 @@
-//! What the corners of parts of leaves receive: those that several leaves share are looked from once.
+//! What the corners of parts of leaves receive, and their middles: corners that several leaves share are looked from once.
 use super::line_tree::LineTree;
 use super::tiling::Tiling;
 use glam::DVec2;
@@ -13,8 +13,10 @@ pub(super) type CornerKey = (usize, Option<usize>, [u64; 2]);
 /// The light at corners, band by band.
 pub(super) struct CornerLight<'c> {
     tiling: &'c Tiling<'c>,
-    /// The lines on each patch across which light may jump, its sides among them.
+    /// The lines on each patch across which light may jump.
     jumps: Vec<LineTree>,
+    /// The sides of each patch.
+    sides: Vec<LineTree>,
     light: BTreeMap<CornerKey, Vec<f64>>,
 }
 
@@ -24,18 +26,24 @@ impl<'c> CornerLight<'c> {
         let sides = |patch: usize| {
             let loops = tiling.scene.patches[patch].polygon.loops();
             let sides = loops.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-            sides.map(move |(start, end)| [*start, *end].map(|place| tiling.flatten(patch, place)))
+            sides.map(move |(start, end)| [*start, *end].map(|place| tiling.flatten(patch, place))).collect()
         };
-        let jumps = lines.iter().enumerate();
-        let jumps =
-            jumps.map(|(patch, lines)| LineTree::of(lines.iter().copied().chain(sides(patch)).collect()));
-        CornerLight { tiling, jumps: jumps.collect(), light: BTreeMap::new() }
+        let jumps = lines.iter().map(|lines| LineTree::of(lines.clone())).collect();
+        let sides = (0..lines.len()).map(|patch| LineTree::of(sides(patch))).collect();
+        CornerLight { tiling, jumps, sides, light: BTreeMap::new() }
     }
 
     /// The key of a corner of a part of a tile.
     pub(super) fn key(&self, tile: usize, corner: DVec2) -> CornerKey {
         let patch = self.tiling.tiles[tile].patch;
         (patch, is_on(&self.jumps[patch], corner).then_some(tile), place(corner))
+    }
+
+    /// Whether light at a corner of a part of a tile may be other than beside it: where that may jump, and at the sides of the patch, where others
+    /// touch it.
+    pub(super) fn is_at_rim(&self, tile: usize, corner: DVec2) -> bool {
+        let patch = self.tiling.tiles[tile].patch;
+        is_on(&self.jumps[patch], corner) || is_on(&self.sides[patch], corner)
     }
 
     pub(super) fn is_known(&self, key: &CornerKey) -> bool {
@@ -57,10 +65,10 @@ impl<'c> CornerLight<'c> {
     }
 }
 
-/// Whether one of the lines across which light may jump passes a place.
-fn is_on(jumps: &LineTree, place: DVec2) -> bool {
+/// Whether one of some lines passes a place.
+fn is_on(lines: &LineTree, place: DVec2) -> bool {
     // A little more than what is asked for: boxes are rounded otherwise than distances.
-    jumps.any_near([place].into_iter(), 3.0 * APART, |line| distance(place, jumps.ends[line]) < 2.0 * APART)
+    lines.any_near([place].into_iter(), 3.0 * APART, |line| distance(place, lines.ends[line]) < 2.0 * APART)
 }
 
 /// Names a place.
@@ -99,9 +107,12 @@ mod tests {
         };
         let within = key(&corners, 0, [0.25, 0.5, 0.0]);
         assert_eq!(within.1, None);
-        for on_a_line in [[1.0, 0.25, 0.0], [0.5, 0.0, 0.0], [2.0, 1.0, 0.0]] {
-            assert_eq!(key(&corners, 0, on_a_line).1, Some(0), "{on_a_line:?}");
+        let is_at_rim = |place: [f64; 3]| corners.is_at_rim(0, tiling.flatten(0, place.into()));
+        for at_rim in [[1.0, 0.25, 0.0], [0.5, 0.0, 0.0], [2.0, 1.0, 0.0]] {
+            assert!(is_at_rim(at_rim), "{at_rim:?}");
+            assert_eq!(key(&corners, 0, at_rim).1, (at_rim[0] == 1.0).then_some(0), "{at_rim:?}");
         }
+        assert!(!is_at_rim([0.25, 0.5, 0.0]));
         let at_wall = key(&corners, 0, [1.0, 0.25, 0.0]);
         corners.add([(within, vec![7.0]), (at_wall, vec![8.0])].into_iter());
         let at = |tile: usize, place: [f64; 3]| corners.at(tile, tiling.flatten(0, place.into()));

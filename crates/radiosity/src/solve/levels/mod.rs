@@ -12,8 +12,9 @@
 //! output        the light of the leaves on a mesh
 //! parting       the mesh of plates, cut along the borders of their patches
 //! pieces        leaves in pieces that are small enough to be shown
-//! evenness      how far from linear the light of these is
-//! corners       what corners of pieces receive
+//! cutting       whether the light of these is linear enough, and their halves
+//! evenness      how far from linear light is
+//! corners       what corners and middles of pieces receive
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
 //! line_tree     lines on a patch, in a tree
@@ -73,6 +74,7 @@ mod cluster_views;
 mod clusters;
 mod corners;
 mod curvatures;
+mod cutting;
 mod direct;
 mod equilibrium;
 mod errors;

@@ -1,12 +1,12 @@
 //! The light of the leaves on a mesh.
+use super::cutting::LeafPart;
 use super::direct::Direct;
 use super::equilibrium::{Equilibrium, largest};
 use super::flow::{Linear, value};
 use super::members::PlateMembers;
-use super::pieces::LeafPart;
 use super::tile::SQUARE;
 use super::tiling::{Tile, Tiling};
-use crate::mesh::{cover::Cover, guests::Guests};
+use crate::mesh::{cover::Cover, cover::CoverTile, guests::Guests};
 use crate::scene::Scene;
 use crate::solve::interpolate::welds;
 use crate::solve::ledger::Ledger;
@@ -128,9 +128,13 @@ pub(super) fn cover(
 ) -> Cover {
     let mut of_patch = vec![Vec::new(); tiling.scene.patches.len()];
     for LeafPart { leaf, outline } in pieces {
-        of_patch[equilibrium.patch(*leaf)].push((*leaf, outline.corners.as_slice()));
+        // Where leaves were looked from.
+        let [middle, ..] = outline.points();
+        let patch = equilibrium.patch(*leaf);
+        let middle = (middle, tiling.lift(patch, middle));
+        of_patch[patch].push(CoverTile { number: *leaf, corners: &outline.corners, middle });
     }
-    let corners = of_patch.iter().flatten().flat_map(|(_, corners)| corners.iter().map(|corner| corner.1));
+    let corners = of_patch.iter().flatten().flat_map(|tile| tile.corners.iter().map(|corner| corner.1));
     let (mut cover, all) = (Cover::default(), Guests::new(corners.chain(members.corners())));
     for (patch, (tiles, lines)) in of_patch.iter().zip(lines).enumerate() {
         let loops = tiling.scene.patches[patch].polygon.loops();

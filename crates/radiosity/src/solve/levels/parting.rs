@@ -12,7 +12,7 @@ use super::tile::{Outline, clipped};
 use super::tiling::Tiling;
 use crate::extent::{BoxTree, Extent};
 use crate::mesh::convex::PlacedCorner;
-use crate::mesh::{cover::Cover, element::Element, element::Mesh, guests::Guests};
+use crate::mesh::{cover::Cover, cover::CoverTile, element::Element, element::Mesh, guests::Guests};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
@@ -98,10 +98,18 @@ impl<'c> Triangles<'c> {
     }
 }
 
+/// A part of a triangle, around the mean of its corners.
+fn tile((number, corners): &TrianglePart) -> CoverTile<'_> {
+    let share = 1.0 / corners.len() as f64;
+    let sum = |(flat, place): PlacedCorner, corner: &PlacedCorner| (flat + corner.0, place + corner.1);
+    let (flat, place) = corners.iter().fold((DVec2::ZERO, DVec3::ZERO), sum);
+    CoverTile { number: *number, corners, middle: (flat * share, place * share) }
+}
+
 impl Parted {
     /// Adds a part of a plate.
     fn add(&mut self, patch: usize, pieces: &[TrianglePart], lines: &[[DVec2; 2]], guests: &[PlacedCorner]) {
-        let tiles: Vec<_> = pieces.iter().map(|(element, corners)| (*element, corners.as_slice())).collect();
+        let tiles: Vec<_> = pieces.iter().map(tile).collect();
         let before = self.cover.mesh.elements.len();
         self.cover.add(patch, &tiles, lines, guests);
         let Cover { mesh, owners } = &self.cover;

@@ -1,5 +1,6 @@
 //! Where a run stands, and how its light is shown.
 use super::budget::{BandLight, with_larger};
+use super::cutting::FoundLight;
 use super::direct::Direct;
 use super::equilibrium::Equilibrium;
 use super::flow::Linear;
@@ -7,7 +8,7 @@ use super::links::Links;
 use super::members::PlateMembers;
 use super::output::{LeafLight, cover, lines, solution, with_vertices};
 use super::parting::part;
-use super::pieces::{FoundLight, pieces, whole};
+use super::pieces::{pieces, whole};
 use super::tiling::Tiling;
 use super::vertices::Sights;
 use crate::error::Error;
