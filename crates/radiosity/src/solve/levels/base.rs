@@ -1,5 +1,5 @@
 //! The lines on a patch along which tiles are cut: light jumps where something else touches it.
-use super::boxes::Boxes;
+use super::line_tree::LineTree;
 use super::tile::Outline;
 use crate::extent::Extent;
 use crate::mesh::frame::Frame;
@@ -10,8 +10,8 @@ use glam::{DVec2, DVec3};
 const WIDE: f64 = 100.0;
 /// Edges of other patches are contacts within this share of that.
 const NEAR: f64 = 1e-9;
-/// What is beside an outline by less than this share of its size may be on its rim.
-const RIM: f64 = 1e-6;
+/// Parts that differ by less than this share are alike.
+const ALIKE: f64 = 1e-6;
 /// Of a contact that is inside an outline there is at least this share of the outline's long axis.
 const LEAST: f64 = 1e-4;
 /// An outline is cut along a contact of which at least this share is inside of what is of any other.
@@ -23,9 +23,7 @@ pub(super) struct Base {
     pub(super) frame: Frame,
     /// What lengths on it are small beside.
     pub(super) scale: f64,
-    pub(super) contacts: Vec<[DVec2; 2]>,
-    /// The boxes around them, in the frame.
-    boxes: Boxes,
+    pub(super) contacts: LineTree,
 }
 
 impl Base {
@@ -38,9 +36,8 @@ impl Base {
         let (frame, Extent { low, high }) = (Frame::new(polygon), Extent::around(polygon));
         let scale = size.min(WIDE * (high - low).length());
         let flat = |ends: [DVec3; 2]| ends.map(|end| frame.flatten(end));
-        let contacts: Vec<[DVec2; 2]> = contacts(1e3 * NEAR * scale).into_iter().map(flat).collect();
-        let boxes: Vec<Extent> = contacts.iter().map(|line| flat_box(line.iter().copied())).collect();
-        Base { frame, scale, contacts, boxes: Boxes::around(&boxes) }
+        let contacts = LineTree::of(contacts(1e3 * NEAR * scale).into_iter().map(flat).collect());
+        Base { frame, scale, contacts }
     }
 
     /// Of the contacts of which much is inside an outline, the one along which a cut leaves the smallest parts: a ground with many houses is cut in
@@ -50,7 +47,7 @@ impl Base {
         let longest = inside.iter().map(|(length, _)| *length).fold(0.0, f64::max);
         let long = inside.iter().filter(|(length, _)| *length >= MUCH * longest);
         let parts = long.map(|(_, line)| (outline.diagonal_of_parts(*line), *line));
-        parts.reduce(|a, b| if b.0 < (1.0 - RIM) * a.0 { b } else { a }).map(|(_, line)| line)
+        parts.reduce(|a, b| if b.0 < (1.0 - ALIKE) * a.0 { b } else { a }).map(|(_, line)| line)
     }
 
     /// Whether a contact is inside an outline.
@@ -60,17 +57,10 @@ impl Base {
 
     /// The contacts in an outline, and how much of each is inside.
     fn inside(&self, outline: &Outline) -> Vec<(f64, [DVec2; 2])> {
-        let around = flat_box(outline.corners.iter().map(|(flat, _)| *flat));
-        let near = self.boxes.find(|extent| !extent.is_near(&around, RIM * around.diagonal()));
-        let contacts = near.into_iter().map(|line| self.contacts[line as usize]);
-        let inside = contacts.map(|line| (outline.within(line), line));
+        let near = self.contacts.near(outline).into_iter().map(|line| self.contacts.ends[line]);
+        let inside = near.map(|line| (outline.within(line), line));
         inside.filter(|(length, _)| *length > LEAST * outline.axes[0].length()).collect()
     }
-}
-
-/// The box around places in a frame.
-fn flat_box(places: impl Iterator<Item = DVec2>) -> Extent {
-    Extent::of_points(places.map(|flat| flat.extend(0.0)))
 }
 
 #[cfg(test)]

@@ -39,12 +39,7 @@ impl<'b> Borders<'b> {
             let lines = shadows.as_ref().map(|shadows| shadows.on(patch)).unwrap_or_default();
             LineTree::of(lines.into_iter().map(|ends| ends.map(|end| tiling.flatten(patch, end))).collect())
         });
-        let mut near = Vec::new();
-        lines.any_near(outline.corners.iter().map(|corner| corner.0), 0.0, |line| {
-            near.push(line);
-            false
-        });
-        near.sort_unstable();
+        let near = lines.near(outline);
         let mut inside: Vec<usize> =
             self.within(patch, outline, &near).into_iter().map(|(_, line)| line).collect();
         inside.sort_unstable();

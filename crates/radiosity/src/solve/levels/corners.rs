@@ -39,11 +39,10 @@ impl<'c> CornerLight<'c> {
         (patch, is_on(&self.jumps[patch], corner).then_some(tile), place(corner))
     }
 
-    /// Whether light at a corner of a part of a tile may be other than beside it: where that may jump, and at the sides of the patch, where others
+    /// Whether light at a corner with such a key may be other than beside it: where that may jump, and at the sides of the patch, where others
     /// touch it.
-    pub(super) fn is_at_rim(&self, tile: usize, corner: DVec2) -> bool {
-        let patch = self.tiling.tiles[tile].patch;
-        is_on(&self.jumps[patch], corner) || is_on(&self.sides[patch], corner)
+    pub(super) fn is_at_rim(&self, (patch, own, _): &CornerKey, corner: DVec2) -> bool {
+        own.is_some() || is_on(&self.sides[*patch], corner)
     }
 
     pub(super) fn is_known(&self, key: &CornerKey) -> bool {
@@ -68,7 +67,7 @@ impl<'c> CornerLight<'c> {
 /// Whether one of some lines passes a place.
 fn is_on(lines: &LineTree, place: DVec2) -> bool {
     // A little more than what is asked for: boxes are rounded otherwise than distances.
-    lines.any_near([place].into_iter(), 3.0 * APART, |line| distance(place, lines.ends[line]) < 2.0 * APART)
+    lines.any_near(place, 3.0 * APART, |line| distance(place, line) < 2.0 * APART)
 }
 
 /// Names a place.
@@ -107,7 +106,8 @@ mod tests {
         };
         let within = key(&corners, 0, [0.25, 0.5, 0.0]);
         assert_eq!(within.1, None);
-        let is_at_rim = |place: [f64; 3]| corners.is_at_rim(0, tiling.flatten(0, place.into()));
+        let is_at_rim =
+            |place: [f64; 3]| corners.is_at_rim(&key(&corners, 0, place), tiling.flatten(0, place.into()));
         for at_rim in [[1.0, 0.25, 0.0], [0.5, 0.0, 0.0], [2.0, 1.0, 0.0]] {
             assert!(is_at_rim(at_rim), "{at_rim:?}");
             assert_eq!(key(&corners, 0, at_rim).1, (at_rim[0] == 1.0).then_some(0), "{at_rim:?}");

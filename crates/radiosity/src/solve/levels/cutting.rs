@@ -128,8 +128,8 @@ impl<'c, 's> Cutting<'c, 's> {
     ) -> Result<bool, Error> {
         let (tiling, new) = (self.tiling, self.new_corners(parts));
         let mut points = Vec::with_capacity(new.len());
-        for &(tile, corner) in new.values() {
-            let inward = if self.corners.is_at_rim(tile, corner) { INWARD } else { 0.0 };
+        for (key, &(tile, corner)) in &new {
+            let inward = if self.corners.is_at_rim(key, corner) { INWARD } else { 0.0 };
             let inside = corner.lerp(tiling.tiles[tile].outline.centroid, inward);
             points.push((tile, tiling.point(tiling.tiles[tile].patch, inside)?));
         }

@@ -17,7 +17,6 @@
 //! corners       what corners and middles of pieces receive
 //! borders       the borders of shadows, along which pieces are cut
 //! vertices      what points receive, from every linked tile
-//! line_tree     lines on a patch, in a tree
 //! links         all links of a run, by all threads, and what the state knows of them
 //! closed_rooms  which tiles see nothing but the room that they are in
 //! totals        what whole tiles exchange, which the links of their parts add up to
@@ -51,6 +50,7 @@
 //! tiling        the tree
 //! base          the lines along which it is cut
 //! ways          six ways that tiles face
+//! line_tree     lines on a patch, in a tree
 //! boxes         a tree of the boxes around polygons
 //! tile          a convex polygon, its linear functions and its points
 //! members       the patches that plates are made of, on the tiles of these

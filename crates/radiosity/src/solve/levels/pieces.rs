@@ -18,8 +18,8 @@ pub(super) fn whole(tiling: &Tiling<'_>, equilibrium: &Equilibrium<'_>) -> Vec<L
     equilibrium.leaves().iter().enumerate().map(piece).collect()
 }
 
-/// The leaves in view in pieces over which light is linear within a share, as five points and the corners of each say, and the others as they
-/// are, with what corners receive; nothing when the caller wants to stop. `lines` are those on each patch across which light jumps, `means` is
+/// The leaves in view in pieces over which light is linear within a share, as the estimate and looks from their corners, middles or five points say,
+/// and the others as they are, with what corners and middles receive; nothing when the caller wants to stop. `lines` are those on each patch across which light jumps, `means` is
 /// the mean irradiance in each band, `share` of which pieces may be off by.
 ///
 /// # Errors

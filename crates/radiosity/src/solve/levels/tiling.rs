@@ -121,7 +121,7 @@ impl<'s> Tiling<'s> {
         let frame = self.bases[patch].frame;
         let (mut open, mut apart) = (vec![outline], Vec::new());
         while let Some(outline) = open.pop() {
-            let crossing = self.bases[patch].contacts.iter().filter(|line| outline.is_crossed_by(**line));
+            let crossing = self.contacts(patch).iter().filter(|line| outline.is_crossed_by(**line));
             let cut =
                 |[start, end]: &[DVec2; 2]| outline.cut([*start, *end - *start], |flat| frame.lift(flat));
             match crossing.filter_map(cut).next() {
@@ -206,7 +206,7 @@ impl<'s> Tiling<'s> {
 
     /// The lines on which other patches touch a patch, in its frame.
     pub(super) fn contacts(&self, patch: usize) -> &[[DVec2; 2]] {
-        &self.bases[patch].contacts
+        &self.bases[patch].contacts.ends
     }
 
     /// The halves of a tile: see [`cut`](Tiling::cut). Nothing when it is too small.
