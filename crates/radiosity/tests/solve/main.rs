@@ -1,6 +1,7 @@
 //! What the solver promises, on scenes built here.
 mod bands;
 mod build;
+mod estimates;
 mod extreme;
 mod for_camera;
 mod gathering;
@@ -10,6 +11,7 @@ mod lights;
 mod recording;
 mod resume;
 mod rough;
+mod shown;
 mod sources;
 mod stiff;
 mod tiled;
