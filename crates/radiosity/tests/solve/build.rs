@@ -1,7 +1,6 @@
 //! Scenes of few polygons.
 use radiosity::formfactor::PlanarPolygon;
-use radiosity::glam::{DAffine3, DQuat, DVec3, EulerRot};
-use radiosity::{Options, Patch, Scene, Solution, solve};
+use radiosity::{Options, Patch, Scene, Solution, glam::DVec3, solve};
 use std::{f64::consts::PI, ops::ControlFlow};
 
 /// A polygon of one loop.
@@ -59,26 +58,4 @@ pub(crate) fn cube(n: usize, reflectance: f64, emittance: f64) -> Scene {
 /// Solved to the end.
 pub(crate) fn solved(scene: &Scene, options: &Options) -> Solution {
     solve(scene, options, |_| ControlFlow::Continue(())).expect("a solution")
-}
-
-/// As it lies, and turned so that no edge is along an axis, made smaller and moved.
-pub(crate) fn views() -> [DAffine3; 3] {
-    let turned = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.7, 1.1);
-    let away = DQuat::from_euler(EulerRot::XYZ, 1.2, 2.8, 4.4);
-    [
-        DAffine3::IDENTITY,
-        DAffine3::from_quat(turned),
-        DAffine3::from_scale_rotation_translation(DVec3::splat(0.07), away, DVec3::new(30.0, -20.0, 10.0)),
-    ]
-}
-
-/// The scene in such a view.
-pub(crate) fn seen(scene: &Scene, view: DAffine3) -> Scene {
-    let mut scene = scene.clone();
-    for patch in &mut scene.patches {
-        let moved = |ring: &[DVec3]| ring.iter().map(|corner| view.transform_point3(*corner)).collect();
-        let loops: Vec<Vec<DVec3>> = patch.polygon.loops().map(moved).collect();
-        patch.polygon = PlanarPolygon::new(loops).expect("planar");
-    }
-    scene
 }

@@ -1,7 +1,6 @@
 //! What the solver promises, on scenes built here.
 mod bands;
 mod build;
-mod estimates;
 mod extreme;
 mod for_camera;
 mod gathering;
@@ -11,7 +10,6 @@ mod lights;
 mod recording;
 mod resume;
 mod rough;
-mod shown;
 mod sources;
 mod stiff;
 mod tiled;

@@ -13,10 +13,6 @@ pub(super) const SQUARE: f64 = 1.0 / (REACH * REACH);
 pub(super) const OUTER: f64 = SQUARE / 2.0;
 pub(super) const INNER: f64 = 1.0 - 4.0 * OUTER;
 
-/// Where the squares of deviations along any two ways differ by less than this share, as of a square in a file of single precision, rounding
-/// alone would choose the axes; the linear functions are orthogonal within it.
-const ROUND: f64 = 1e-6;
-
 /// What is nearer to a side than this share of how far the other corners are is on it.
 const ON: f64 = 1e-9;
 
@@ -66,7 +62,7 @@ impl Outline {
             xy / area - middle.x * middle.y,
             yy / area - middle.y * middle.y,
         ];
-        let axes = principal(covariance, corners.get(1)?.0 - origin);
+        let axes = principal(covariance);
         let is_sound = area > 0.0 && axes.iter().all(|axis| axis.length_squared() > 0.0 && axis.is_finite());
         is_sound.then_some(Outline { corners, area, centroid: origin + middle, axes })
     }
@@ -83,11 +79,6 @@ impl Outline {
         let arms = [DVec2::ZERO, a, -a, b, -b];
         let nudges = [aside + askew, askew, aside - askew, -aside, askew * 0.5 - aside];
         [0, 1, 2, 3, 4].map(|k| self.centroid + arms[k] + nudges[k])
-    }
-
-    /// The point of an axis at so many times its length from the centroid.
-    pub(super) fn on_axis(&self, axis: usize, at: f64) -> DVec2 {
-        self.centroid + self.axes[axis] * at + self.axes[1 - axis] * NUDGE
     }
 
     /// The two linear functions at a point.
@@ -216,34 +207,9 @@ fn edges(corners: &[(DVec2, DVec3)]) -> impl Iterator<Item = [DVec2; 2]> {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [a.0, b.0])
 }
 
-/// The principal axes of a covariance, the longer one first; of what has none, as a square, those along and across its side.
-fn principal([xx, xy, yy]: [f64; 3], side: DVec2) -> [DVec2; 2] {
-    let apart = DVec2::new(xx - yy, 2.0 * xy);
-    let long = if apart.length() > ROUND * (xx + yy) {
-        DVec2::from_angle(0.5 * apart.to_angle())
-    } else {
-        side.normalize_or(DVec2::X)
-    };
+/// The principal axes of a covariance, the longer one first.
+fn principal([xx, xy, yy]: [f64; 3]) -> [DVec2; 2] {
+    let long = DVec2::from_angle(0.5 * (2.0 * xy).atan2(xx - yy));
     let deviation = |e: DVec2| (xx * e.x * e.x + 2.0 * xy * e.x * e.y + yy * e.y * e.y).max(0.0).sqrt();
     [long, long.perp()].map(|way| way * (REACH * deviation(way)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// As of files of single precision: their sides differ by what rounding leaves.
-    #[test]
-    fn a_square_has_the_axes_of_its_sides_however_it_is_turned() {
-        for k in 0..1000 {
-            let turn = DVec2::from_angle(f64::from(k) * 0.7);
-            let single = |x: f64, y: f64| (turn.rotate(DVec2::new(x, y)) * 3.0).as_vec2().as_dvec2();
-            let corners = [single(0.0, 0.0), single(1.0, 0.0), single(1.0, 1.0), single(0.0, 1.0)];
-            let outline = Outline::new(corners.map(|flat| (flat, DVec3::ZERO)).to_vec()).unwrap();
-            for axis in outline.axes {
-                let [along, across] = [turn, turn.perp()].map(|way| axis.dot(way).abs() / axis.length());
-                assert!(along.min(across) < 1e-6, "{k}: {axis} of a square along {turn}");
-            }
-        }
-    }
 }

@@ -38,17 +38,12 @@ impl Transfer {
     };
 
     /// The curvature of what one end sees, with what its points miss: past occluders that may be much in a small place.
-    ///
-    /// The points of the end that it is not measured from miss what the other's see. Past occluders it may be either end's, where the two differ
-    /// by more than what they see bends: a shadow that falls between its points.
     pub(crate) fn curvature(&self, end: usize, is_past_others: bool) -> f64 {
-        let [one, other] = self.bend.map(|[first, second]| first.abs() + second.abs());
-        let bend = [one, other][end];
+        let bend = self.bend[end][0].abs() + self.bend[end][1].abs();
         let is_worse = usize::from(self.from_second) != end;
-        let is_either = is_past_others && self.gap > one + other;
         let missed =
             if is_past_others { (self.gap * self.exchange[0].max(self.gap)).sqrt() } else { self.gap };
-        if is_worse || is_either { bend + missed } else { bend }
+        if is_worse { bend + missed } else { bend }
     }
 
     /// From 0 to 1, whether each place of one end sees another place of the other.
