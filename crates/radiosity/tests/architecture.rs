@@ -9,7 +9,7 @@ use std::path::Path;
 /// Every file of `src` from the top down: each imports only from those below it, so that no circle of files exists. A
 /// folder's own entry is its `mod.rs`.
 #[rustfmt::skip]
-const ORDER: [&str; 282] = [
+const ORDER: [&str; 283] = [
     "compare", "compare/overlap",
     "scenes", "scenes/cornell_76", "scenes/gomes", "scenes/cornell_box", "scenes/barreto",
     "scenes/rooms", "scenes/shapes",
@@ -31,7 +31,7 @@ const ORDER: [&str; 282] = [
     "table", "record", "recording/recorder", "recording", "recording/packed",
     "picture", "picture/raster", "picture/painting", "picture/linear", "picture/png", "picture/framing",
     "expose",
-    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/refinement", "solve/levels/run", "solve/levels/allowance", "solve/levels/in_view", "solve/levels/tally", "solve/levels/importance", "solve/levels/stand", "solve/levels/output", "solve/levels/parting", "solve/levels/pieces", "solve/levels/cutting", "solve/levels/borders", "solve/levels/vertices", "solve/levels/corners", "solve/levels/evenness", "solve/levels/links", "solve/levels/closed_rooms", "solve/levels/totals", "solve/levels/measure", "solve/levels/screen", "solve/levels/nearby", "solve/levels/look",
+    "solve", "solve/levels", "solve/levels/rounds", "solve/levels/refinement", "solve/levels/run", "solve/levels/allowance", "solve/levels/in_view", "solve/levels/tally", "solve/levels/importance", "solve/levels/stand", "solve/levels/output", "solve/levels/parting", "solve/levels/pieces", "solve/levels/cutting", "solve/levels/borders", "solve/levels/vertices", "solve/levels/corners", "solve/levels/evenness", "solve/levels/links", "solve/levels/closed_rooms", "solve/levels/totals", "solve/levels/measure", "solve/levels/screen", "solve/levels/nearby", "solve/levels/parabola", "solve/levels/look",
     "solve/levels/shaft", "solve/levels/asked", "solve/levels/estimate", "solve/levels/reflections", "solve/levels/errors", "solve/levels/members", "solve/levels/cluster_budget", "solve/levels/budget", "solve/levels/curvatures", "solve/levels/hidden", "solve/levels/direct", "solve/levels/gradients", "solve/levels/equilibrium", "solve/levels/firm", "solve/levels/roots", "solve/levels/cluster_links", "solve/levels/seen", "solve/levels/cluster_views", "solve/levels/shadow", "solve/levels/clusters", "solve/levels/cluster", "solve/levels/ways", "solve/levels/flow", "solve/levels/link",
     "solve/levels/tiling", "solve/levels/base", "solve/levels/line_tree", "solve/levels/plates", "solve/levels/boxes", "solve/refine", "solve/drive", "solve/final_gather", "solve/final_gather/shown", "solve/final_gather/bisection", "solve/final_gather/known", "solve/final_gather/tears", "solve/final_gather/received", "solve/final_gather/outlook", "solve/final_gather/senders", "solve/receivers", "solve/relax", "solve/relax/bounces", "solve/relax/gather",
     "solve/relax/cg", "solve/relax/gmres", "solve/relax/gauss", "solve/relax/balance",

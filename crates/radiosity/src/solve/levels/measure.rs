@@ -1,6 +1,7 @@
 //! Measuring what two tiles exchange.
 use super::look::{look, rises};
 use super::nearby::correction;
+use super::parabola::Parabola;
 use super::screen::hides;
 use super::shaft::Shaft;
 use super::tile::{INNER, OUTER};
@@ -89,7 +90,15 @@ impl View {
             exchange[6 + to] = from.area * OUTER * (left - right);
         }
         let factors = seen.map(|row| row[0]);
-        let bend = [[1, 2], [3, 4]].map(|[a, b]| from.area * ((factors[a] + factors[b]) / 2.0 - factors[0]));
+        let mean = exchange[0] / from.area;
+        let bend = [0, 1].map(|axis| {
+            let [ahead, back] = [1, 2].map(|k| factors[2 * axis + k]);
+            let parabola = Parabola::through([back, factors[0], ahead]);
+            let turn = || tiling.point(from.patch, from.outline.on_axis(axis, parabola.turn())).ok();
+            let with = |point| parabola.bend_with(look(tiling, &point, to, among)[0]);
+            let point = if parabola.may_turn(mean) { turn() } else { None };
+            from.area * point.map_or(parabola.bend, with)
+        });
         View { exchange, bend, seen: factors }
     }
 }
@@ -105,13 +114,34 @@ mod tests {
     use formfactor::{Limits, PlanarPolygon};
     use glam::DVec3;
 
+    fn patch(corners: [[f64; 3]; 4]) -> Patch {
+        Patch::new("", PlanarPolygon::new([corners.map(DVec3::from)]).unwrap(), vec![0.5], vec![0.0])
+    }
+
+    /// A square of so large a half, looking down or up.
+    fn plate([x, half]: [f64; 2], z: f64, is_down: bool) -> Patch {
+        let (low, high) = if is_down { (half, -half) } else { (-half, half) };
+        patch([[x - half, low, z], [x + half, low, z], [x + half, high, z], [x - half, high, z]])
+    }
+
+    /// Half of a ground, from below a small lamp to far away: three points of it say that what it sees is linear.
+    #[test]
+    fn light_that_turns_between_peak_and_tail_bends() {
+        let half = patch([[0.0, -1.0, 0.0], [4.0, -1.0, 0.0], [4.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+        let patches = vec![half, plate([0.6, 0.1], 2.5, true)];
+        let scene = Scene { patches, bands: 1, ..Scene::default() };
+        let tiling = Tiling::new(&scene).unwrap();
+        for (ends, ground) in [([0, 1], 0), ([1, 0], 1)] {
+            let found = measure(&tiling, ends.map(|tile| &tiling.tiles[tile]), &[]);
+            let [middle, one, other, ..] = found.seen[ground];
+            assert!(((one + other) / 2.0 - middle).abs() < 0.01 * middle, "{:?}", found.seen);
+            assert!(found.bend[ground][0].abs() > 0.2 * found.exchange[0], "{:?}", found.bend);
+        }
+    }
+
     /// Most of a ground is behind a low wall on it, one point of it sees the wall from afar, and the wall sees the strip before it.
     #[test]
     fn what_points_of_a_ground_hardly_see_is_measured_from_the_wall() {
-        let patch = |corners: [[f64; 3]; 4]| {
-            let polygon = PlanarPolygon::new([corners.map(DVec3::from)]).unwrap();
-            Patch::new("", polygon, vec![0.5], vec![0.0])
-        };
         let ground = patch([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 4.0, 0.0], [0.0, 4.0, 0.0]]);
         let wall = patch([[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [2.0, 1.0, 0.6], [1.0, 1.0, 0.6]]);
         let scene = Scene { patches: vec![ground, wall], bands: 1, ..Scene::default() };

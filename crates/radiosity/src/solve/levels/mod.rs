@@ -94,6 +94,7 @@ mod measure;
 mod members;
 mod nearby;
 mod output;
+mod parabola;
 mod parting;
 mod pieces;
 pub(super) mod plates;

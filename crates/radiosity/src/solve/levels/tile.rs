@@ -81,6 +81,11 @@ impl Outline {
         [0, 1, 2, 3, 4].map(|k| self.centroid + arms[k] + nudges[k])
     }
 
+    /// The point of an axis at so many times its length from the centroid.
+    pub(super) fn on_axis(&self, axis: usize, at: f64) -> DVec2 {
+        self.centroid + self.axes[axis] * at + self.axes[1 - axis] * NUDGE
+    }
+
     /// The two linear functions at a point.
     pub(super) fn linear(&self, point: DVec2) -> [f64; 2] {
         self.axes.map(|axis| (point - self.centroid).dot(axis) / axis.length_squared())
