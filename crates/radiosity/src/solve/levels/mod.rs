@@ -42,6 +42,7 @@
 //! link          pairs of tiles
 //! measure       what two tiles exchange, by exact form factors of points
 //! nearby        the mean over tiles that touch
+//! parabola      how light climbs and bends along an axis of a tile
 //! look          what points see of tiles
 //! transfer      the numbers of that
 //! screen        what hides all of one from the other

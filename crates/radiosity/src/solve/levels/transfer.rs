@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Transfer {
     /// Of light from the second at the first, 3 × 3. Its transpose is that of light from the first at the second.
     pub(crate) exchange: [f64; 9],
-    /// For each end and each of its axes: the curvature of what it sees of the other end, times its area; where the outer points see more, above zero.
+    /// For each end and each of its axes: the curvature of what it sees of the other end, times its area; where the outer points see more, above zero; or of what turns
+    /// between its points, see [`Parabola`](super::parabola::Parabola).
     pub(crate) bend: [[f64; 2]; 2],
     /// The estimated error of G_00.
     pub(crate) error: f64,
